@@ -46,6 +46,15 @@ std::string entries_text(const Entries& entries) {
   return to_text(table, 3);
 }
 
+std::string estimators_text() {
+  Table table{{}, {}};
+  for (const experiments::EstimatorEntry& entry : experiments::estimator_entries()) {
+    table.rows.push_back({entry.name, entry.title, entry.summary, entry.reason,
+                          experiments::given_text(entry, true)});
+  }
+  return to_text(table, 5);
+}
+
 std::string families_text() {
   Table table{{}, {}};
   for (const scenarios::Family& family : scenarios::families()) {
@@ -61,7 +70,7 @@ void list() {
   print_files("robots (every MJCF file is a robot, too)", "models");
   print_files("sensors", "sensors");
   print("simulators\n{}\n", entries_text(simulators::simulator_entries()));
-  print("estimators\n{}", entries_text(experiments::estimator_entries()));
+  print("estimators, why one would take them, and what they are given\n{}", estimators_text());
 }
 
 }  // namespace

@@ -1,16 +1,22 @@
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "core/fields.hpp"
 #include "core/program/outputs.hpp"
 #include "core/program/streams.hpp"
 #include "core/progress.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"
+#include "noise/sensors/profile.hpp"
+#include "noise/sensors/reported.hpp"
 #include "recordings/log/reader.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "scenarios/ending.hpp"
@@ -27,6 +33,7 @@ struct SimulateFlags {
   std::string scenario;
   std::string simulator;  ///< empty: MuJoCo, or the one of the recording
   std::string output;
+  std::string sensors;  ///< empty: ideal
   std::vector<std::string> overrides;
   std::uint64_t seed = 1;
   std::int64_t run = -1;
@@ -50,6 +57,26 @@ YamlDocument recorded_scenario(SimulateFlags& flags) {
   return YamlDocument::parse(info.scenario_yaml, flags.scenario);
 }
 
+/// Replaces the ideal signals by those that the sensors report, with draws of the run's seed. Steps
+/// without a record are removed.
+void report_through(const noise::SensorProfile& sensors, recordings::Recording& recording) {
+  const noise::NoiseKey key{recording.info.seed, static_cast<std::uint64_t>(std::max<std::int64_t>(
+                                                     0, recording.info.run))};
+  noise::report_through(sensors, key, recording.period(), recording.observation);
+  noise::report_targets(sensors, key, recording.action);
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < recording.steps(); ++k) {
+    if (std::isnan(recording.observation[k].time)) continue;
+    recording.observation[kept] = recording.observation[k];
+    recording.action[kept] = recording.action[k];
+    recording.truth[kept] = recording.truth[k];
+    ++kept;
+  }
+  recording.observation.resize(kept);
+  recording.action.resize(kept);
+  recording.truth.resize(kept);
+}
+
 void simulate(SimulateFlags flags, const CliSession& session) {
   const bool is_recording = std::filesystem::path(flags.scenario).extension() == ".mpack";
   YamlDocument document =
@@ -60,6 +87,10 @@ void simulate(SimulateFlags flags, const CliSession& session) {
   scenarios::Scenario scenario = scenarios::complete_scenario(document);
   check_outputs({{document.name(), "scenario"}, {scenario.robot, "robot"}}, {flags.output});
   require_extension(flags.output, {".mpack"}, "a recording");
+  std::optional<noise::SensorProfile> sensors;
+  if (!flags.sensors.empty()) {
+    sensors = from_yaml<noise::SensorProfile>(YamlDocument::load(find_resource(flags.sensors)));
+  }
   if (flags.run >= 0) scenario = scenarios::perturbed(scenario, flags.seed, flags.run);
 
   recordings::Recording recording;
@@ -78,6 +109,7 @@ void simulate(SimulateFlags flags, const CliSession& session) {
                                 });
   }
   if (*session.stop) throw Stopped();
+  if (sensors) report_through(*sensors, recording);
   recordings::write_recording(recording, flags.output);
   const auto all = scoring::flights(scoring::any_wheel(scoring::contact_labels(recording, {})));
   print("{}: {} {}, {} flights\n", flags.output, recording.info.scenario,
@@ -100,6 +132,9 @@ void add_simulate(CLI::App& program, const CliSession& session) {
   verb.option("-o,--output", &flags->output, "Recording to write")
       .value_name("FILE.mpack")
       .required();
+  verb.option("--sensors", &flags->sensors,
+              "Sensors that report the signals, such as sensors/upkie.yaml (default: ideal ones)")
+      .value_name("FILE");
   verb.option("--run", &flags->run,
               "Index of the run: draws its perturbations from the seed (default: no perturbations)")
       .not_negative();

@@ -15,8 +15,6 @@
 #include "estimator/decision/fit.hpp"
 #include "estimator/evidence/filter.hpp"
 #include "estimator/evidence/fit.hpp"
-#include "estimator/evidence/touchdown.hpp"
-#include "estimator/evidence/touchdown_fit.hpp"
 #include "estimator/force/force_kinematics.hpp"
 #include "estimator/force/force_kinematics_fit.hpp"
 #include "estimator/force/load_logistic.hpp"

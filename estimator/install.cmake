@@ -13,7 +13,7 @@ set(public
   bayes/transition_model c_interface/handle
   decision/augmentation decision/config decision/descent decision/draws decision/filter decision/fit
   decision/network decision/training
-  evidence/curves evidence/filter evidence/fit evidence/touchdown evidence/touchdown_fit
+  evidence/curves evidence/filter evidence/fit
   evidence/training
   force/force_kinematics force/force_kinematics_fit force/leg_geometry force/load_logistic
   force/load_logistic_fit force/logistic_regression force/support_force

@@ -3,8 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
+#include "estimator/force/leg_geometry.hpp"
 #include "estimator/signals.hpp"
 
 namespace touchdown {
@@ -16,6 +18,8 @@ struct LabelledRun {
       contact;                  ///< per step: 1 in contact; left, right wheel
   double sample_rate = 1000.0;  ///< Hz
   std::size_t skip = 0;         ///< steps at the beginning that are not used
+  /// The legs of its robot, for features of loads; empty: those of the fit's configuration.
+  std::optional<LegGeometry> legs = {};
 };
 
 /// Throws InputError unless both wheels have one label per step.

@@ -68,7 +68,7 @@ using DeclaredRun = std::pair<py::object, std::optional<bool>>;
 
 /// Fits to recordings in memory, or to logs by path.
 Model fit(const std::vector<DeclaredRun>& runs, const std::string& name, double skip,
-          const scoring::LabelConfig& labels) {
+          const scoring::LabelConfig& labels, bool servo_load) {
   std::vector<experiments::FitLog> logs;
   for (const auto& [run, contact] : runs) {
     if (py::hasattr(run, "info")) {
@@ -84,7 +84,8 @@ Model fit(const std::vector<DeclaredRun>& runs, const std::string& name, double 
     Model model;
     model.estimator.entry = entry;
     model.estimator.model = experiments::fit_to_logs(
-        entry, logs, {.labels = labels, .skip = skip, .stop = &stop}, model.report);
+        entry, logs, {.labels = labels, .skip = skip, .servo_load = servo_load, .stop = &stop},
+        model.report);
     return model;
   });
 }
@@ -301,10 +302,10 @@ void add_model(py::module_& module) {
   module.def(
       "fit",
       [](const std::vector<DeclaredRun>& runs, const std::string& estimator, double skip,
-         double force_threshold, double debounce) {
-        return fit(runs, estimator, skip, {force_threshold, debounce});
+         double force_threshold, double debounce, bool servo_load) {
+        return fit(runs, estimator, skip, {force_threshold, debounce}, servo_load);
       },
-      "runs"_a, "estimator"_a, "skip"_a, "force_threshold"_a, "debounce"_a);
+      "runs"_a, "estimator"_a, "skip"_a, "force_threshold"_a, "debounce"_a, "servo_load"_a);
 }
 
 void add_estimator(py::module_& module) {

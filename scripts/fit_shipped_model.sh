@@ -1,24 +1,26 @@
 #!/usr/bin/env bash
-# Fits the shipped model, in three minutes: Upkie crouched, with ideal and with real actuators, in both
-# engines, on the scenes that the benchmark fits and hanging. A quarter of the runs has nearly straight
-# legs, mostly in scenes that lift off or land. The draws differ from the benchmark's.
-# Usage: scripts/fit_shipped_model.sh build/release/touchdown models/touchdown.npz
+# Fits the shipped models, in minutes: Upkie crouched and with nearly straight legs, with ideal and with
+# real actuators, in both engines, with Upkie's sensors, on scenes drawn from all families.
+# The balanced and the quiet model are the same fit at two operating points.
+# Usage: scripts/fit_shipped_model.sh build/release/touchdown models/evidence_curves.npz
 set -euo pipefail
 program="$(realpath "$1")"
 output="$(realpath -m "$2")"
+quiet="${output%.npz}_quiet.npz"
 cd "$(dirname "$0")/.."
 
-readonly seed=3
+readonly seed=103
 readonly simulators=(mujoco bullet)
-readonly robots=(upkie.xml upkie_actuated.yaml upkie_straight.yaml)
-readonly scenes=(stairs roam lift_slowly push_off hop hang)
+readonly robots=(upkie.xml upkie_actuated.yaml upkie_straight.yaml upkie_straight_actuated.yaml)
+readonly sensors=sensors/upkie.yaml
+readonly leave_below=0.4 return_above=0.99  # of the quiet operating point
 
-# Rolling and hanging on straight legs inform little about contact, but teach that any load is possible.
-# So they get one run each.
-runs_of() { # robot, scene
-  case "$1 $2" in
-    "upkie_straight.yaml roam" | "upkie_straight.yaml hang") echo 1 ;;
-    *) echo 4 ;;
+# Drawn scenes of each robot. Families take turns, so 15 are one of each.
+scenes_of() { # robot
+  case "$1" in
+    upkie_straight.yaml) echo 15 ;;
+    upkie_straight_actuated.yaml) echo 45 ;;
+    *) echo 60 ;;
   esac
 }
 
@@ -26,30 +28,36 @@ logs="$(mktemp -d)"
 trap 'rm -rf "$logs"' EXIT
 count=0
 for robot in "${robots[@]}"; do
-  for scene in "${scenes[@]}"; do
-    runs="$(runs_of "$robot" "$scene")"
+  scenes="$logs/${robot%.*}"
+  "$program" generate --seed "$seed" --count "$(scenes_of "$robot")" -o "$scenes" >/dev/null
+  for scene in "$scenes"/*.yaml; do
     for simulator in "${simulators[@]}"; do
-      for ((run = 0; run < runs; ++run)); do
-        "$program" simulate "scenarios/$scene.yaml" --simulator "$simulator" --seed "$seed" --run "$run" \
-          --set "robot=models/$robot" -o "$logs/${robot%.*}_${scene}_${simulator}_$run.mpack" >/dev/null 2>&1
-        count=$((count + 1))
-      done
+      "$program" simulate "$scene" --simulator "$simulator" --seed "$seed" --run "$count" \
+        --set "robot=models/$robot" --sensors "$sensors" -o "$logs/$(printf '%04d' "$count").mpack" >/dev/null 2>&1
+      count=$((count + 1))
     done
   done
 done
-"$program" fit "$logs"/*.mpack --estimator touchdown --robot upkie -o "$output"
+"$program" fit "$logs"/*.mpack --estimator evidence_curves --servo-load --own-legs --robot upkie -o "$output"
+"$program" export "$output" --set leave_below="$leave_below" --set return_above="$return_above" -o "$quiet"
 
 words() { printf '"%s", ' "$@" | sed 's/, $//'; }
-cat >"${output%.npz}.json" <<END
+describe() { # model, operating point
+  cat >"${1%.npz}.json" <<END
 {
-  "model": "touchdown",
-  "command": "scripts/fit_shipped_model.sh build/release/touchdown models/touchdown.npz",
-  "sha256": "$(sha256sum "$output" | cut -d' ' -f1)",
-  "scenes": [$(words "${scenes[@]}")],
+  "model": "evidence_curves",
+  "operating_point": "$2",
+  "command": "scripts/fit_shipped_model.sh build/release/touchdown models/evidence_curves.npz",
+  "sha256": "$(sha256sum "$1" | cut -d' ' -f1)",
+  "scenes": "drawn from all families",
   "robots": [$(words "${robots[@]}")],
+  "sensors": "$sensors",
   "simulators": [$(words "${simulators[@]}")],
   "seed": $seed,
   "runs": $count,
   "version": "$("$program" --version)"
 }
 END
+}
+describe "$output" balanced
+describe "$quiet" quiet

@@ -33,7 +33,7 @@ constexpr const char* flat_scenario = "scenarios/flat.yaml";
 constexpr const char* usual_robot = "models/upkie.xml";
 
 std::vector<std::string> or_usual(std::vector<std::string> words) {
-  if (words.empty()) words = {"touchdown_shipped", "upkie_observer"};
+  if (words.empty()) words = {"shipped", "upkie_observer"};
   return words;
 }
 

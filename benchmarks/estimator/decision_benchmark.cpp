@@ -6,8 +6,6 @@
 
 #include "estimator/decision/filter.hpp"
 #include "estimator/evidence/filter.hpp"
-#include "estimator/evidence/pairs.hpp"
-#include "estimator/evidence/touchdown.hpp"
 #include "time_updates.hpp"
 
 namespace touchdown {
@@ -28,11 +26,9 @@ DecisionModel busy_network() {
   return model;
 }
 
-EvidenceModel wavy_curves(bool with_pairs = false) {
+EvidenceModel wavy_curves() {
   EvidenceModel model;
   for (EvidenceCurve& curve : model.curve) fill(curve, 0.1F);
-  if (with_pairs) model.table.resize(evidence_pairs.size());
-  for (EvidenceTable& table : model.table) fill(table, 0.1F);
   return model;
 }
 
@@ -71,18 +67,11 @@ void update_decision_network(benchmark::State& state) {
 }
 BENCHMARK(update_decision_network)->Name("update/decision_network");
 
-void update_evidence(benchmark::State& state, bool with_pairs) {
-  EvidenceCurves estimator(wavy_curves(with_pairs));
+void update_evidence(benchmark::State& state) {
+  EvidenceCurves estimator(wavy_curves());
   bench::time_updates(state, estimator);
 }
-BENCHMARK_CAPTURE(update_evidence, curves, false)->Name("update/evidence_curves");
-BENCHMARK_CAPTURE(update_evidence, pairs, true)->Name("update/evidence_pairs");
-
-void update_touchdown(benchmark::State& state) {
-  TouchdownEstimator estimator({wavy_curves(), busy_network()});
-  bench::time_updates(state, estimator);
-}
-BENCHMARK(update_touchdown)->Name("update/touchdown");
+BENCHMARK(update_evidence)->Name("update/evidence_curves");
 
 void update_network_with_servo_load(benchmark::State& state) {
   DecisionNetwork estimator(with_servo_load(busy_network()));
@@ -96,17 +85,11 @@ void update_curves_with_servo_load(benchmark::State& state) {
 }
 BENCHMARK(update_curves_with_servo_load)->Name("update/evidence_curves_servo_load");
 
-void update_touchdown_with_servo_load(benchmark::State& state) {
-  TouchdownEstimator estimator({with_servo_load(wavy_curves()), with_servo_load(busy_network())});
-  bench::time_updates(state, estimator);
-}
-BENCHMARK(update_touchdown_with_servo_load)->Name("update/touchdown_servo_load");
-
-void latency_touchdown(benchmark::State& state) {
-  TouchdownEstimator estimator({wavy_curves(), busy_network()});
+void latency_evidence(benchmark::State& state) {
+  EvidenceCurves estimator(with_servo_load(wavy_curves()));
   bench::time_every_update(state, estimator);
 }
-BENCHMARK(latency_touchdown)->Name("latency/touchdown")->Iterations(250);
+BENCHMARK(latency_evidence)->Name("latency/evidence_curves")->Iterations(250);
 
 }  // namespace
 }  // namespace touchdown

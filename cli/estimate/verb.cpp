@@ -285,8 +285,9 @@ void add_estimate(CLI::App& program, const CliSession& session) {
   verb.option("--mapping", &flags->mapping,
               "Maps the columns or topics of the logs to signals, as for `touchdown export`")
       .value_name("FILE.yaml");
-  verb.option("--model", &flags->model,
-              "Model that `touchdown fit` wrote (default: the shipped one, models/touchdown.npz)")
+  verb.option(
+          "--model", &flags->model,
+          "Model that `touchdown fit` wrote (default: the shipped one, models/evidence_curves.npz)")
       .value_name("FILE.npz");
   verb.option("--estimator", &flags->estimator,
               "Estimator from `touchdown list` (default: the one that the model was fitted for)");

@@ -13,6 +13,7 @@
 #include "core/progress.hpp"
 #include "core/resources.hpp"
 #include "experiments/export_benchmark.hpp"
+#include "experiments/logs/estimator.hpp"
 #include "experiments/logs/robot.hpp"
 #include "recordings/models/header.hpp"
 #include "recordings/models/model_file.hpp"
@@ -83,7 +84,7 @@ void export_header(const std::filesystem::path& model, const ExportFlags& flags)
 }
 
 void export_model(const ExportFlags& flags) {
-  const std::filesystem::path model = find_resource(flags.source);
+  const std::filesystem::path model = experiments::find_model(flags.source);
   check_outputs({{model.string(), "model"}}, {flags.output});
   if (std::filesystem::path(flags.output).extension() != ".npz") {
     return export_header(model, flags);
@@ -152,7 +153,7 @@ void add_export(CLI::App& program, const CliSession& session) {
       "touchdown export --benchmark signals experiments/benchmark.yaml\n"
       "touchdown export --benchmark signals runs/benchmark/latest --robot upkie\n"
       "touchdown export model.npz -o model.hpp\n"
-      "touchdown export models/touchdown.npz --robot my_robot.xml -o mine.npz\n"
+      "touchdown export models/evidence_curves.npz --robot my_robot.xml -o mine.npz\n"
       "touchdown export robot.csv --mapping robot.yaml -o robot.mpack\n"
       "touchdown export rosbag2_2026_03_01/ --mapping robot.yaml -o robot.mpack\n"
       "touchdown export robot.mpack -o robot.mcap\n\n"

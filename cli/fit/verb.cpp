@@ -112,7 +112,7 @@ void shape_densities(experiments::EstimatorEntry& entry, const FitFlags& flags) 
 /// one of those that have them.
 std::string estimator_of(const FitFlags& flags) {
   if (!flags.estimator.empty()) return flags.estimator;
-  return shapes_densities(flags) ? "robust" : "touchdown";
+  return shapes_densities(flags) ? "robust" : "evidence_curves";
 }
 
 /// "robust, reference, … or phase".
@@ -141,7 +141,7 @@ void add_fit_flags(Verb& verb, FitFlags& flags) {
   verb.option("-o,--output", &flags.output, "Model to write").value_name("FILE.npz").required();
   verb.option("--estimator", &flags.estimator,
               "Estimator: " + fitted_estimators() +
-                  " (default: touchdown; robust with flags for densities)");
+                  " (default: evidence_curves; robust with flags for densities)");
   verb.option("--set", &flags.hyperparameters,
               "Run and fit the estimator with another value of a hyperparameter, for example\n"
               "leave_below=0.25")
@@ -150,6 +150,9 @@ void add_fit_flags(Verb& verb, FitFlags& flags) {
   verb.flag("--servo-load", &flags.config.servo_load,
             "Give networks and evidence curves the load by the laws of the servos: for logs with "
             "the\ncommands of hips and knees (action.servo)");
+  verb.flag("--own-legs", &flags.config.own_legs,
+            "Take the legs of every simulated log from its own robot's file: for a fit to several\n"
+            "robots");
   verb.option("--robot", &flags.robot,
               "Robot that recorded the logs, for the model's metadata (default: that of simulated\n"
               "logs). Its file gives the leg geometry to estimators that compute loads (default:\n"

@@ -36,7 +36,21 @@ struct DecisionFitConfig {
   bool operator==(const DecisionFitConfig&) const = default;
 };
 
-/// All settings of the decision network, of evidence curves and of `TouchdownEstimator`.
+/// A wheel leaves contact when P(contact) falls below `leave_below`, and returns above
+/// `return_above`.
+struct OperatingPoint {
+  double leave_below;
+  double return_above;
+};
+
+/// Of evidence curves: both errors count alike.
+inline constexpr OperatingPoint balanced_point = {.leave_below = 0.85, .return_above = 0.99};
+/// Of evidence curves: few false takeoffs, at the price of later ones.
+inline constexpr OperatingPoint quiet_point = {.leave_below = 0.4, .return_above = 0.99};
+/// Of the decision network: both errors count alike.
+inline constexpr OperatingPoint network_point = {.leave_below = 0.75, .return_above = 0.9};
+
+/// All settings of the decision network and of evidence curves.
 struct DecisionConfig {
   double sample_rate = 1000.0;  ///< at which `update` is called (Hz)
   LegGeometry geometry = {};
@@ -47,10 +61,10 @@ struct DecisionConfig {
   /// estimator follows its model.
   bool servo_load = false;
   /// Time constant of the logit's low-pass per N·m of estimated torque noise (s).
-  double smoothing = 1.3e-3;
-  /// A wheel leaves contact when P(contact) falls below this, and returns above that.
-  double leave_below = 0.75;
-  double return_above = 0.9;
+  double smoothing = 1e-3;
+  /// The operating point.
+  double leave_below = balanced_point.leave_below;
+  double return_above = balanced_point.return_above;
   SignalGuardConfig guard = {};
 
   bool operator==(const DecisionConfig&) const = default;

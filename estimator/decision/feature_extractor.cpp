@@ -21,6 +21,19 @@ constexpr double warm_up = 0.1;          // s, of the noise estimates
 constexpr double noise_gain = 0.01;
 constexpr double reference_rate = 1000.0;  // Hz
 
+using Scales = Eigen::Array<float, static_cast<int>(decision_scales), 1>;
+
+/// All time scales of a channel, compressed by its softsign.
+Scales compressed(const LowPassBank& channel, float scale) noexcept {
+  const Scales y = Eigen::Map<const Scales>(channel.values().data()) * (1.0F / scale);
+  return y / (1.0F + y.abs() / saturation);
+}
+
+/// The place of a channel among these inputs.
+auto scales_at(auto& inputs, std::size_t begin) noexcept {
+  return Eigen::Map<Scales>(inputs.data() + begin);
+}
+
 }  // namespace
 
 LowPassBank::LowPassBank(double sample_rate) noexcept {
@@ -150,6 +163,12 @@ inline void FeatureExtractor::update_legs(const Signals& signals,
   }
 }
 
+/// Writes the logarithms of both noise levels.
+inline void FeatureExtractor::write_noise(float* inputs) const noexcept {
+  inputs[0] = static_cast<float>(torque_noise_.log_sigma() + log_density_);
+  inputs[1] = static_cast<float>(acceleration_noise_.log_sigma() + log_density_);
+}
+
 /// Each channel continues while its own sensor works, so that it need not restart when another
 /// sensor returns.
 FeatureExtractor::Step FeatureExtractor::update(const Signals& signals) noexcept {
@@ -203,47 +222,41 @@ FeatureExtractor::Step FeatureExtractor::update(const Signals& signals) noexcept
   return step;
 }
 
-/// Compresses every channel by its softsign. The inputs of one wheel and of both are written
-/// together, because reading back what was just written takes longer.
 void FeatureExtractor::compute_inputs() noexcept {
-  constexpr auto scales = static_cast<int>(decision_scales);
   constexpr std::size_t of_legs = DecisionPairInputs::of_legs;
-  using Scales = Eigen::Array<float, scales, 1>;
-  const auto compress = [](const LowPassBank& channel, float scale) -> Scales {
-    const Scales y = Eigen::Map<const Scales>(channel.values().data()) * (1.0F / scale);
-    return y / (1.0F + y.abs() / saturation);
-  };
-  const auto at = [](auto& inputs, std::size_t begin) {
-    return Eigen::Map<Scales>(inputs.data() + begin);
-  };
   for (std::size_t i = 0; i < decision_leg_channels; ++i) {
     const std::size_t begin = i * decision_scales;
-    const Scales left = compress(leg_[0][i], leg_softsign_scales[i]);
-    const Scales right = compress(leg_[1][i], leg_softsign_scales[i]);
-    at(inputs_, begin) = left;
-    at(inputs_, of_legs + begin) = right;
-    at(pair_.common, begin) = left + right;
-    at(pair_.difference, begin) = left - right;
+    scales_at(inputs_, begin) = compressed(leg_[0][i], leg_softsign_scales[i]);
+    scales_at(inputs_, of_legs + begin) = compressed(leg_[1][i], leg_softsign_scales[i]);
   }
   if (has_servo_load_) {
-    const Scales left = compress(servo_load_[0], leg_softsign_scales[0]);
-    const Scales right = compress(servo_load_[1], leg_softsign_scales[0]);
-    at(servo_inputs_, 0) = left;
-    at(servo_inputs_, decision_scales) = right;
-    at(pair_.servo_common, 0) = left + right;
-    at(pair_.servo_difference, 0) = left - right;
+    scales_at(servo_inputs_, 0) = compressed(servo_load_[0], leg_softsign_scales[0]);
+    scales_at(servo_inputs_, decision_scales) = compressed(servo_load_[1], leg_softsign_scales[0]);
   }
-  const Scales acceleration = compress(acceleration_, acceleration_softsign_scale);
-  at(inputs_, 2 * of_legs) = acceleration;
-  at(pair_.common, of_legs) = acceleration;
-  const Scales roll_rate = compress(roll_rate_, roll_rate_softsign_scale);
-  at(inputs_, 2 * of_legs + decision_scales) = roll_rate;
-  at(pair_.difference, of_legs) = roll_rate;
-  const std::array<float, 2> noise = {
-      static_cast<float>(torque_noise_.log_sigma() + log_density_),
-      static_cast<float>(acceleration_noise_.log_sigma() + log_density_)};
-  std::copy(noise.begin(), noise.end(), inputs_.end() - 2);
-  std::copy(noise.begin(), noise.end(), pair_.common.end() - 2);
+  scales_at(inputs_, 2 * of_legs) = compressed(acceleration_, acceleration_softsign_scale);
+  scales_at(inputs_, 2 * of_legs + decision_scales) =
+      compressed(roll_rate_, roll_rate_softsign_scale);
+  write_noise(inputs_.end() - 2);
+}
+
+void FeatureExtractor::compute_pair_inputs() noexcept {
+  constexpr std::size_t of_legs = DecisionPairInputs::of_legs;
+  for (std::size_t i = 0; i < decision_leg_channels; ++i) {
+    const std::size_t begin = i * decision_scales;
+    const Scales left = compressed(leg_[0][i], leg_softsign_scales[i]);
+    const Scales right = compressed(leg_[1][i], leg_softsign_scales[i]);
+    scales_at(pair_.common, begin) = left + right;
+    scales_at(pair_.difference, begin) = left - right;
+  }
+  if (has_servo_load_) {
+    const Scales left = compressed(servo_load_[0], leg_softsign_scales[0]);
+    const Scales right = compressed(servo_load_[1], leg_softsign_scales[0]);
+    scales_at(pair_.servo_common, 0) = left + right;
+    scales_at(pair_.servo_difference, 0) = left - right;
+  }
+  scales_at(pair_.common, of_legs) = compressed(acceleration_, acceleration_softsign_scale);
+  scales_at(pair_.difference, of_legs) = compressed(roll_rate_, roll_rate_softsign_scale);
+  write_noise(pair_.common.end() - 2);
 }
 
 }  // namespace touchdown

@@ -68,8 +68,10 @@ class FeatureExtractor {
   void reset_features() noexcept;
   Step update(const Signals& signals) noexcept;
 
-  /// Computes the network's inputs from the signals so far.
+  /// Computes the inputs of a wheel from the signals so far, …
   void compute_inputs() noexcept;
+  /// … and those of both wheels as sums and differences, for the network.
+  void compute_pair_inputs() noexcept;
   /// The inputs as last computed: of the left wheel, of one wheel, of both.
   [[nodiscard]] const DecisionInputs& left_inputs() const noexcept { return inputs_; }
   [[nodiscard]] DecisionInputs inputs(std::size_t side) const noexcept {
@@ -93,6 +95,7 @@ class FeatureExtractor {
   using LegFilters = std::array<LowPassBank, decision_leg_channels>;
 
   void dropout(double seconds) noexcept;
+  void write_noise(float* inputs) const noexcept;
   bool is_frozen(const LegSignals& leg, std::size_t side) noexcept;
   void update(LowPassBank& channel, double input, double age) const noexcept;
   void update_servo_load(const Signals& signals, std::size_t side, const FootJacobian& foot,

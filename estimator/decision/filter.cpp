@@ -10,7 +10,10 @@ DecisionNetwork::DecisionNetwork(const DecisionModel& model, const DecisionConfi
 const Belief& DecisionNetwork::estimate(const Signals& signals) noexcept {
   const std::array<bool, 2>& is_valid = decision_.update(signals);
   std::array<float, 2> logits{};
-  if (is_valid[0] || is_valid[1]) logits = network_.logits(decision_.pair_inputs());
+  if (is_valid[0] || is_valid[1]) {
+    decision_.compute_pair_inputs();
+    logits = network_.logits(decision_.pair_inputs());
+  }
   return decision_.decide({logits[0], logits[1]});
 }
 

@@ -56,6 +56,7 @@ DecisionRows decision_rows(std::span<const LabelledRun> runs, const DecisionConf
       if (before_step) before_step();
       const std::size_t interval = draws.uniform() < fit.share_slow ? fit.steps_of_slow : 1;
       DecisionConfig own = config;
+      own.geometry = run.legs.value_or(config.geometry);
       own.sample_rate = run.sample_rate / static_cast<double>(interval);
       FeatureExtractor features(own);
       Augmentation augmentation(fit.augmentation, draws, config.servo_load);

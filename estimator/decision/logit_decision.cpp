@@ -27,7 +27,6 @@ const std::array<bool, 2>& LogitDecision::update(const Signals& signals) noexcep
   step_ = features_.update(signals);
   belief_.status = step_.status;
   if (step_.restart) is_started_ = {};
-  if (step_.is_valid[0] || step_.is_valid[1]) features_.compute_inputs();
   return step_.is_valid;
 }
 

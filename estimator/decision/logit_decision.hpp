@@ -28,8 +28,11 @@ class LogitDecision {
 
   /// Takes the signals of one step. Returns whether it has inputs: left, right wheel.
   const std::array<bool, 2>& update(const Signals& signals) noexcept;
-  /// The step's inputs: of the left wheel, which are those of the right one in another order; of
-  /// both.
+  /// Computes the step's inputs: of the left wheel, which are those of the right one in another
+  /// order; of both.
+  void compute_inputs() noexcept { features_.compute_inputs(); }
+  void compute_pair_inputs() noexcept { features_.compute_pair_inputs(); }
+  /// The inputs as last computed.
   [[nodiscard]] const DecisionInputs& left_inputs() const noexcept {
     return features_.left_inputs();
   }

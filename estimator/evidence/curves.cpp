@@ -7,22 +7,10 @@
 #include <Eigen/Core>
 
 #include "core/error.hpp"
-#include "estimator/evidence/pairs.hpp"
 
 namespace touchdown {
 
 namespace {
-
-float table_at(const EvidenceTable& table, const EvidencePair& pair,
-               const DecisionInputs& inputs) noexcept {
-  const EvidencePosition row = evidence_position(inputs[pair.first], evidence_pair_knots);
-  const EvidencePosition column = evidence_position(inputs[pair.second], evidence_pair_knots);
-  constexpr auto width = static_cast<int>(evidence_pair_knots);
-  const float* const knot = table.data() + row.knot * width + column.knot;
-  const float near = knot[0] + column.share * (knot[1] - knot[0]);
-  const float far = knot[width] + column.share * (knot[width + 1] - knot[width]);
-  return near + row.share * (far - near);
-}
 
 /// `evidence_position` of all inputs.
 template <std::size_t count>
@@ -60,17 +48,13 @@ float evidence_logit(const EvidenceModel& model, const DecisionInputs& inputs,
                      const ServoLoadInputs& servo) noexcept {
   float sum = model.bias;
   for (std::size_t i = 0; i < decision_inputs; ++i) sum += evidence_at(model.curve[i], inputs[i]);
-  for (std::size_t p = 0; p < model.table.size(); ++p) {
-    sum += table_at(model.table[p], evidence_pairs[p], inputs);
-  }
   for (std::size_t i = 0; i < model.servo_curve.size(); ++i) {
     sum += evidence_at(model.servo_curve[i], servo[i]);
   }
   return sum;
 }
 
-PairedEvidence::PairedEvidence(const EvidenceModel& model)
-    : table_(model.table), bias_(model.bias) {
+PairedEvidence::PairedEvidence(const EvidenceModel& model) : bias_(model.bias) {
   constexpr std::size_t of_legs = DecisionPairInputs::of_legs;
   constexpr std::size_t roll = of_legs + decision_scales;
   for (std::size_t i = 0; i < curve_.size(); ++i) {
@@ -135,17 +119,10 @@ std::array<float, 2> PairedEvidence::logits(const DecisionInputs& left,
   }
   const Four of_left = left_even + left_odd;
   const Four of_right = right_even + right_odd;
-  std::array<float, 2> sum = {
+  return {
       bias_ + (of_left[0] + of_left[2]) + (of_right[1] + of_right[3]),
       bias_ + (of_left[1] + of_left[3]) + (of_right[0] + of_right[2]),
   };
-  if (table_.empty()) return sum;
-  const DecisionInputs right = of_other_wheel(left);
-  for (std::size_t p = 0; p < table_.size(); ++p) {
-    sum[0] += table_at(table_[p], evidence_pairs[p], left);
-    sum[1] += table_at(table_[p], evidence_pairs[p], right);
-  }
-  return sum;
 }
 
 void check_evidence_model(const EvidenceModel& model) {
@@ -153,13 +130,8 @@ void check_evidence_model(const EvidenceModel& model) {
   if (!(servo == 0 || servo == std::tuple_size_v<ServoLoadInputs>)) {
     throw InputError("evidence curves: expected servo curves of every input, or none");
   }
-  if (!model.table.empty() && model.table.size() != evidence_pairs.size()) {
-    throw InputError("evidence curves: expected a table for each pair, or none");
-  }
   if (std::all_of(model.curve.begin(), model.curve.end(),
                   [](const auto& curve) { return all_finite(curve); }) &&
-      std::all_of(model.table.begin(), model.table.end(),
-                  [](const auto& table) { return all_finite(table); }) &&
       std::all_of(model.servo_curve.begin(), model.servo_curve.end(),
                   [](const auto& curve) { return all_finite(curve); }) &&
       std::isfinite(model.bias)) {

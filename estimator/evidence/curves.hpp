@@ -13,19 +13,13 @@ namespace touchdown {
 /// compressed input. It is constant beyond them, which only the logarithms of noise levels reach.
 inline constexpr std::size_t evidence_knots = 33;
 inline constexpr float evidence_reach = saturation;
-/// A pair's table is bilinear between every second knot of both inputs.
-inline constexpr std::size_t evidence_pair_knots = (evidence_knots + 1) / 2;
 
 using EvidenceCurve = std::array<float, evidence_knots>;
-/// Row by row: the first input selects the row, the second the column.
-using EvidenceTable = std::array<float, evidence_pair_knots * evidence_pair_knots>;
 
-/// An additive model (GAM) of contact: ln P(contact) / P(no contact) is the sum of a bias, a curve
-/// of each input and, optionally, a table of each pair in `evidence_pairs`. The same for both
-/// wheels.
+/// An additive model (GAM) of contact: ln P(contact) / P(no contact) is the sum of a bias and a
+/// curve of each input. The same for both wheels.
 struct EvidenceModel {
   std::array<EvidenceCurve, decision_inputs> curve{};  ///< nats at the knots
-  std::vector<EvidenceTable> table;                    ///< one per pair, or none
   float bias = 0.0F;
   /// Curves of `ServoLoadInputs` and their ranges as below; empty without this channel.
   std::vector<EvidenceCurve> servo_curve = {};
@@ -57,18 +51,19 @@ struct EvidencePosition {
 };
 
 /// The position of an input, limited to the outer knots.
-[[nodiscard]] inline EvidencePosition evidence_position(float input, std::size_t knots) noexcept {
-  const auto last = static_cast<float>(knots - 1);
+[[nodiscard]] inline EvidencePosition evidence_position(float input) noexcept {
+  constexpr auto last = static_cast<float>(evidence_knots - 1);
   const float x = (input + evidence_reach) * (last / (2.0F * evidence_reach));
   const float inside = x > 0.0F ? (x < last ? x : last) : 0.0F;
   const auto whole = static_cast<int>(inside);
-  const int knot = whole < static_cast<int>(knots) - 2 ? whole : static_cast<int>(knots) - 2;
+  constexpr int last_knot = static_cast<int>(evidence_knots) - 2;
+  const int knot = whole < last_knot ? whole : last_knot;
   return {knot, inside - static_cast<float>(knot)};
 }
 
 /// The curve's log-odds contribution at this input (nats).
 [[nodiscard]] inline float evidence_at(const EvidenceCurve& curve, float input) noexcept {
-  const EvidencePosition at = evidence_position(input, evidence_knots);
+  const EvidencePosition at = evidence_position(input);
   const float* const knot = curve.data() + at.knot;
   return knot[0] + at.share * (knot[1] - knot[0]);
 }
@@ -96,11 +91,10 @@ class PairedEvidence {
   /// The curves of a leg's inputs, the vertical acceleration, the roll rate and the noise levels.
   std::array<Curves, decision_inputs - DecisionPairInputs::of_legs> curve_{};
   std::vector<Curves> servo_curve_;  ///< of one leg's `ServoLoadInputs`
-  std::vector<EvidenceTable> table_;
   float bias_;
 };
 
-/// Throws InputError for numbers that are not finite, and for a wrong number of tables or curves.
+/// Throws InputError for numbers that are not finite, and for a wrong number of curves.
 void check_evidence_model(const EvidenceModel& model);
 
 }  // namespace touchdown

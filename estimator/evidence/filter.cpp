@@ -18,6 +18,7 @@ const Belief& EvidenceCurves::estimate(const Signals& signals) noexcept {
   const std::array<bool, 2>& is_valid = decision_.update(signals);
   std::array<float, 2> logits{};
   if (is_valid[0] || is_valid[1]) {
+    decision_.compute_inputs();
     logits = evidence_.logits(decision_.left_inputs(), decision_.left_servo_load());
   }
   return decision_.decide({logits[0], logits[1]});

@@ -4,43 +4,22 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
-#include "estimator/evidence/pairs.hpp"
+#include "estimator/evidence/channels.hpp"
+#include "estimator/evidence/monotone.hpp"
 
 namespace touchdown {
 
 namespace {
-
-constexpr auto pair_width = static_cast<int>(evidence_pair_knots);
-
-/// The four knots around a pair's inputs, and the weight of each.
-struct PairPosition {
-  int knot = 0;
-  std::array<float, 4> share{};  ///< of the knot, the next, and those a row further
-};
-
-PairPosition pair_position(const EvidencePair& pair, const float* inputs) {
-  const EvidencePosition row = evidence_position(inputs[pair.first], evidence_pair_knots);
-  const EvidencePosition column = evidence_position(inputs[pair.second], evidence_pair_knots);
-  return {row.knot * pair_width + column.knot,
-          {(1.0F - row.share) * (1.0F - column.share), (1.0F - row.share) * column.share,
-           row.share * (1.0F - column.share), row.share * column.share}};
-}
-
-constexpr std::array<int, 4> pair_offsets = {0, 1, pair_width, pair_width + 1};
 
 /// Adds to each knot around the position its share of the amount.
 void add(auto& values, const EvidencePosition& at, float amount) {
   const auto knot = static_cast<std::size_t>(at.knot);
   values[knot] += (1.0F - at.share) * amount;
   values[knot + 1] += at.share * amount;
-}
-void add(auto& values, const PairPosition& at, float amount) {
-  for (std::size_t k = 0; k < 4; ++k) {
-    values[static_cast<std::size_t>(at.knot + pair_offsets[k])] += at.share[k] * amount;
-  }
 }
 
 DecisionInputs inputs_of(const DecisionRows& rows, Eigen::Index row) {
@@ -61,8 +40,6 @@ ServoLoadInputs servo_load_of(const DecisionRows& rows, Eigen::Index row) {
 template <typename Part, typename... Models>
 void for_each_number(const Part& part, Models&... models) {
   for (std::size_t i = 0; i < decision_inputs; ++i) part(std::span(models.curve[i])...);
-  const std::size_t tables = std::min({models.table.size()...});
-  for (std::size_t p = 0; p < tables; ++p) part(std::span(models.table[p])...);
   const std::size_t servo = std::min({models.servo_curve.size()...});
   for (std::size_t i = 0; i < servo; ++i) part(std::span(models.servo_curve[i])...);
   part(std::span(&models.bias, 1)...);
@@ -82,22 +59,18 @@ void add_smoothness(const EvidenceModel& model, float cost, EvidenceModel& gradi
   for (std::size_t i = 0; i < model.servo_curve.size(); ++i) {
     along(model.servo_curve[i], gradient.servo_curve[i]);
   }
-  for (std::size_t p = 0; p < model.table.size(); ++p) {
-    for (std::size_t row = 0; row < evidence_pair_knots; ++row) {
-      for (std::size_t column = 0; column < evidence_pair_knots; ++column) {
-        const std::size_t at = row * evidence_pair_knots + column;
-        if (column + 1 < evidence_pair_knots) {
-          between(model.table[p], gradient.table[p], at, at + 1);
-        }
-        if (row + 1 < evidence_pair_knots) {
-          between(model.table[p], gradient.table[p], at, at + evidence_pair_knots);
-        }
-      }
-    }
-  }
 }
 
-/// Subtracts from a curve or a table its mean, given the weight of each knot. Returns the mean.
+/// The curves of the own load and of the own load by the servo law.
+void make_loads_monotone(EvidenceModel& model) {
+  static_assert(std::string_view(evidence_channels[0].name) == "load" &&
+                std::string_view(servo_load_channels[0].name) == "servo_load");
+  for (std::size_t i = 0; i < decision_scales; ++i) make_monotone(model.curve[i]);
+  if (model.servo_curve.empty()) return;
+  for (std::size_t i = 0; i < decision_scales; ++i) make_monotone(model.servo_curve[i]);
+}
+
+/// Subtracts from a curve its mean, given the weight of each knot. Returns the mean.
 template <typename Values>
 float centred(Values& values, const std::vector<double>& weight) {
   double sum = 0.0;
@@ -111,13 +84,13 @@ float centred(Values& values, const std::vector<double>& weight) {
   return mean;
 }
 
-/// Centres every curve and table over the rows and adds the means to the bias.
+/// Centres every curve over the rows and adds the means to the bias.
 void centre(EvidenceModel& model, const DecisionRows& rows) {
   std::vector<double> weight(evidence_knots);
   const auto centre_curve = [&](EvidenceCurve& curve, const auto& inputs) {
     std::fill(weight.begin(), weight.end(), 0.0);
     for (Eigen::Index row = 0; row < inputs.size(); ++row) {
-      add(weight, evidence_position(inputs[row], evidence_knots), rows.weight[row]);
+      add(weight, evidence_position(inputs[row]), rows.weight[row]);
     }
     model.bias += centred(curve, weight);
   };
@@ -126,14 +99,6 @@ void centre(EvidenceModel& model, const DecisionRows& rows) {
   }
   for (std::size_t i = 0; i < model.servo_curve.size(); ++i) {
     centre_curve(model.servo_curve[i], rows.servo.row(static_cast<Eigen::Index>(i)));
-  }
-  weight.assign(std::tuple_size_v<EvidenceTable>, 0.0);
-  for (std::size_t p = 0; p < model.table.size(); ++p) {
-    std::fill(weight.begin(), weight.end(), 0.0);
-    for (Eigen::Index row = 0; row < rows.inputs.cols(); ++row) {
-      add(weight, pair_position(evidence_pairs[p], rows.inputs.col(row).data()), rows.weight[row]);
-    }
-    model.bias += centred(model.table[p], weight);
   }
 }
 
@@ -177,7 +142,6 @@ double evidence_loss(const EvidenceModel& model, const DecisionRows& rows,
                      EvidenceModel* gradient) {
   if (gradient != nullptr) {
     *gradient = {};
-    gradient->table.assign(model.table.size(), EvidenceTable{});
     gradient->servo_curve.assign(model.servo_curve.size(), EvidenceCurve{});
   }
   const float all = rows.weight.sum();
@@ -195,13 +159,10 @@ double evidence_loss(const EvidenceModel& model, const DecisionRows& rows,
     const float to_logit = (p - rows.is_contact[row]) * rows.weight[row] / all;
     gradient->bias += to_logit;
     for (std::size_t i = 0; i < decision_inputs; ++i) {
-      add(gradient->curve[i], evidence_position(inputs[i], evidence_knots), to_logit);
+      add(gradient->curve[i], evidence_position(inputs[i]), to_logit);
     }
     for (std::size_t i = 0; i < model.servo_curve.size(); ++i) {
-      add(gradient->servo_curve[i], evidence_position(servo[i], evidence_knots), to_logit);
-    }
-    for (std::size_t pair = 0; pair < model.table.size(); ++pair) {
-      add(gradient->table[pair], pair_position(evidence_pairs[pair], inputs.data()), to_logit);
+      add(gradient->servo_curve[i], evidence_position(servo[i]), to_logit);
     }
   }
   return loss / static_cast<double>(all);
@@ -210,7 +171,6 @@ double evidence_loss(const EvidenceModel& model, const DecisionRows& rows,
 EvidenceModel train_evidence_model(const DecisionRows& rows, const EvidenceFitConfig& config,
                                    const std::function<void()>& before_step) {
   EvidenceModel model;
-  if (config.with_pairs) model.table.assign(evidence_pairs.size(), EvidenceTable{});
   if (rows.has_servo_load()) {
     model.servo_curve.assign(std::tuple_size_v<ServoLoadInputs>, EvidenceCurve{});
   }
@@ -223,6 +183,7 @@ EvidenceModel train_evidence_model(const DecisionRows& rows, const EvidenceFitCo
             static_cast<void>(evidence_loss(model, batch, &gradient));
             add_smoothness(model, static_cast<float>(config.smoothness), gradient);
             for_each_number(adam_step, model, gradient, mean, square);
+            if (config.monotone_loads) make_loads_monotone(model);
           });
   centre(model, rows);
   set_seen_ranges(model, rows);

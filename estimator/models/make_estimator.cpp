@@ -11,8 +11,8 @@
 #include "estimator/bayes/measurement_only.hpp"
 #include "estimator/decision/filter.hpp"
 #include "estimator/evidence/filter.hpp"
-#include "estimator/evidence/touchdown.hpp"
 #include "estimator/models/configuration.hpp"
+#include "estimator/models/former_names.hpp"
 #include "estimator/models/measurement.hpp"
 #include "estimator/models/neural.hpp"
 #include "estimator/models/parameters.hpp"
@@ -24,6 +24,9 @@ namespace touchdown {
 namespace {
 
 using Made = std::unique_ptr<ContactEstimator>;
+
+/// The fit that all operating points of evidence curves share.
+constexpr std::string_view curves_fit = "evidence_curves";
 
 /// The settings that an estimator is made with.
 struct Request {
@@ -87,14 +90,30 @@ Recipe of_phases(std::string_view name) {
 template <typename Estimator, typename Config, auto model_of>
 Recipe of_parameters(std::string_view name) {
   return {name, name,
-          [](double /*rate*/, const LegGeometry& legs, [[maybe_unused]] bool servo_load) {
-            Config config{.geometry = legs};
-            if constexpr (requires { config.servo_load; }) config.servo_load = servo_load;
-            return text_of(config);
+          [](double /*rate*/, const LegGeometry& legs, bool /*servo_load*/) {
+            return text_of(Config{.geometry = legs});
           },
           [](const ModelArrays& arrays, const Request& request) -> Made {
             return std::make_unique<Estimator>(model_of(parameters_of(arrays)),
                                                configured(Config{}, request));
+          }};
+}
+
+/// An estimator on the features of loads and motions, at one of its operating points. The fit is
+/// the same for all points.
+template <typename Estimator, auto model_of>
+Recipe of_decisions(std::string_view name, std::string_view fit, const OperatingPoint& point) {
+  const DecisionConfig usual{.leave_below = point.leave_below, .return_above = point.return_above};
+  return {name, fit,
+          [usual](double /*rate*/, const LegGeometry& legs, bool servo_load) {
+            DecisionConfig config = usual;
+            config.geometry = legs;
+            config.servo_load = servo_load;
+            return text_of(config);
+          },
+          [usual](const ModelArrays& arrays, const Request& request) -> Made {
+            return std::make_unique<Estimator>(model_of(parameters_of(arrays)),
+                                               configured(usual, request));
           }};
 }
 
@@ -126,10 +145,12 @@ const std::vector<Recipe>& recipes() {
         of_parameters<LoadLogistic, LoadLogisticConfig, logistic_curve_of>("load_logistic"),
         of_parameters<ForceKinematics, ForceKinematicsConfig, force_kinematics_model_of>(
             "force_kinematics"),
-        of_parameters<DecisionNetwork, DecisionConfig, decision_model_of>("decision_network"),
-        of_parameters<EvidenceCurves, DecisionConfig, evidence_model_of>("evidence_curves"),
-        of_parameters<EvidenceCurves, DecisionConfig, evidence_model_of>("evidence_pairs"),
-        of_parameters<TouchdownEstimator, DecisionConfig, touchdown_model_of>("touchdown")};
+        of_decisions<DecisionNetwork, decision_model_of>("decision_network", "decision_network",
+                                                         network_point),
+        of_decisions<EvidenceCurves, evidence_model_of>("evidence_curves", curves_fit,
+                                                        balanced_point),
+        of_decisions<EvidenceCurves, evidence_model_of>("evidence_curves_quiet", curves_fit,
+                                                        quiet_point)};
     for (const AblationStep& step : steps_from_paper_to_robust()) {
       const bool shares_fit = step.config.measurement == robust.measurement;
       recipes.push_back(
@@ -155,6 +176,10 @@ std::string listed(const auto& all, const auto& name_of) {
 
 const Recipe& recipe(std::string_view name) {
   if (const Recipe* found = find_recipe(name)) return *found;
+  if (const std::string_view present = present_name(name); !present.empty()) {
+    throw InputError("a model of '" + std::string(name) + "', which is '" + std::string(present) +
+                     "' now: fit it again");
+  }
   throw InputError("no model is fitted for '" + std::string(name) + "': expected one of " +
                    listed(recipes(), [](const Recipe& each) { return each.name; }));
 }
@@ -181,11 +206,18 @@ std::string no_such_member(const std::string& estimator, const std::string& key,
          listed(known, [](const auto& member) { return member.first; });
 }
 
-/// The model's own configuration, if it was fitted for this estimator, with `replaced` members.
+/// The model's own configuration, if it was fitted for this estimator, with `replaced` members. At
+/// another operating point, evidence curves keep all of it but their thresholds.
 ConfigurationText configuration_for(const ModelMetadata& metadata, const std::string& estimator,
                                     const ConfigurationText& replaced) {
   ConfigurationText configuration;
-  if (estimator == metadata.estimator) configuration = metadata.configuration;
+  if (estimator == metadata.estimator) {
+    configuration = metadata.configuration;
+  } else if (recipe(estimator).fit == curves_fit) {
+    configuration = metadata.configuration;
+    configuration.erase("leave_below");
+    configuration.erase("return_above");
+  }
   if (replaced.empty()) return configuration;
   const ConfigurationText usual = recipe(estimator).configuration(metadata.sample_rate, {}, false);
   if (configuration.empty()) configuration = usual;

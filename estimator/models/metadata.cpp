@@ -149,10 +149,11 @@ bool is_same_rate(double rate, double other) {
 
 ServedRates served_rates(const ModelMetadata& metadata) {
   const double fitted = metadata.sample_rate;
-  // The features of `touchdown` last as long at any rate.
+  // The features of evidence curves last as long at any rate.
   constexpr double measured_fit = 1000.0;  // Hz
   constexpr double lowest_measured = 200.0;
-  const bool is_measured = metadata.estimator == "touchdown" && is_same_rate(fitted, measured_fit);
+  const bool is_measured =
+      metadata.estimator.starts_with("evidence_curves") && is_same_rate(fitted, measured_fit);
   return {is_measured ? lowest_measured : fitted, fitted};
 }
 

@@ -7,7 +7,6 @@
 
 #include "core/error.hpp"
 #include "estimator/evidence/channels.hpp"
-#include "estimator/evidence/pairs.hpp"
 #include "estimator/models/metadata.hpp"
 
 namespace touchdown {
@@ -46,17 +45,6 @@ void for_each_channel(const Part& part) {
     first += decision_scales;
   }
   for (const char* const name : evidence_noise_names) part(name, first++, std::size_t{1});
-}
-
-/// The indices of the pairs that the tables belong to, so that readers refuse tables of other
-/// pairs.
-std::vector<double> pair_indices() {
-  std::vector<double> indices;
-  for (const EvidencePair& pair : evidence_pairs) {
-    indices.push_back(static_cast<double>(pair.first));
-    indices.push_back(static_cast<double>(pair.second));
-  }
-  return indices;
 }
 
 /// Converts values back to the floats that they came from.
@@ -205,11 +193,6 @@ Parameters parameters_of(const EvidenceModel& model) {
       put(name, model.servo_curve.data() + first, model.servo_seen.data() + first, decision_scales);
     });
   }
-  if (model.table.empty()) return parameters;
-  parameters["pairs"] = pair_indices();
-  for (const EvidenceTable& table : model.table) {
-    parameters["tables"].insert(parameters["tables"].end(), table.begin(), table.end());
-  }
   return parameters;
 }
 
@@ -238,26 +221,7 @@ EvidenceModel evidence_model_of(const Parameters& parameters) {
            decision_scales);
     });
   }
-  if (!parameters.contains("pairs")) return model;
-  if (parameters.at("pairs") != pair_indices()) {
-    throw InputError("pairs: its tables are of other pairs than this version's");
-  }
-  constexpr std::size_t size = std::tuple_size_v<EvidenceTable>;
-  const std::vector<double>& tables = parameter(parameters, "tables", evidence_pairs.size() * size);
-  for (std::size_t p = 0; p < evidence_pairs.size(); ++p) {
-    take(tables.data() + p * size, model.table.emplace_back());
-  }
   return model;
-}
-
-Parameters parameters_of(const TouchdownModel& model) {
-  Parameters parameters = parameters_of(model.evidence);
-  parameters.merge(parameters_of(model.network));
-  return parameters;
-}
-
-TouchdownModel touchdown_model_of(const Parameters& parameters) {
-  return {evidence_model_of(parameters), decision_model_of(parameters)};
 }
 
 }  // namespace touchdown

@@ -9,7 +9,6 @@
 
 #include "estimator/decision/network.hpp"
 #include "estimator/evidence/curves.hpp"
-#include "estimator/evidence/touchdown.hpp"
 #include "estimator/force/force_kinematics.hpp"
 #include "estimator/force/logistic_regression.hpp"
 #include "estimator/models/arrays.hpp"
@@ -43,16 +42,13 @@ Parameters parameters_of(const LogisticCurve& curve);
 Parameters parameters_of(const ForceKinematicsModel& model);
 Parameters parameters_of(const DecisionModel& model);
 /// `curves_<channel>` by time scale, then by knot (nats); `seen_<channel>`, the lower and upper end
-/// of each input's range; `tables` of `pairs`, by row.
+/// of each input's range.
 Parameters parameters_of(const EvidenceModel& model);
-/// The parameters of the curves and of the network.
-Parameters parameters_of(const TouchdownModel& model);
 LogisticCurve logistic_curve_of(const Parameters& parameters);
 ForceKinematicsModel force_kinematics_model_of(const Parameters& parameters);
 /// Converts doubles back to the floats that they came from.
 DecisionModel decision_model_of(const Parameters& parameters);
-/// Likewise. Errors: also for tables of other pairs.
+/// Likewise.
 EvidenceModel evidence_model_of(const Parameters& parameters);
-TouchdownModel touchdown_model_of(const Parameters& parameters);
 
 }  // namespace touchdown

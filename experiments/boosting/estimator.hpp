@@ -1,17 +1,18 @@
 #pragma once
 
 #include "estimator/contact_estimator.hpp"
+#include "experiments/boosting/inputs.hpp"
 #include "experiments/boosting/trees.hpp"
-#include "experiments/boosting/window.hpp"
 
 namespace touchdown::experiments {
 
-/// The reference upper bound of a benchmark: boosted trees on 100 ms of the phase filter's signals.
-/// It shows how much these signals contain. It is for studies, not for robots.
+/// A reference upper bound of a benchmark: boosted trees on `SignalWindow` or `ChannelInputs`. It
+/// shows how much these inputs contain. It is for studies, not for robots.
+template <typename Inputs>
 class BoostedTreesEstimator : public ContactEstimator {
  public:
   struct Config {
-    double sample_rate = 1000.0;  ///< Hz
+    TreeInputsConfig inputs = {};
     /// A wheel leaves contact when P(contact) falls below `leave_below`, and returns to contact
     /// above `return_above`.
     double leave_below = 0.75;
@@ -28,7 +29,7 @@ class BoostedTreesEstimator : public ContactEstimator {
 
   Config config_;
   BoostedTrees trees_;
-  SignalWindow window_;
+  Inputs inputs_;
   Belief belief_;
 };
 

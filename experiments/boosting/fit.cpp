@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "experiments/boosting/channels.hpp"
 #include "experiments/boosting/window.hpp"
 
 namespace touchdown::experiments {
@@ -34,7 +35,7 @@ using Booster = std::unique_ptr<void, BoosterDeleter>;
 /// Rows in contact have weight 1, the others `air_weight`.
 Matrix matrix_of(const BoostingRows& rows, float air_weight) {
   DMatrixHandle handle = nullptr;
-  check(XGDMatrixCreateFromMat(rows.features.data(), rows.count(), window_features,
+  check(XGDMatrixCreateFromMat(rows.features.data(), rows.count(), rows.width(),
                                std::numeric_limits<float>::quiet_NaN(), &handle));
   Matrix matrix(handle);
   check(XGDMatrixSetFloatInfo(handle, "label", rows.is_contact.data(), rows.count()));
@@ -105,6 +106,7 @@ BoostedTrees trees_of(const Booster& booster, std::size_t depth) {
 
 }  // namespace
 
+template <typename Inputs>
 BoostingRows boosting_rows(std::span<const LabelledRun> runs, const BoostingConfig& config) {
   std::size_t steps = 0;
   for (const LabelledRun& run : runs) {
@@ -118,16 +120,17 @@ BoostingRows boosting_rows(std::span<const LabelledRun> runs, const BoostingConf
   Draws draws(config.seed);
   for (std::size_t pass = 0; pass < config.passes; ++pass) {
     for (const LabelledRun& run : runs) {
-      SignalWindow window(run.sample_rate);
-      Augmentation augmented(config.augmentation, draws);
+      Inputs inputs(
+          TreeInputsConfig{run.sample_rate, run.legs.value_or(config.legs), config.servo_load});
+      Augmentation augmented(config.augmentation, draws, config.servo_load);
       std::size_t next = run.skip + draws.below(stride);
       for (std::size_t k = 0; k < run.signals.size(); ++k) {
-        const SignalWindow::Step step = window.update(augmented(run.signals[k]));
+        const TreeInputsStep step = inputs.update(augmented(run.signals[k]));
         if (k < next) continue;
         next += stride;
-        if (!step.is_valid) continue;
         for (std::size_t side = 0; side < 2; ++side) {
-          const WindowFeatures features = window.features(side);
+          if (!step.is_valid[side]) continue;
+          const auto features = inputs.features(side);
           rows.features.insert(rows.features.end(), features.begin(), features.end());
           rows.is_contact.push_back(run.contact[side][k] != 0 ? 1.0F : 0.0F);
         }
@@ -136,6 +139,11 @@ BoostingRows boosting_rows(std::span<const LabelledRun> runs, const BoostingConf
   }
   return rows;
 }
+
+template BoostingRows boosting_rows<SignalWindow>(std::span<const LabelledRun> runs,
+                                                  const BoostingConfig& config);
+template BoostingRows boosting_rows<ChannelInputs>(std::span<const LabelledRun> runs,
+                                                   const BoostingConfig& config);
 
 BoostedTrees fit_trees(const BoostingRows& rows, const BoostingConfig& config,
                        const std::function<void()>& before_tree) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "estimator/decision/augmentation.hpp"
+#include "estimator/force/leg_geometry.hpp"
 #include "estimator/labelled_run.hpp"
 #include "experiments/boosting/trees.hpp"
 
@@ -24,6 +25,8 @@ struct BoostingConfig {
   double class_exponent = -0.5;
   double least_weight = 20.0;  ///< of a leaf: Σ p (1 − p) of its rows
   AugmentationConfig augmentation = {};
+  LegGeometry legs = {};    ///< as in `TreeInputsConfig`, of all runs
+  bool servo_load = false;  ///< likewise
 };
 
 /// Training data: the features of one row after the other, and 1 for rows in contact, 0 for others.
@@ -32,9 +35,14 @@ struct BoostingRows {
   std::vector<float> is_contact;
 
   [[nodiscard]] std::size_t count() const noexcept { return is_contact.size(); }
+  [[nodiscard]] std::size_t width() const noexcept {
+    return is_contact.empty() ? 0 : features.size() / is_contact.size();
+  }
 };
 
-/// Draws training rows from labelled runs. Throws InputError unless there is one label per step.
+/// Draws training rows from labelled runs, with `SignalWindow` or `ChannelInputs`. Throws
+/// InputError unless there is one label per step.
+template <typename Inputs>
 BoostingRows boosting_rows(std::span<const LabelledRun> runs, const BoostingConfig& config);
 
 /// Fits trees by XGBoost to the log loss, on one thread: the same rows give the same trees.

@@ -8,7 +8,7 @@
 
 namespace touchdown::experiments {
 
-float BoostedTrees::logit(const WindowFeatures& features) const noexcept {
+float BoostedTrees::logit(std::span<const float> features) const noexcept {
   // A step down a tree depends on the previous one. Steps down different trees are independent.
   constexpr std::size_t abreast = 8;
   const std::size_t inner = nodes();
@@ -28,7 +28,7 @@ float BoostedTrees::logit(const WindowFeatures& features) const noexcept {
   return sum;
 }
 
-void check_trees(const BoostedTrees& trees) {
+void check_trees(const BoostedTrees& trees, std::size_t features) {
   constexpr std::size_t deepest = 16;
   const bool is_whole = trees.depth >= 1 && trees.depth <= deepest && !trees.leaf.empty() &&
                         trees.leaf.size() % trees.leaves() == 0 &&
@@ -37,7 +37,7 @@ void check_trees(const BoostedTrees& trees) {
   const auto is_finite = [](float value) { return std::isfinite(value); };
   if (!(is_whole && std::isfinite(trees.bias) &&
         std::all_of(trees.feature.begin(), trees.feature.end(),
-                    [](std::uint8_t feature) { return feature < window_features; }) &&
+                    [&](std::uint8_t feature) { return feature < features; }) &&
         std::all_of(trees.threshold.begin(), trees.threshold.end(), is_finite) &&
         std::all_of(trees.leaf.begin(), trees.leaf.end(), is_finite))) {
     throw InputError("boosted trees: expected complete trees of features and finite numbers");

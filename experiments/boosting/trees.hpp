@@ -2,9 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
-
-#include "experiments/boosting/window.hpp"
 
 namespace touchdown::experiments {
 
@@ -21,10 +20,12 @@ struct BoostedTrees {
   [[nodiscard]] std::size_t nodes() const noexcept { return (std::size_t{1} << depth) - 1; }
   [[nodiscard]] std::size_t leaves() const noexcept { return std::size_t{1} << depth; }
   [[nodiscard]] std::size_t trees() const noexcept { return leaf.size() / leaves(); }
-  [[nodiscard]] float logit(const WindowFeatures& features) const noexcept;
+  /// `features` has as many as the trees were checked for.
+  [[nodiscard]] float logit(std::span<const float> features) const noexcept;
 };
 
-/// Throws InputError for incomplete trees, unknown features and numbers that are not finite.
-void check_trees(const BoostedTrees& trees);
+/// Throws InputError for incomplete trees, features beyond this count and numbers that are not
+/// finite.
+void check_trees(const BoostedTrees& trees, std::size_t features);
 
 }  // namespace touchdown::experiments

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "estimator/force/servo_law.hpp"
+
 namespace touchdown::experiments {
 
 ChannelWindow::ChannelWindow(double sample_rate) {
@@ -48,10 +50,11 @@ ChannelWindow::Features ChannelWindow::features() const noexcept {
   return features;
 }
 
-SignalWindow::SignalWindow(double sample_rate, const SignalGuardConfig& config)
+SignalWindow::SignalWindow(const TreeInputsConfig& inputs, const SignalGuardConfig& config)
     : config_(config),
-      guard_(config, sample_rate),
-      channels_(window_channels, ChannelWindow(sample_rate)) {
+      uses_targets_(inputs.servo_load),
+      guard_(config, inputs.sample_rate),
+      channels_(window_channels, ChannelWindow(inputs.sample_rate)) {
   reset();
 }
 
@@ -61,21 +64,40 @@ void SignalWindow::reset() noexcept {
   missing_for_.fill(std::numeric_limits<double>::infinity());
 }
 
-SignalWindow::Step SignalWindow::update(const Signals& signals) noexcept {
+std::array<double, window_channels> SignalWindow::values_of(const Signals& signals,
+                                                            bool has_acceleration) const noexcept {
+  constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  std::array<double, window_channels> values{};
+  auto* to = values.data();
+  const auto torque = [&](double value) { *to++ = is_torque(value, config_) ? value : missing; };
+  const auto by_servo = [&](const JointSignals& joint, const JointTarget& target) {
+    const double value = uses_targets_ ? servo_torque(joint, target, config_) : missing;
+    *to++ = std::isfinite(value) ? value : 0.0;
+  };
+  for (std::size_t side = 0; side < 2; ++side) {
+    const LegSignals& leg = signals.leg[side];
+    for (const JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) torque(joint->torque);
+    for (const JointSignals* joint : {&leg.hip, &leg.knee}) *to++ = joint->position;
+    for (const JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) *to++ = joint->velocity;
+    by_servo(leg.hip, signals.target[side].hip);
+    by_servo(leg.knee, signals.target[side].knee);
+  }
+  *to++ = has_acceleration ? signals.vertical_acceleration : missing;
+  for (int axis = 0; axis < 3; ++axis) *to++ = signals.angular_velocity[axis];
+  return values;
+}
+
+TreeInputsStep SignalWindow::update(const Signals& signals) noexcept {
   const SignalGuard::Verdict verdict = guard_.check(signals.time, signals.vertical_acceleration);
-  Step step{.status = verdict.status, .elapsed = verdict.elapsed, .is_valid = true};
+  TreeInputsStep step{.status = verdict.status, .elapsed = verdict.elapsed, .is_valid = {}};
   if (verdict.restart) {
     for (ChannelWindow& channel : channels_) channel.reset();
     missing_for_.fill(std::numeric_limits<double>::infinity());
   }
-  const LegSignals& left = signals.leg[0];
-  const LegSignals& right = signals.leg[1];
-  const std::array<double, window_channels> values = {left.knee.torque, left.wheel.torque,
-                                                      right.knee.torque, right.wheel.torque,
-                                                      signals.vertical_acceleration};
+  const std::array<double, window_channels> values = values_of(signals, verdict.acceleration_good);
+  bool is_valid = true;
   for (std::size_t i = 0; i < window_channels; ++i) {
-    const bool is_acceleration = i + 1 == window_channels;
-    if (is_acceleration ? verdict.acceleration_good : is_torque(values[i], config_)) {
+    if (std::isfinite(values[i])) {
       last_[i] = values[i];
       missing_for_[i] = 0.0;
     } else {
@@ -86,27 +108,31 @@ SignalWindow::Step SignalWindow::update(const Signals& signals) noexcept {
       channels_[i].update(last_[i]);
     } else {
       channels_[i].reset();
-      step.is_valid = false;
+      is_valid = false;
     }
   }
+  step.is_valid = {is_valid, is_valid};
   return step;
 }
 
 WindowFeatures SignalWindow::features(std::size_t side) const noexcept {
-  constexpr std::size_t per_leg = 2;
   WindowFeatures features{};
   auto* to = features.data();
+  const auto add = [&](const ChannelWindow& channel, float sign) {
+    ChannelWindow::Features own = channel.features();
+    const std::size_t signed_features = own.size() - window_deviations.size();
+    for (std::size_t i = 0; i < signed_features; ++i) own[i] *= sign;
+    to = std::copy(own.begin(), own.end(), to);
+  };
   for (const std::size_t leg : {side, 1 - side}) {
-    const float mirror = leg == 0 ? 1.0F : -1.0F;
-    for (std::size_t joint = 0; joint < per_leg; ++joint) {
-      ChannelWindow::Features own = channels_[per_leg * leg + joint].features();
-      const std::size_t signed_features = own.size() - window_deviations.size();
-      for (std::size_t i = 0; i < signed_features; ++i) own[i] *= mirror;
-      to = std::copy(own.begin(), own.end(), to);
+    for (std::size_t i = 0; i < window_leg_channels; ++i) {
+      add(channels_[window_leg_channels * leg + i], leg == 0 ? 1.0F : -1.0F);
     }
   }
-  const ChannelWindow::Features acceleration = channels_.back().features();
-  std::copy(acceleration.begin(), acceleration.end(), to);
+  // In the mirror, roll and yaw change their signs.
+  const float mirror = side == 0 ? 1.0F : -1.0F;
+  const auto* common = &channels_[2 * window_leg_channels];
+  for (const float sign : {1.0F, mirror, 1.0F, mirror}) add(*common++, sign);
   return features;
 }
 

@@ -6,6 +6,7 @@
 
 #include "estimator/signal_guard.hpp"
 #include "estimator/signals.hpp"
+#include "experiments/boosting/inputs.hpp"
 
 namespace touchdown::experiments {
 
@@ -16,8 +17,11 @@ inline constexpr std::array<std::size_t, 2> window_deviations = {2, 5};  ///< of
 /// The current value, its means and its standard deviations.
 inline constexpr std::size_t channel_features =
     1 + window_lengths.size() + window_deviations.size();
-/// Torques of knee and wheel of the wheel's own leg, then of the other leg, then the acceleration.
-inline constexpr std::size_t window_channels = 5;
+/// Of each leg: torques of hip, knee and wheel, positions of hip and knee, velocities of all three,
+/// and the torques of hip and knee by the laws of their servos, which are 0 without targets.
+inline constexpr std::size_t window_leg_channels = 10;
+/// Own leg, other leg, vertical acceleration, angular velocity (3).
+inline constexpr std::size_t window_channels = 2 * window_leg_channels + 4;
 inline constexpr std::size_t window_features = window_channels * channel_features;
 using WindowFeatures = std::array<float, window_features>;
 
@@ -48,23 +52,17 @@ class ChannelWindow {
   bool is_started_ = false;
 };
 
-/// The trees' input features of both wheels, for fits and estimates alike. They cover 100 ms of the
-/// phase filter's signals: torques of knees and wheels, and the vertical acceleration. A missing
-/// value repeats the last one, up to the guard's `maximum_gap`.
+/// Inputs of boosted trees: 100 ms of all raw signals, and the torques by the laws of the servos. A
+/// missing value repeats the last one, up to the guard's `maximum_gap`.
 class SignalWindow {
  public:
-  /// Result of one update.
-  struct Step {
-    SignalStatus status = SignalStatus::good;
-    double elapsed = 0.0;   ///< since the previous step (s)
-    bool is_valid = false;  ///< whether this step has features
-  };
+  static constexpr std::size_t count = window_features;
 
   /// Throws InputError for a rate that is not positive.
-  explicit SignalWindow(double sample_rate, const SignalGuardConfig& config = {});
+  explicit SignalWindow(const TreeInputsConfig& inputs, const SignalGuardConfig& config = {});
 
   void reset() noexcept;
-  Step update(const Signals& signals) noexcept;
+  TreeInputsStep update(const Signals& signals) noexcept;
 
   /// Features with the signs of the left leg.
   [[nodiscard]] WindowFeatures features(std::size_t side) const noexcept;
@@ -74,9 +72,14 @@ class SignalWindow {
   }
 
  private:
+  /// The values of all channels; NaN for those that are unusable.
+  [[nodiscard]] std::array<double, window_channels> values_of(const Signals& signals,
+                                                              bool has_acceleration) const noexcept;
+
   SignalGuardConfig config_;
+  bool uses_targets_;
   SignalGuard guard_;
-  /// Left knee, left wheel, right knee, right wheel, acceleration.
+  /// Those of the left leg, of the right leg, and the common ones.
   std::vector<ChannelWindow> channels_;
   std::array<double, window_channels> last_{};
   std::array<double, window_channels> missing_for_{};  ///< s; infinite before the first value

@@ -377,7 +377,7 @@ static void describe(Fields& fields, Experiment& experiment) {
   if (fields.present("transfer", experiment.transfer)) {
     fields("transfer", experiment.transfer)
         .doc(
-            "Whether `touchdown_shipped` may run on another robot, or at another rate, than its "
+            "Whether `shipped` may run on another robot, or at another rate, than its "
             "model was fitted for.");
   }
   describe_studies(fields, "noise", experiment);

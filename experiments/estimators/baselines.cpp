@@ -31,6 +31,7 @@ EstimatorEntry always_contact_entry() {
   return {.name = std::string(always_contact_name),
           .title = "Always contact",
           .summary = "Reports contact at every step, so its accuracy is the share of contact",
+          .reason = "reference: the score without any signal",
           .sensors = {},
           .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& /*setup*/)
               -> EstimatorPointer { return std::make_unique<AlwaysContact>(); }};
@@ -63,6 +64,7 @@ EstimatorEntry oracle_entry() {
       .name = "oracle",
       .title = "Oracle",
       .summary = "Repeats the ground truth, which gives the scores of a perfect estimator",
+      .reason = "reference: the best score",
       .sensors = {},
       .needs_truth = true,
       .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> EstimatorPointer {
@@ -77,6 +79,7 @@ EstimatorEntry free_fall_entry() {
   return {.name = "free_fall",
           .title = "Free fall",
           .summary = "Detects flight by a threshold on the vertical acceleration",
+          .reason = "cost: an accelerometer and one comparison",
           .sensors = {.acceleration = true},
           .hyperparameters = {between("half_way", FreeFallConfig{}.half_way, -9.0, -1.0),
                               around("low_pass", FreeFallConfig{}.low_pass, 5.0)},
@@ -92,6 +95,7 @@ EstimatorEntry upkie_observer_entry() {
   return {.name = "upkie_observer",
           .title = "Upkie's observer",
           .summary = "Thresholds the apparent inertia of each wheel, as Upkie's software does",
+          .reason = "history: what Upkie runs today",
           .sensors = {.wheel_torque = true, .joint_velocity = true},
           .hyperparameters = {around("liftoff_inertia", WheelContactConfig{}.liftoff_inertia, 3.0),
                               around("touchdown_ratio", 4.0, 3.5),

@@ -1,7 +1,10 @@
 #include "experiments/estimators/boosting.hpp"
 
+#include "estimator/decision/config.hpp"
+#include "experiments/boosting/channels.hpp"
 #include "experiments/boosting/estimator.hpp"
 #include "experiments/boosting/fit.hpp"
+#include "experiments/boosting/window.hpp"
 #include "experiments/estimators/parameter_fitting.hpp"
 
 namespace touchdown::experiments {
@@ -9,7 +12,6 @@ namespace touchdown::experiments {
 namespace {
 
 using EstimatorPointer = std::unique_ptr<ContactEstimator>;
-using TreesConfig = BoostedTreesEstimator::Config;
 using recordings::parameter;
 using recordings::Parameters;
 
@@ -23,8 +25,10 @@ Parameters parameters_of(const BoostedTrees& trees) {
       {"threshold", numbers(trees.threshold)},         {"leaf", numbers(trees.leaf)}};
 }
 
+static_assert(SignalWindow::count < 256 && ChannelInputs::count < 256, "features are bytes");
+
 /// The inverse of `parameters_of`. It converts doubles that were floats back to floats.
-BoostedTrees trees_of(const Parameters& parameters) {
+BoostedTrees trees_of(const Parameters& parameters, std::size_t features) {
   const auto whole = [&](const char* name, double largest) {
     const double value = parameter(parameters, name);
     return static_cast<std::size_t>(value >= 0.0 && value <= largest ? value : 0.0);
@@ -35,9 +39,9 @@ BoostedTrees trees_of(const Parameters& parameters) {
                      .bias = static_cast<float>(parameter(parameters, "bias"))};
   const std::size_t count = whole("trees", most_trees);
   for (const double value : parameter(parameters, "feature", count * trees.nodes())) {
-    trees.feature.push_back(value >= 0.0 && value < static_cast<double>(window_features)
+    trees.feature.push_back(value >= 0.0 && value < static_cast<double>(features)
                                 ? static_cast<std::uint8_t>(value)
-                                : std::uint8_t{window_features});
+                                : static_cast<std::uint8_t>(features));
   }
   for (const double value : parameter(parameters, "threshold", count * trees.nodes())) {
     trees.threshold.push_back(static_cast<float>(value));
@@ -48,37 +52,72 @@ BoostedTrees trees_of(const Parameters& parameters) {
   return trees;
 }
 
+template <typename Inputs>
 FittedModel fit_boosted_trees(const EstimatorEntry& entry, const FitRuns& runs) {
   return fit_parameters(entry, runs.together(), [&](std::span<const LabelledRun> labelled) {
     BoostingConfig config;
     config.trees = static_cast<std::size_t>(entry.chosen("trees"));
     config.depth = static_cast<std::size_t>(entry.chosen("depth"));
-    return parameters_of(fit_trees(boosting_rows(labelled, config), config, runs.before_density));
+    config.legs = legs_of(runs);
+    config.servo_load = runs.servo_load;
+    Parameters parameters = parameters_of(
+        fit_trees(boosting_rows<Inputs>(labelled, config), config, runs.before_density));
+    parameters["servo_load"] = {config.servo_load ? 1.0 : 0.0};
+    return parameters;
   });
+}
+
+template <typename Inputs>
+EstimatorPointer make_boosted_trees(const EstimatorEntry& entry, const EstimatorSetup& setup) {
+  const Parameters& parameters = setup.model->parameters->parameters;
+  return std::make_unique<BoostedTreesEstimator<Inputs>>(
+      trees_of(parameters, Inputs::count),
+      typename BoostedTreesEstimator<Inputs>::Config{
+          .inputs = {.sample_rate = setup.sample_rate,
+                     .legs = setup.legs.value_or(LegGeometry{}),
+                     .servo_load = parameter(parameters, "servo_load") != 0.0},
+          .leave_below = entry.chosen("leave_below"),
+          .return_above = entry.chosen("return_above")});
+}
+
+template <typename Inputs>
+EstimatorEntry boosted_entry(const char* name, const char* title, const char* summary,
+                             const RobotKnowledge& knows) {
+  return {.name = name,
+          .title = title,
+          .summary = summary,
+          .reason = "reference: what its inputs contain",
+          .sensors = {.hip_torque = true,
+                      .knee_torque = true,
+                      .wheel_torque = true,
+                      .acceleration = true,
+                      .joint_position = true,
+                      .joint_velocity = true},
+          .knows = knows,
+          .is_upper_bound = true,
+          .fit = fit_boosted_trees<Inputs>,
+          .learns_from_segments = true,
+          .hyperparameters = {fitted_with(whole_between("trees", BoostingConfig{}.trees, 40, 240)),
+                              fitted_with(whole_between("depth", BoostingConfig{}.depth, 3, 8)),
+                              between("leave_below", network_point.leave_below, 0.1, 0.95),
+                              between("return_above", network_point.return_above, 0.8, 0.995)},
+          .make = make_boosted_trees<Inputs>};
 }
 
 }  // namespace
 
-EstimatorEntry gradient_boosting_entry() {
-  return {.name = "gradient_boosting",
-          .title = "Gradient boosting",
-          .summary =
-              "Classifies 100 ms of the phase filter's signals by boosted trees, as an upper bound",
-          .sensors = {.knee_torque = true, .wheel_torque = true, .acceleration = true},
-          .is_upper_bound = true,
-          .fit = fit_boosted_trees,
-          .learns_from_segments = true,
-          .hyperparameters = {fitted_with(whole_between("trees", BoostingConfig{}.trees, 40, 240)),
-                              fitted_with(whole_between("depth", BoostingConfig{}.depth, 3, 8)),
-                              between("leave_below", TreesConfig{}.leave_below, 0.25, 0.8),
-                              between("return_above", TreesConfig{}.return_above, 0.8, 0.97)},
-          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> EstimatorPointer {
-            return std::make_unique<BoostedTreesEstimator>(
-                trees_of(setup.model->parameters->parameters),
-                TreesConfig{.sample_rate = setup.sample_rate,
-                            .leave_below = entry.chosen("leave_below"),
-                            .return_above = entry.chosen("return_above")});
-          }};
+EstimatorEntry boosted_channels_entry() {
+  return boosted_entry<ChannelInputs>(
+      "boosted_channels", "Boosted trees, own channels",
+      "Classifies the channels of the evidence curves by boosted trees, as their upper bound",
+      {.geometry = true, .mass = true, .targets = true});
+}
+
+EstimatorEntry boosted_signals_entry() {
+  return boosted_entry<SignalWindow>(
+      "boosted_signals", "Boosted trees, all signals",
+      "Classifies 100 ms of all raw signals by boosted trees, as an upper bound",
+      {.targets = true});
 }
 
 }  // namespace touchdown::experiments

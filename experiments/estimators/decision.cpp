@@ -14,7 +14,7 @@
 #include "estimator/decision/fit.hpp"
 #include "estimator/evidence/filter.hpp"
 #include "estimator/evidence/fit.hpp"
-#include "estimator/evidence/touchdown_fit.hpp"
+#include "estimator/models/configuration.hpp"
 #include "experiments/estimators/parameter_fitting.hpp"
 #include "recordings/models/parameter_model.hpp"
 
@@ -35,28 +35,36 @@ FittedModel fit_network(const EstimatorEntry& entry, const FitRuns& runs) {
   });
 }
 
-FittedModel fit_touchdown(const EstimatorEntry& entry, const FitRuns& runs) {
-  return fit_parameters(entry, runs.together(), [&](std::span<const LabelledRun> labelled) {
-    return parameters_of(
-        fit_touchdown_model(labelled, config_of(runs), {.decay = entry.chosen("decay")},
-                            {.smoothness = entry.chosen("smoothness")}, runs.before_density));
-  });
-}
-
-template <bool with_pairs>
 FittedModel fit_evidence(const EstimatorEntry& entry, const FitRuns& runs) {
   return fit_parameters(entry, runs.together(), [&](std::span<const LabelledRun> labelled) {
-    return parameters_of(fit_evidence_model(
-        labelled, config_of(runs),
-        {.smoothness = entry.chosen("smoothness"), .with_pairs = with_pairs}, runs.before_density));
+    return parameters_of(fit_evidence_model(labelled, config_of(runs),
+                                            {.smoothness = entry.chosen("smoothness")},
+                                            runs.before_density));
   });
 }
 
-template <typename Estimator, auto model_of>
-EstimatorPointer make_fitted(const EstimatorEntry& entry, const EstimatorSetup& setup) {
-  return std::make_unique<Estimator>(
-      model_of(setup.model->parameters->parameters),
-      configured(DecisionConfig{.sample_rate = setup.sample_rate}, entry, setup));
+EstimatorPointer make_network(const EstimatorEntry& entry, const EstimatorSetup& setup) {
+  return std::make_unique<DecisionNetwork>(
+      decision_model_of(setup.model->parameters->parameters),
+      configured(DecisionConfig{.sample_rate = setup.sample_rate,
+                                .leave_below = entry.chosen("leave_below"),
+                                .return_above = entry.chosen("return_above")},
+                 entry, setup));
+}
+
+/// All operating points share the fit: a model of another one gives all settings but thresholds.
+EstimatorPointer make_curves(const EstimatorEntry& entry, const EstimatorSetup& setup) {
+  DecisionConfig config{.sample_rate = setup.sample_rate};
+  const std::optional<ModelMetadata>& metadata = setup.model->metadata;
+  if (metadata) configure(config, metadata->configuration);
+  config.sample_rate = setup.sample_rate;
+  if (!metadata || metadata->estimator != entry.name) {
+    config.leave_below = entry.chosen("leave_below");
+    config.return_above = entry.chosen("return_above");
+  }
+  if (setup.legs) config.geometry = *setup.legs;
+  return std::make_unique<EvidenceCurves>(evidence_model_of(setup.model->parameters->parameters),
+                                          config);
 }
 
 /// Whether both legs, and the robots that they carry, are the same to a percent. Rotors may differ.
@@ -68,10 +76,11 @@ bool are_alike(const LegGeometry& one, const LegGeometry& other) {
          is_near(one.wheel_mass, other.wheel_mass) && is_near(one.robot_mass, other.robot_mass);
 }
 
-/// The shipped model. Errors: `InputError` for a rate or a robot that it does not serve.
-recordings::ParameterModelFile shipped_model_for(const EstimatorSetup& setup) {
-  const std::filesystem::path path = find_resource("models/touchdown.npz");
-  std::optional<ModelMetadata> metadata;
+/// A shipped model. Errors: `InputError` for a rate or a robot that it does not serve.
+recordings::ParameterModelFile shipped_model_for(const EstimatorEntry& entry,
+                                                 const EstimatorSetup& setup,
+                                                 std::optional<ModelMetadata>& metadata) {
+  const std::filesystem::path path = find_resource(shipped_file(entry.name));
   recordings::ParameterModelFile file = recordings::read_parameter_model(path, &metadata);
   if (!metadata || setup.transfer) return file;
   const bool is_own_robot = !setup.legs || are_alike(*setup.legs, LegGeometry{});
@@ -80,9 +89,9 @@ recordings::ParameterModelFile shipped_model_for(const EstimatorSetup& setup) {
               {.sample_rate = setup.sample_rate, .robot = is_own_robot ? "" : setup.robot});
   } catch (const InputError& error) {
     throw InputError(
-        fmt::format("touchdown_shipped: {}: {} (fit 'touchdown' in this experiment, or "
-                    "set `transfer: true` to use it all the same)",
-                    path.string(), error.what()));
+        fmt::format("{}: {}: {} (fit 'evidence_curves' in this experiment, or set "
+                    "`transfer: true` to use it all the same)",
+                    entry.name, path.string(), error.what()));
   }
   return file;
 }
@@ -92,88 +101,102 @@ Hyperparameter smoothness() {
   return fitted_with(around("smoothness", EvidenceFitConfig{}.smoothness, 10.0));
 }
 /// The hyperparameters of the fit, then the thresholds of the decision.
-std::vector<Hyperparameter> and_thresholds(std::vector<Hyperparameter> of_fit) {
-  of_fit.push_back(between("leave_below", DecisionConfig{}.leave_below, 0.25, 0.8));
-  of_fit.push_back(between("return_above", DecisionConfig{}.return_above, 0.8, 0.97));
+std::vector<Hyperparameter> and_thresholds(std::vector<Hyperparameter> of_fit,
+                                           const OperatingPoint& point = balanced_point) {
+  of_fit.push_back(between("leave_below", point.leave_below, 0.1, 0.9));
+  // Above any usual first threshold.
+  const double lowest = 0.5 * (point.leave_below + point.return_above);
+  of_fit.push_back(between("return_above", point.return_above, lowest, 0.995));
   return of_fit;
 }
 
+/// The estimator at another operating point, with the same fit.
+EstimatorEntry at_quiet_point(EstimatorEntry entry) {
+  entry.name += "_quiet";
+  entry.title += ", quiet";
+  entry.summary += ", with few false takeoffs";
+  entry.reason = "flicker: few false takeoffs";
+  entry.hyperparameters = and_thresholds({smoothness()}, quiet_point);
+  return entry;
+}
+
+EstimatorEntry shipped_entry(const char* name, const EstimatorEntry& fitted) {
+  EstimatorEntry entry = fitted;
+  entry.name = name;
+  entry.title += ", shipped";
+  entry.summary = fmt::format(
+      "Runs the shipped model {}, fitted to Upkie on bent and straight legs", shipped_file(name));
+  entry.reason += ", without labels";
+  entry.fit = nullptr;
+  entry.learns_from_segments = false;
+  entry.trained_by = "scripts/fit_shipped_model.sh";
+  entry.hyperparameters = {};
+  entry.require_served = [](const EstimatorEntry& own, const EstimatorSetup& setup) {
+    std::optional<ModelMetadata> metadata;
+    (void)shipped_model_for(own, setup, metadata);
+  };
+  entry.make = [](const EstimatorEntry& own, const EstimatorSetup& setup) -> EstimatorPointer {
+    std::optional<ModelMetadata> metadata;
+    const recordings::ParameterModelFile file = shipped_model_for(own, setup, metadata);
+    DecisionConfig config;
+    if (metadata) configure(config, metadata->configuration);
+    config.sample_rate = setup.sample_rate;
+    config.geometry = setup.legs.value_or(LegGeometry{});
+    return std::make_unique<EvidenceCurves>(evidence_model_of(file.parameters), config);
+  };
+  return entry;
+}
+
 }  // namespace
+
+const char* shipped_file(std::string_view estimator) {
+  return estimator == "shipped_quiet" ? "models/evidence_curves_quiet.npz"
+                                      : "models/evidence_curves.npz";
+}
 
 EstimatorEntry decision_network_entry() {
   return {
       .name = "decision_network",
       .title = "Decision network",
       .summary = "Classifies each wheel's load and motion at eight time scales by a small network",
+      .reason = "reference: what the transparency of evidence curves costs",
       .sensors = {.hip_torque = true,
                   .knee_torque = true,
                   .wheel_torque = true,
                   .acceleration = true,
                   .joint_position = true,
                   .joint_velocity = true},
+      .knows = {.geometry = true, .mass = true, .targets = true},
       .fit = fit_network,
       .learns_from_segments = true,
-      .hyperparameters = and_thresholds({decay()}),
-      .make = make_fitted<DecisionNetwork, decision_model_of>};
+      .hyperparameters = and_thresholds({decay()}, network_point),
+      .make = make_network};
 }
 
 EstimatorEntry evidence_curves_entry() {
   EstimatorEntry entry = decision_network_entry();
   entry.name = "evidence_curves";
   entry.title = "Evidence curves";
-  entry.summary =
-      "Adds one curve per input of the decision network, as its interpretable counterpart";
-  entry.fit = fit_evidence<false>;
+  entry.summary = "Adds up one curve of evidence for each of the wheel's loads and motions";
+  entry.reason = "accuracy and transparency";
+  entry.fit = fit_evidence;
   entry.hyperparameters = and_thresholds({smoothness()});
-  entry.make = make_fitted<EvidenceCurves, evidence_model_of>;
+  entry.make = make_curves;
   return entry;
 }
 
-EstimatorEntry evidence_pairs_entry() {
-  EstimatorEntry entry = evidence_curves_entry();
-  entry.name = "evidence_pairs";
-  entry.title = "Evidence curves and pairs";
-  entry.summary = "Adds the evidence curves and tables for a few pairs of inputs";
-  entry.fit = fit_evidence<true>;
-  return entry;
-}
+EstimatorEntry quiet_evidence_curves_entry() { return at_quiet_point(evidence_curves_entry()); }
 
-EstimatorEntry touchdown_entry() {
-  EstimatorEntry entry = decision_network_entry();
-  entry.name = "touchdown";
-  entry.title = "Touchdown";
-  entry.summary = "Averages the logits of the evidence curves and the decision network";
-  entry.fit = fit_touchdown;
-  entry.hyperparameters = and_thresholds({decay(), smoothness()});
-  entry.make = make_fitted<TouchdownEstimator, touchdown_model_of>;
-  return entry;
-}
+EstimatorEntry shipped_curves_entry() { return shipped_entry("shipped", evidence_curves_entry()); }
 
-EstimatorEntry shipped_touchdown_entry() {
-  EstimatorEntry entry = touchdown_entry();
-  entry.name = "touchdown_shipped";
-  entry.title = "Touchdown, shipped";
-  entry.summary =
-      "Runs `touchdown` with the shipped model, fitted to Upkie on bent and straight legs";
-  entry.fit = nullptr;
-  entry.learns_from_segments = false;
-  entry.trained_by = "scripts/fit_shipped_model.sh";
-  entry.hyperparameters = {};
-  entry.require_served = [](const EstimatorSetup& setup) { (void)shipped_model_for(setup); };
-  entry.make = [](const EstimatorEntry& /*entry*/,
-                  const EstimatorSetup& setup) -> EstimatorPointer {
-    return std::make_unique<TouchdownEstimator>(
-        touchdown_model_of(shipped_model_for(setup).parameters),
-        DecisionConfig{.sample_rate = setup.sample_rate,
-                       .geometry = setup.legs.value_or(LegGeometry{})});
-  };
-  return entry;
+EstimatorEntry quiet_shipped_curves_entry() {
+  return shipped_entry("shipped_quiet", quiet_evidence_curves_entry());
 }
 
 std::optional<EvidenceModel> evidence_in(const FittedModel& model) {
   if (!model.parameters) return {};
   const std::string& estimator = model.parameters->estimator;
-  if (!estimator.starts_with("evidence_") && estimator != "touchdown") return {};
+  if (!estimator.starts_with("evidence_curves")) return {};
   return evidence_model_of(model.parameters->parameters);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "estimator/evidence/curves.hpp"
 #include "experiments/estimators/entry.hpp"
@@ -10,16 +11,17 @@ namespace touchdown::experiments {
 /// A small network with interpretable input features (estimator/decision).
 EstimatorEntry decision_network_entry();
 
-/// The network's interpretable counterpart, a generalised additive model of evidence curves
-/// (estimator/evidence): without tables for pairs of inputs, and with them.
+/// A generalised additive model of evidence curves (estimator/evidence), the recommended estimator:
+/// at its balanced and at its quiet operating point.
 EstimatorEntry evidence_curves_entry();
-EstimatorEntry evidence_pairs_entry();
+EstimatorEntry quiet_evidence_curves_entry();
 
-/// The averaged logits of curves and network (estimator/evidence/touchdown.hpp).
-EstimatorEntry touchdown_entry();
+/// The same with the shipped models, for users without labelled runs.
+EstimatorEntry shipped_curves_entry();
+EstimatorEntry quiet_shipped_curves_entry();
 
-/// The same with the shipped model, for users without labelled runs.
-EstimatorEntry shipped_touchdown_entry();
+/// The file of the shipped model of `shipped` or `shipped_quiet` (core/resources.hpp).
+const char* shipped_file(std::string_view estimator);
 
 /// The evidence curves of a model, if it has any. Errors: `InputError` for incomplete curves.
 std::optional<EvidenceModel> evidence_in(const FittedModel& model);

@@ -75,6 +75,18 @@ EstimatorRunner runner_of(const EstimatorEntry& entry, const EstimatorSetup& set
                          : EstimatorRunner(entry.make(entry, setup));
 }
 
+std::string given_text(const EstimatorEntry& entry, bool servo_load) {
+  std::vector<std::string> given;
+  if (entry.knows.geometry) given.emplace_back("geometry");
+  if (entry.knows.mass) given.emplace_back("mass");
+  if (entry.knows.targets && servo_load) given.emplace_back("targets");
+  if (given.empty()) given.emplace_back("signals");
+  const char* const model = entry.fits()                ? "; fitted"
+                            : !entry.trained_by.empty() ? "; fitted elsewhere"
+                                                        : "";
+  return fmt::format("{}{}", fmt::join(given, ", "), model);
+}
+
 bool share_model(const EstimatorEntry& one, const EstimatorEntry& other) {
   if (one.fit == nullptr || one.fit != other.fit || one.fits() != other.fits()) return false;
   if (one.config) return one.config->measurement == other.config->measurement;

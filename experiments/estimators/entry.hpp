@@ -78,12 +78,21 @@ Hyperparameter whole_between(std::string name, double value, double lowest, doub
 /// Marks a hyperparameter that the fitted model depends on.
 Hyperparameter fitted_with(Hyperparameter hyperparameter);
 
+/// What an estimator is given about the robot, beside the signals of its sensors.
+struct RobotKnowledge {
+  bool geometry = false;  ///< lengths and masses of its legs
+  bool mass = false;      ///< its whole mass
+  bool targets = false;   ///< targets and gains of its joints, where a fit uses them
+};
+
 /// Everything that an experiment needs to know about an estimator. Most members are optional.
 struct EstimatorEntry {
   std::string name;     ///< in experiment files
   std::string title;    ///< for tables and figures
   std::string summary;  ///< one sentence: what it does
+  std::string reason;   ///< a phrase: on which axis one would prefer it to all others
   Sensors sensors;
+  RobotKnowledge knows = {};
   /// Whether it is a reference upper bound, not a candidate for a robot.
   bool is_upper_bound = false;
   /// The configuration of its measurement model, if it needs one.
@@ -107,7 +116,7 @@ struct EstimatorEntry {
                                             const EstimatorSetup& setup) = nullptr;
   /// Null for an estimator that serves every robot. Errors: `InputError` for a rate or a robot that
   /// its model does not serve; `make` throws the same.
-  void (*require_served)(const EstimatorSetup& setup) = nullptr;
+  void (*require_served)(const EstimatorEntry& entry, const EstimatorSetup& setup) = nullptr;
   /// Null for an estimator without a batched form. Returns nothing if that does not support such
   /// noise.
   std::optional<BatchedEstimator> (*batch)(const EstimatorEntry& entry, const EstimatorSetup& setup,
@@ -137,6 +146,10 @@ void check_names(const HyperparameterValues& values, const EstimatorEntry& entry
 
 /// Makes a runner for the estimator, which processes steps or whole runs.
 EstimatorRunner runner_of(const EstimatorEntry& entry, const EstimatorSetup& setup);
+
+/// What the estimator is given: "geometry, mass, targets; fitted". `servo_load`: whether fits use
+/// targets. "signals" if it is given nothing else.
+std::string given_text(const EstimatorEntry& entry, bool servo_load);
 
 /// Whether both estimators use the same fit.
 bool share_model(const EstimatorEntry& one, const EstimatorEntry& other);

@@ -151,10 +151,11 @@ std::optional<BatchedEstimator> neural_batch(const EstimatorEntry& entry,
 }  // namespace
 
 EstimatorEntry bayes_entry(const std::string& name, const std::string& summary,
-                           const BayesFilterConfig& config) {
+                           const std::string& reason, const BayesFilterConfig& config) {
   return {.name = name,
           .title = "Bayes filter (" + name + ")",
           .summary = summary,
+          .reason = reason,
           .sensors = {.knee_torque = true, .wheel_torque = true, .acceleration = true},
           .config = config,
           .fit = fit_measurement,
@@ -172,6 +173,7 @@ EstimatorEntry measurement_only_entry() {
       .name = "measurement_only",
       .title = "Measurement only",
       .summary = "Estimates contact from a wheel's current torques alone, the paper's ablation",
+      .reason = "history: the paper's ablation without the accelerometer",
       .sensors = {.knee_torque = true, .wheel_torque = true},
       .config = BayesFilterConfig::robust(),
       .fit = fit_measurement,
@@ -194,6 +196,7 @@ EstimatorEntry phase_entry() {
       .name = "phase",
       .title = "Phase filter",
       .summary = "Filters by a hidden Markov model of the phases between rolling and falling",
+      .reason = "data: 6 to 20 s of labels, no geometry; it names the phases",
       .sensors = {.knee_torque = true, .wheel_torque = true, .acceleration = true},
       .phase = config,
       .fit = fit_phase,
@@ -215,6 +218,7 @@ EstimatorEntry hmm_entry() {
   entry.name = "hmm";
   entry.title = "Two-state HMM";
   entry.summary = "Runs the phase filter without phases: each wheel is in contact or not";
+  entry.reason = "ablation of the phase filter";
   PhaseLabelConfig& labels = entry.phase->fit.labels;
   labels.unloading = labels.impact = {0.0, 0.0, 0.0};
   labels.held_margin = std::numeric_limits<double>::infinity();
@@ -229,6 +233,7 @@ EstimatorEntry neural_entry() {
   return {.name = "nmn",
           .title = "NMN",
           .summary = "Runs the paper's neural network on IMU, joints and command, without torques",
+          .reason = "history: the paper's neural baseline, without torques",
           .sensors = {.acceleration = true, .joint_position = true, .joint_velocity = true},
           .trained_by = "touchdown train",
           .hyperparameters = {between("threshold", NeuralEstimatorConfig{}.threshold, 0.2, 0.95)},
@@ -244,6 +249,7 @@ EstimatorEntry retrained_neural_entry() {
   entry.title = "NMN, retrained";
   entry.summary =
       "Runs the paper's network, retrained on the benchmark's fit scenes with sensor noise";
+  entry.reason = "history: the paper's neural baseline on this project's scenes";
   return entry;
 }
 

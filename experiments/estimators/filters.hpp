@@ -10,7 +10,7 @@ namespace touchdown::experiments {
 
 /// The paper's Bayes filter in one of its configurations.
 EstimatorEntry bayes_entry(const std::string& name, const std::string& summary,
-                           const BayesFilterConfig& config);
+                           const std::string& reason, const BayesFilterConfig& config);
 
 /// The paper's ablation: the robust measurement model without transitions.
 EstimatorEntry measurement_only_entry();

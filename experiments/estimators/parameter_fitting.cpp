@@ -36,7 +36,8 @@ FittedModel fit_parameters(const EstimatorEntry& entry, const FitRuns& runs,
     labelled.push_back({.signals = usable_signals(*run, copies),
                         .contact = {run->contact[0], run->contact[1]},
                         .sample_rate = 1.0 / period_of(*run),
-                        .skip = skipped_steps(*run, runs.scoring.skip)});
+                        .skip = skipped_steps(*run, runs.scoring.skip),
+                        .legs = run->legs});
   }
   return {.parameters =
               std::make_shared<const recordings::ParameterModelFile>(recordings::ParameterModelFile{

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/yaml.hpp"
+#include "estimator/models/former_names.hpp"
 #include "experiments/estimators/boosting.hpp"
 #include "experiments/estimators/decision.hpp"
 #include "experiments/estimators/filters.hpp"
@@ -27,14 +28,14 @@ const EstimatorEntry* find(std::span<const EstimatorEntry> entries, std::string_
 std::span<const EstimatorEntry> estimator_entries() {
   static const std::vector<EstimatorEntry> entries = {
       bayes_entry("robust", "Runs the paper's Bayes filter with changes for noisy sensors",
-                  BayesFilterConfig::robust()),
+                  "history: the paper's filter, for noisy sensors", BayesFilterConfig::robust()),
       bayes_entry("reference", "Runs the paper's Bayes filter as in the authors' robot code",
-                  BayesFilterConfig::reference()),
+                  "history: the authors' robot code", BayesFilterConfig::reference()),
       bayes_entry("paper", "Runs the paper's Bayes filter exactly as published",
-                  BayesFilterConfig::paper()),
+                  "history: the paper's filter", BayesFilterConfig::paper()),
       bayes_entry("paper_rms",
                   "Runs the paper's Bayes filter with the power read as a root mean square",
-                  BayesFilterConfig::paper_rms()),
+                  "history: another reading of the paper's filter", BayesFilterConfig::paper_rms()),
       measurement_only_entry(),
       phase_entry(),
       hmm_entry(),
@@ -47,10 +48,11 @@ std::span<const EstimatorEntry> estimator_entries() {
       force_kinematics_entry(),
       decision_network_entry(),
       evidence_curves_entry(),
-      evidence_pairs_entry(),
-      touchdown_entry(),
-      shipped_touchdown_entry(),
-      gradient_boosting_entry(),
+      quiet_evidence_curves_entry(),
+      shipped_curves_entry(),
+      quiet_shipped_curves_entry(),
+      boosted_channels_entry(),
+      boosted_signals_entry(),
       oracle_entry(),
       always_contact_entry(),
   };
@@ -68,6 +70,9 @@ const EstimatorEntry& estimator_entry(std::string_view name,
                                       std::span<const EstimatorEntry> external) {
   if (const EstimatorEntry* own = find(estimator_entries(), name)) return *own;
   if (const EstimatorEntry* entry = find(external, name)) return *entry;
+  if (const std::string_view present = present_name(name); !present.empty()) {
+    throw InputError(fmt::format("unknown estimator '{}': it is '{}' now", name, present));
+  }
   const std::vector<std::string> names = estimator_names(external);
   const std::string near = nearest(name, names);
   throw InputError(fmt::format("unknown estimator '{}': expected one of {}{}", name,

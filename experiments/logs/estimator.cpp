@@ -8,6 +8,7 @@
 #include "core/resources.hpp"
 #include "estimator/models/configuration.hpp"
 #include "estimator/numerics/number_text.hpp"
+#include "experiments/estimators/decision.hpp"
 #include "experiments/estimators/registry.hpp"
 
 namespace touchdown::experiments {
@@ -128,13 +129,24 @@ std::string LogEstimator::model_text() const {
                      robot_text(metadata.robot), metadata.fingerprint);
 }
 
+std::filesystem::path find_model(const std::filesystem::path& path) {
+  try {
+    return find_resource(path);
+  } catch (const InputError& error) {
+    if (path.filename() != "touchdown.npz") throw;
+    throw InputError(
+        fmt::format("{} (the shipped model is '{}' now)", error.what(), shipped_file("shipped")));
+  }
+}
+
 LogEstimator log_estimator(LogEstimatorRequest request) {
-  const bool is_shipped = request.name.empty() || request.name == "touchdown_shipped";
+  const bool is_shipped = request.name.empty() || request.name.starts_with("shipped");
   if (is_shipped && request.model.empty()) {
-    request.name = "touchdown";
-    request.model = shipped_model;
+    const char* const file = shipped_file(request.name);
+    request.name.clear();  // the model's own
+    request.model = file;
     LogEstimator estimator = log_estimator(std::move(request));
-    estimator.entry.title += fmt::format(" as shipped ({})", shipped_model);
+    estimator.entry.title += fmt::format(" as shipped ({})", file);
     return estimator;
   }
   if (!request.name.empty()) check_needs(estimator_entry(request.name), request.model);
@@ -145,7 +157,7 @@ LogEstimator log_estimator(LogEstimatorRequest request) {
     check_names(request.hyperparameters, entry);
     return {with_hyperparameters(entry, request.hyperparameters), none, request};
   }
-  request.model = find_resource(request.model);
+  request.model = find_model(request.model);
   const ModelKind kind = kind_of_model_file(request.model);
   FittedModel model = read_fitted_model(kind, request.model);
   const EstimatorEntry& entry =

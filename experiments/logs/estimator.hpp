@@ -11,9 +11,6 @@
 
 namespace touchdown::experiments {
 
-/// The model that is used without a request for another one (core/resources.hpp).
-inline constexpr const char* shipped_model = "models/touchdown.npz";
-
 /// An estimator to run on logs, and its model.
 struct LogEstimatorRequest {
   std::string name = {};             ///< empty: the one in the model's metadata
@@ -23,6 +20,10 @@ struct LogEstimatorRequest {
   bool transfer = false;
   HyperparameterValues hyperparameters = {};  ///< replace the model's; none that the fit uses
 };
+
+/// The file of a model, which may be one of the project's own (core/resources.hpp). Errors:
+/// `InputError` for a missing file, with its present name if it had another one before.
+std::filesystem::path find_model(const std::filesystem::path& path);
 
 /// An estimator for logs, with its fitted model.
 struct LogEstimator {

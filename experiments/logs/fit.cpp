@@ -220,7 +220,9 @@ std::vector<RunSignals> signals_of_logs(std::span<const FitLog> logs, const LogF
   std::vector<RunSignals> runs;
   for (const FitLog& log : logs) add_runs_of_log(log, config, check, report, runs);
   for (RunSignals& run : runs) {
-    run.legs = config.robot.legs.value_or(LegGeometry{});
+    const std::optional<LegGeometry> legs =
+        config.own_legs ? checked_robot({}, run.info).legs : config.robot.legs;
+    run.legs = legs.value_or(LegGeometry{});
     const std::size_t skipped = skipped_steps(run, config.skip);
     report.seconds += static_cast<double>(run.steps() - skipped) * period_of(run);
     for (const scoring::ContactSequence& contact : run.contact) {

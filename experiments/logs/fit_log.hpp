@@ -34,6 +34,8 @@ struct LogFitConfig {
   LogRobot robot = {};                        ///< of the logs; without legs: Upkie's
   HyperparameterValues hyperparameters = {};  ///< replace the estimator's defaults
   bool servo_load = false;                    ///< as in `FitRuns`
+  /// Whether every simulated log has the legs of its own robot's file, for fits to several robots.
+  bool own_legs = false;
   /// Stops with `Stopped` once true; may be null.
   const std::atomic<bool>* stop = nullptr;
 };

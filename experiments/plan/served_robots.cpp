@@ -22,7 +22,7 @@ void require_served(const Experiment& experiment, std::string_view estimator,
                     const scenarios::Scenario& scenario, scenarios::CompiledScenes& scenes) {
   const EstimatorEntry& entry = estimator_entry(experiment, estimator);
   if (entry.require_served == nullptr || experiment.transfer) return;
-  entry.require_served(robot_setup(experiment, scenario, scenes));
+  entry.require_served(entry, robot_setup(experiment, scenario, scenes));
 }
 
 void require_served(const Experiment& experiment, const Plan& plan) {

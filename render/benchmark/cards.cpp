@@ -54,7 +54,8 @@ std::string card(const BenchmarkScores& scores, const std::string& estimator,
     if (excess.empty() && !std::isnan(standing.excess_log_loss) &&
         !experiments::is_upper_bound(estimator)) {
       excess = fmt::format(
-          " Its log loss exceeds that of the reference upper bound by {:.3f} bits per wheel and "
+          " Its log loss exceeds that of the best reference upper bound by {:.3f} bits per wheel "
+          "and "
           "step ({}, {}).",
           standing.excess_log_loss, standing.setting, standing.noise);
     }

@@ -1,8 +1,9 @@
 #include "render/benchmark/standings_figure.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -22,8 +23,7 @@ constexpr double worst_width = 230.0, words_width = 170.0, gap_y = 84.0;
 /// One noise setting.
 struct Panel {
   std::vector<Standing> standings;
-  /// The reference upper bound's mean, where there is one; it has no rank.
-  std::optional<double> upper_bound = {};
+  std::vector<Standing> upper_bounds = {};  ///< without ranks
 };
 
 /// The ranks of neighbours that do not differ significantly.
@@ -87,13 +87,32 @@ std::string data_of(const std::vector<Panel>& panels, const BenchmarkScores& sco
   return text;
 }
 
+/// The lines of the reference upper bounds, in turn.
+struct BoundLine {
+  int dash_type;  ///< gnuplot's number
+  const char* text;
+};
+constexpr std::array<BoundLine, 2> bound_lines = {{{2, "dashed"}, {3, "dotted"}}};
+
+const BoundLine& line_of(std::size_t bound) { return bound_lines[bound % bound_lines.size()]; }
+
+/// A sentence about the lines of the reference upper bounds; empty without any.
+std::string legend_of(const std::vector<Standing>& upper_bounds) {
+  std::string text;
+  for (std::size_t i = 0; i < upper_bounds.size(); ++i) {
+    text += fmt::format("{}{}, {}", i > 0 ? "; " : " Reference upper bounds: ", line_of(i).text,
+                        experiments::estimator_title(upper_bounds[i].estimator));
+  }
+  return text.empty() ? text : text + ".";
+}
+
 std::string described(const std::vector<Panel>& panels) {
   std::string text = "Mean balanced accuracy, the best first.";
   for (const Panel& panel : panels) {
     fmt::format_to(std::back_inserter(text), " {}:", panel.standings.front().noise);
-    if (panel.upper_bound) {
-      fmt::format_to(std::back_inserter(text), " reference upper bound {:.3f};",
-                     *panel.upper_bound);
+    for (const Standing& bound : panel.upper_bounds) {
+      fmt::format_to(std::back_inserter(text), " reference upper bound, {}, {:.3f};",
+                     experiments::estimator_title(bound.estimator), bound.mean.estimate);
     }
     for (const Standing& standing : panel.standings) {
       fmt::format_to(std::back_inserter(text), " {} {:.3f} (worst {:.3f}, {});",
@@ -122,7 +141,7 @@ Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& s
     if (panels.empty() || noise != standing.noise) panels.emplace_back();
     noise = standing.noise;
     if (experiments::is_upper_bound(standing.estimator)) {
-      panels.back().upper_bound = standing.mean.estimate;
+      panels.back().upper_bounds.push_back(standing);
       continue;
     }
     panels.back().standings.push_back(standing);
@@ -137,8 +156,7 @@ Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& s
           "runs, and over fits where these were repeated. A bar joins estimators that do not "
           "differ significantly: the simultaneous bands of their paired differences include zero. "
           "On the right, the worst scene of each estimator.{}",
-          100.0 * level,
-          panels.front().upper_bound ? " The dashed line is the reference upper bound." : ""),
+          100.0 * level, legend_of(panels.front().upper_bounds)),
       names_width + mean_width + bars_width + worst_width + words_width,
       static_cast<double>(panels.size()) * (height + gap_y));
   const std::string file = gnuplot_file(stem.filename().string() + ".dat");
@@ -153,10 +171,10 @@ Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& s
     }
     const double top = 24.0 + static_cast<double>(p) * (height + gap_y);
     commands += frame.panel(names_width, top, mean_width, height);
-    if (panels[p].upper_bound) {
+    for (std::size_t i = 0; i < panels[p].upper_bounds.size(); ++i) {
       commands += fmt::format(
-          "set arrow 1 from {0},graph 0 to {0},graph 1 nohead dt 2 lw 1.4 lc rgb '#22262b'\n",
-          number(*panels[p].upper_bound));
+          "set arrow {0} from {1},graph 0 to {1},graph 1 nohead dt {2} lw 1.4 lc rgb '#22262b'\n",
+          i + 1, number(panels[p].upper_bounds[i].mean.estimate), line_of(i).dash_type);
     }
     commands += fmt::format(
         "set border 1\nset title {0} offset 0,-0.6\nset yrange [-0.6:{1}]\nset xrange [{2:.2f}:1]\n"

@@ -101,8 +101,6 @@ std::vector<std::pair<std::string, EvidenceFigure>> evidence_figures(
     if (fitted == models->second.end()) continue;
     std::optional<EvidenceModel> model = experiments::evidence_in(fitted->second);
     if (!model) continue;
-    const bool has_pairs = !model->table.empty();
-    const bool has_network = estimator == "touchdown";
     figures.emplace_back(
         estimator,
         EvidenceFigure{
@@ -113,16 +111,13 @@ std::vector<std::pair<std::string, EvidenceFigure>> evidence_figures(
             fmt::format(
                 "Fitted to {}{}, seed {}; {}{}. The curves form an additive model (GAM) of the log "
                 "odds of contact: values above 0 are evidence for contact, values below 0 against "
-                "it. The estimator adds the values of all curves{}. Each curve averages 0 over the "
+                "it. The estimator adds the values of all curves. Each curve averages 0 over the "
                 "training data and covers all but two in a thousand of its rows. Axes are "
                 "compressed as the estimator's inputs are; those of noise levels are logarithmic.",
                 experiments::plural(fitted_runs(result, simulator), "run"),
                 experiment.training_segments.empty() ? "" : " and segments of others",
                 experiment.seed, experiments::labels_text(experiment),
-                experiments::setup_caption(experiment),
-                has_pairs     ? " and terms for pairs of inputs"
-                : has_network ? " and averages the sum with the network's output"
-                              : "")});
+                experiments::setup_caption(experiment))});
   }
   return figures;
 }

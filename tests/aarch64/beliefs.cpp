@@ -120,10 +120,7 @@ void print_all_beliefs() {
   print_beliefs("load_logistic", LoadLogistic(fit_load_logistic(labels)), signals);
   print_beliefs("force_kinematics", ForceKinematics(fit_force_kinematics(labels)), signals);
   print_beliefs("decision_network", DecisionNetwork(test::random_model(2)), signals);
-  print_beliefs("evidence_pairs", EvidenceCurves(test::random_curves(2)), signals);
-  print_beliefs("touchdown",
-                TouchdownEstimator({test::random_curves(3, false), test::random_model(3)}),
-                signals);
+  print_beliefs("evidence_curves", EvidenceCurves(test::random_curves(2)), signals);
   print_beliefs("upkie_observer", UpkieObserver(), signals);
 }
 

@@ -108,7 +108,7 @@ double balanced_accuracy(const std::filesystem::path& csv, const recordings::Rec
 TEST(Bag, OfAnotherRobotGivesBeliefsAsGoodAsTheRunsOwnLog) {
   const ScratchFolder folder;
   const std::string scenario = TOUCHDOWN_SOURCE_DIR "/scenarios/hop.yaml";
-  const std::string model = TOUCHDOWN_SOURCE_DIR "/models/touchdown.npz";
+  const std::string model = TOUCHDOWN_SOURCE_DIR "/models/evidence_curves.npz";
   ASSERT_EQ(touchdown_program("simulate " + scenario + " -o run.mpack", folder.path()).exit_code,
             0);
   const recordings::Recording run = recordings::read_recording(folder / "run.mpack");

@@ -161,8 +161,8 @@ TEST_F(Fit, OfParametersEqualsTheFitOfExperiments) {
   log("a.mpack", test::synthetic_log(3.0));
   const experiments::RunSignals run = experiments::signals_of(
       recordings::read_recording(folder_ / "a.mpack"), {}, {}, scoring::SampleUnit::run);
-  for (const std::string name :
-       {"load_logistic", "force_kinematics", "decision_network", "evidence_curves", "touchdown"}) {
+  for (const std::string name : {"load_logistic", "force_kinematics", "decision_network",
+                                 "evidence_curves", "evidence_curves_quiet"}) {
     EXPECT_THAT(fit("a.mpack -o m.npz --estimator " + name), HasSubstr("2.700 s of 1 log"));
     const experiments::EstimatorEntry& entry = experiments::estimator_entry(name);
     const recordings::ParameterModelFile written =

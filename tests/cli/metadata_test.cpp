@@ -115,10 +115,23 @@ TEST_F(Metadata, OfARobotsFileHasItsLegs) {
   }
 }
 
+TEST_F(Metadata, OfFormerNamesIsReplacedByThePresentOnes) {
+  const std::string present = "(the shipped model is 'models/evidence_curves.npz' now)";
+  for (const char* verb :
+       {"estimate a.mpack --model models/touchdown.npz", "export models/touchdown.npz -o x.npz",
+        "export models/touchdown.npz -o x.hpp"}) {
+    EXPECT_THAT(complaint_about(verb), HasSubstr(present)) << verb;
+  }
+  EXPECT_THAT(complaint_about("estimate a.mpack --estimator touchdown"),
+              HasSubstr("unknown estimator 'touchdown': it is 'evidence_curves' now"));
+  EXPECT_THAT(complaint_about("fit a.mpack -o x.npz --estimator evidence_pairs"),
+              HasSubstr("it is 'evidence_curves' now"));
+}
+
 TEST_F(Metadata, OfAModelExportedForAnotherRobotHasItsLegs) {
-  const std::string shipped = "models/touchdown.npz";
+  const std::string shipped = "models/evidence_curves.npz";
   EXPECT_THAT(run("export " + shipped + " --robot models/upkie_long_legs.yaml -o long.npz"),
-              AllOf(HasSubstr("model     long.npz, for 'touchdown' at 1000 Hz on "
+              AllOf(HasSubstr("model     long.npz, for 'evidence_curves' at 1000 Hz on "
                               "'upkie_long_legs', fingerprint "),
                     HasSubstr("next      touchdown estimate LOG --model long.npz\n")));
   const auto beliefs = [&](const std::string& model_and_flags) {

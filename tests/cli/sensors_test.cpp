@@ -5,6 +5,7 @@
 
 #include "core/files.hpp"
 #include "program.hpp"
+#include "recordings/log/recording_file.hpp"
 #include "result_files.hpp"
 
 namespace touchdown::cli {
@@ -35,6 +36,42 @@ TEST(Sensors, ThatAreIdealGiveTheBytesOfAnExperimentThatNamesNone) {
   EXPECT_THAT(different_files(none, ideal), IsEmpty());
   EXPECT_THAT(read_file(folder / "ideal/config.yaml"), Not(HasSubstr("sensors")));
   EXPECT_THAT(read_file(folder / "none/tables/tables.md"), Not(HasSubstr("sensors as in")));
+}
+
+TEST(Sensors, ReportTheSignalsOfASimulatedRun) {
+  const ScratchFolder folder;
+  folder.write("lossy.yaml", "records: {dropout: {rate: 2.0, length: 0.003}}\n");
+  const auto simulated = [&](const std::string& name, const std::string& flags) {
+    const Ended ended = touchdown_program(
+        "simulate drawn:hops_7_000 --run 2 --set end.duration=1.5 -o " + name + ".mpack " + flags,
+        folder.path());
+    EXPECT_EQ(ended.exit_code, 0) << ended.errors;
+    return recordings::read_recording(folder / (name + ".mpack"));
+  };
+  const recordings::Recording ideal = simulated("none", "");
+  EXPECT_EQ(simulated("ideal", "--sensors sensors/ideal.yaml").steps(), ideal.steps());
+  EXPECT_EQ(read_file(folder / "ideal.mpack"), read_file(folder / "none.mpack"));
+
+  const recordings::Recording upkie = simulated("upkie", "--sensors sensors/upkie.yaml");
+  ASSERT_EQ(upkie.steps(), ideal.steps());
+  std::size_t changed = 0;
+  for (std::size_t k = 0; k < ideal.steps(); ++k) {
+    EXPECT_EQ(upkie.truth[k].wheel_normal_force, ideal.truth[k].wheel_normal_force);
+    changed +=
+        upkie.observation[k].servo[1].torque != ideal.observation[k].servo[1].torque ? 1U : 0U;
+    // A servo tracks its target with the zero that it reports.
+    EXPECT_NEAR(upkie.action[k].servo[1].position - ideal.action[k].servo[1].position,
+                upkie.action[0].servo[1].position - ideal.action[0].servo[1].position, 1e-12);
+  }
+  EXPECT_GT(changed, ideal.steps() * 9 / 10);
+  EXPECT_NE(upkie.action[0].servo[1].position, ideal.action[0].servo[1].position);
+  simulated("again", "--sensors sensors/upkie.yaml");
+  EXPECT_EQ(read_file(folder / "again.mpack"), read_file(folder / "upkie.mpack"));
+
+  const Ended missing = touchdown_program(
+      "simulate scenarios/flat.yaml -o x.mpack --sensors sensors/upkei.yaml", folder.path());
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_THAT(missing.errors, HasSubstr("sensors/upkei.yaml: no such file (did you mean"));
 }
 
 TEST(Sensors, ChangeSignalsAndFitsButNotRecordings) {

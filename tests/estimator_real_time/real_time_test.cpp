@@ -14,7 +14,6 @@
 #include "estimator/bayes/measurement_only.hpp"
 #include "estimator/decision/filter.hpp"
 #include "estimator/evidence/filter.hpp"
-#include "estimator/evidence/touchdown.hpp"
 #include "estimator/force/force_kinematics.hpp"
 #include "estimator/force/load_logistic.hpp"
 #include "estimator/force/support_force.hpp"
@@ -148,13 +147,11 @@ TEST_F(RealTime, EstimatorsFromForcesAllocateNothing) {
   ForceKinematics force_kinematics({.air = {}, .contact = {.force_mean = 26.0}});
   DecisionNetwork decision_network(test::random_model(1));
   EvidenceCurves evidence_curves(test::random_curves(1));
-  TouchdownEstimator touchdown({test::random_curves(2, false), test::random_model(2)});
   for (ContactEstimator* const estimator : {static_cast<ContactEstimator*>(&support_force),
                                             static_cast<ContactEstimator*>(&load_logistic),
                                             static_cast<ContactEstimator*>(&force_kinematics),
                                             static_cast<ContactEstimator*>(&decision_network),
-                                            static_cast<ContactEstimator*>(&evidence_curves),
-                                            static_cast<ContactEstimator*>(&touchdown)}) {
+                                            static_cast<ContactEstimator*>(&evidence_curves)}) {
     estimator->update(stream.front());
     EXPECT_NE(estimator->update(stream[1]).wheel[0].p_contact, 0.5);
     EXPECT_EQ(allocations_of([&] {

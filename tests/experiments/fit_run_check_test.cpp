@@ -50,7 +50,7 @@ const std::array<scoring::ContactSequence, 2> lifts_left = {{{1, 0}, {1, 1}}};
 TEST(FitRunCheck, NamesWhatTheRunsOfAFitLackTheEstimatorsAndTheScenes) {
   EXPECT_THAT(
       [] {
-        check({{"free_fall", "phase", "hmm", "touchdown"}, rolls, lifts_left});
+        check({{"free_fall", "phase", "hmm", "evidence_curves"}, rolls, lifts_left});
       },
       ThrowsMessage<InputError>("fit on bullet: phase, hmm: fit.scenarios contain no "
                                 "flight: scene_0, scene_1"));

@@ -51,7 +51,7 @@ std::vector<double> beliefs_of(ContactEstimator& estimator) {
 
 TEST_F(LoadEstimator, BelievesWhatWasFitted) {
   for (const std::string name :
-       {"robust", "phase", "decision_network", "evidence_pairs", "touchdown"}) {
+       {"robust", "phase", "decision_network", "evidence_curves", "evidence_curves_quiet"}) {
     const ModelArrays arrays = test::fitted_model(name);
     EXPECT_EQ(beliefs_of(*load_estimator(file("m.npz", arrays), {.robot = "upkie"})),
               beliefs_of(*make_estimator(arrays)))

@@ -11,7 +11,7 @@
 namespace touchdown {
 namespace {
 
-const std::string shipped = std::string(TOUCHDOWN_SOURCE_DIR) + "/models/touchdown.npz";
+const std::string shipped = std::string(TOUCHDOWN_SOURCE_DIR) + "/models/evidence_curves.npz";
 
 /// The complaint of C about a rate, or a robot; empty if the estimator was created.
 std::string complaint_of_c(double rate, const char* robot = nullptr) {

@@ -113,6 +113,12 @@ class Run(InFolder):
         self.assertEqual({touchdown.STATUS[k] for k in without["status"]}, {"degraded"})
         np.testing.assert_array_equal(run["target_position"][1:, 1], run["command_position"][:-1, 1])
         np.testing.assert_array_equal(run["target_kp"][1:, 3], 20.0 * run["command_kp_scale"][:-1, 3])
+        for name in ("evidence_curves", "decision_network"):  # a fit in Python equals that of the program
+            program("fit", "hop.mpack", "--servo-load", "--estimator", name, "-o", "of_program.npz")
+            expected = touchdown.Estimator(model="of_program.npz").run(run)
+            fitted = touchdown.Estimator(model=touchdown.fit(run, name, servo_load=True)).run(run)
+            np.testing.assert_array_equal(fitted["p_contact"], expected["p_contact"])
+            np.testing.assert_array_equal(fitted["status"], expected["status"])
         self.assertTrue(np.isnan(run["target_kp"][0]).all())
 
     def test_names_the_signal_that_no_sensor_reports(self):
@@ -234,8 +240,9 @@ class OwnArrays(InFolder):
         run = hop()
         for name, model, used in (("free_fall", None, ("vertical_acceleration",)),
                                   ("robust", touchdown.fit(run, "robust"), ("torque", "vertical_acceleration")),
-                                  ("touchdown_shipped", None, ("position", "velocity", "torque", "angular_velocity",
-                                                               "vertical_acceleration"))):
+                                  ("evidence_curves", touchdown.fit(run),
+                                   ("position", "velocity", "torque", "angular_velocity",
+                                    "vertical_acceleration"))):
             estimator = touchdown.Estimator(name, model)
             few = {key: run[key] for key in ("time", *used)}
             np.testing.assert_array_equal(estimator.run(few)["p_contact"], estimator.run(run)["p_contact"])
@@ -261,8 +268,8 @@ class OwnArrays(InFolder):
 class Shipped(InFolder):
     def test_is_used_without_a_name_and_a_model(self):
         run = hop()
-        expected = touchdown.Estimator("touchdown", "models/touchdown.npz").run(run)["p_contact"]
-        for estimator in (touchdown.Estimator(), touchdown.Estimator("touchdown_shipped")):
+        expected = touchdown.Estimator("evidence_curves", "models/evidence_curves.npz").run(run)["p_contact"]
+        for estimator in (touchdown.Estimator(), touchdown.Estimator("shipped")):
             np.testing.assert_array_equal(estimator.run(run)["p_contact"], expected)
 
     def test_serves_other_rates_and_refuses_other_robots_without_transfer(self):

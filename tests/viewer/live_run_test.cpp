@@ -21,7 +21,7 @@ LiveScene standing(const std::string& engine) {
 
 std::vector<experiments::LogEstimator> some_estimators() {
   std::vector<experiments::LogEstimator> estimators;
-  for (const char* const name : {"touchdown_shipped", "support_force", "free_fall"}) {
+  for (const char* const name : {"shipped", "support_force", "free_fall"}) {
     estimators.push_back(experiments::log_estimator({.name = name, .transfer = true}));
   }
   return estimators;

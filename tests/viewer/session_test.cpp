@@ -53,7 +53,7 @@ TEST(WatchSession, LiftsDrivesAndSwitchesAndTheRecordingsRepeat) {
   const auto driven = folder / "run_2.mpack";
   const auto in_bullet = folder / "run_3.mpack";
   ASSERT_EQ(watch(folder, script,
-                  "scenarios/flat.yaml --estimator touchdown_shipped --estimator support_force "
+                  "scenarios/flat.yaml --estimator shipped --estimator support_force "
                   "--record " +
                       quoted(lifted)),
             0)
@@ -128,7 +128,7 @@ TEST(WatchSession, RefusesWhatCannotBeWatched) {
                          {"models/upkee.xml", "upkie.xml"},
                          {"experiments/stairs.yaml", "an experiment"},
                          {quoted(folder / "empty.mpack"), "empty.mpack"},
-                         {"scenarios/flat.yaml --estimator tuchdown", "touchdown"},
+                         {"scenarios/flat.yaml --estimator evidence_curvs", "evidence_curves"},
                          {"scenarios/flat.yaml --estimator robust", "--model"},
                          {"scenarios/flat.yaml --estimator oracle", "oracle"},
                          {"scenarios/flat.yaml --simulator bulet", "bulet"},

@@ -65,7 +65,7 @@ int watch(Flags& flags, const std::atomic<bool>& stop) {
 int run_program(int argc, char** argv) {
   CLI::App program(
       "touchdown watch scenarios/stairs.yaml\n"
-      "touchdown watch my_robot.xml --estimator touchdown_shipped --estimator support_force\n"
+      "touchdown watch my_robot.xml --estimator shipped --estimator support_force\n"
       "touchdown watch run.mpack\n\n"
       "Shows a robot in a window while estimators run on it. A scenario or a robot is simulated "
       "in\n"

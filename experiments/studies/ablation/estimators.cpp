@@ -18,6 +18,7 @@ EstimatorEntry hmm_without_memory_entry() {
   entry.name = hmm_without_memory;
   entry.title = hmm_without_memory;
   entry.summary = "Runs the two-state HMM with uniform transition probabilities";
+  entry.reason = "ablation of the phase filter";
   entry.phase->fit.pseudo_count = 1e12;
   return entry;
 }
@@ -32,7 +33,7 @@ std::vector<EstimatorEntry> ablation_estimators() {
         bayes_entry(step.name,
                     fmt::format("Runs `{}` with {}, an ablation step from paper to robust", before,
                                 step.change),
-                    step.config));
+                    "ablation of the paper's filter", step.config));
     entries.back().title = step.name;  // as tables name estimators outside the registry
     before = step.name;
   }

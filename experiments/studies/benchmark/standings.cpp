@@ -135,11 +135,11 @@ std::vector<Standings::Entry> entries_of(const Rows& rows, const std::vector<Nam
     entry.log_loss /= static_cast<double>(entry.scored);
     entries.push_back(std::move(entry));
   }
-  const auto upper_bound = std::find_if(entries.begin(), entries.end(), is_upper_bound_entry);
-  for (Standings::Entry& entry : entries) {
-    entry.excess_log_loss = upper_bound == entries.end() ? std::numeric_limits<double>::quiet_NaN()
-                                                         : entry.log_loss - upper_bound->log_loss;
+  double least = std::numeric_limits<double>::quiet_NaN();  // of the upper bounds
+  for (const Standings::Entry& entry : entries) {
+    if (is_upper_bound_entry(entry)) least = std::fmin(least, entry.log_loss);
   }
+  for (Standings::Entry& entry : entries) entry.excess_log_loss = entry.log_loss - least;
   std::stable_sort(entries.begin(), entries.end(), [](const auto& one, const auto& other) {
     return one.mean.estimate > other.mean.estimate;
   });

@@ -21,13 +21,13 @@ struct Standings {
     double worst = 0.0;  ///< lowest balanced accuracy over scenes and engines
     std::string worst_scene;
     std::string worst_simulator;
-    /// Whether the simultaneous band of its difference from the best includes zero. The reference
-    /// upper bound never counts as the best.
+    /// Whether the simultaneous band of its difference from the best includes zero. Reference upper
+    /// bounds never count as the best.
     bool is_not_significantly_worse = false;
     /// Mean log loss over scenes and engines (bits per wheel and step).
     double log_loss = 0.0;
-    /// Log loss minus that of the reference upper bound (bits per wheel and step). NaN without an
-    /// upper bound.
+    /// Log loss minus the least one of the reference upper bounds (bits per wheel and step). NaN
+    /// without an upper bound.
     double excess_log_loss = 0.0;
     std::size_t scored = 0;   ///< pairs of scene and engine with a scored run
     std::size_t planned = 0;  ///< pairs of scene and engine

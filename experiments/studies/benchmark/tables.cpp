@@ -2,12 +2,14 @@
 
 #include <cmath>
 #include <set>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/files.hpp"
 #include "core/tables/verbs.hpp"
+#include "experiments/estimators/registry.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/results/json_table.hpp"
 #include "experiments/tables/noise_columns.hpp"
@@ -157,15 +159,29 @@ Table scene_table(const std::vector<BenchmarkRow>& rows, const Experiment& exper
   return table;
 }
 
+/// What the estimator is given; "–" for submissions.
+std::string given_in(const Experiment& experiment, const std::string& estimator) {
+  const auto find = [&](std::span<const EstimatorEntry> entries) -> const EstimatorEntry* {
+    for (const EstimatorEntry& entry : entries) {
+      if (entry.name == estimator) return &entry;
+    }
+    return nullptr;
+  };
+  if (find(experiment.external_estimators) != nullptr) return "signals";
+  const EstimatorEntry* const own = find(estimator_entries());
+  return own == nullptr ? "–" : given_text(*own, experiment.fit_servo_load);
+}
+
 std::string standings_text(const Standings& standings, const Experiment& experiment) {
   const bool has_upper_bound = !std::isnan(standings.entries.front().excess_log_loss);
-  Table table{{"", "mean", "not significantly worse than the best", "worst", "in"}, {}};
+  Table table{{"", "mean", "not significantly worse than the best", "worst", "in", "given"}, {}};
   if (has_upper_bound) table.header.emplace_back("excess log loss (bits)");
   for (const Standings::Entry& entry : standings.entries) {
     table.rows.push_back({estimator_title_in(experiment, entry.estimator),
                           with_interval(entry.mean), entry.is_not_significantly_worse ? "yes" : "",
                           fmt::format("{:.3f}", entry.worst),
-                          fmt::format("{}, {}", entry.worst_scene, entry.worst_simulator)});
+                          fmt::format("{}, {}", entry.worst_scene, entry.worst_simulator),
+                          given_in(experiment, entry.estimator)});
     if (has_upper_bound) table.rows.back().push_back(fmt::format("{:.3f}", entry.excess_log_loss));
   }
   const Standings::Entry& first = standings.entries.front();

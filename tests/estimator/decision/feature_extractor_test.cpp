@@ -165,6 +165,7 @@ TEST(FeatureExtractor, GivesPairInputsAsSumsAndDifferencesOfTheWheelsInputs) {
   features.compute_inputs();
   const DecisionInputs of_left = features.inputs(0);
   const DecisionInputs of_right = features.inputs(1);
+  features.compute_pair_inputs();
   const DecisionPairInputs pair = features.pair_inputs();
   for (std::size_t i = 0; i < of_legs; ++i) {
     EXPECT_EQ(pair.common[i], of_left[i] + of_right[i]);
@@ -242,6 +243,7 @@ TEST(FeatureExtractor, ServoLoadIsTheLoadWithoutItsTorques) {
         EXPECT_NEAR(features.servo_load(side)[i], compressed(expected / 5.0), 1e-3) << i;
       }
     }
+    features.compute_pair_inputs();
     const auto pair = features.pair_inputs();
     for (std::size_t i = 0; i < decision_scales; ++i) {
       const float left = features.left_servo_load()[i];

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "estimator/evidence/pairs.hpp"
 #include "tests/estimator/evidence/random_curves.hpp"
 
 namespace touchdown {
@@ -31,27 +30,16 @@ double logit_of(const EvidenceModel& model, const DecisionInputs& inputs) {
       sum += share_of_knot(inputs[i], k, evidence_knots) * model.curve[i][k];
     }
   }
-  for (std::size_t p = 0; p < model.table.size(); ++p) {
-    for (std::size_t row = 0; row < evidence_pair_knots; ++row) {
-      for (std::size_t column = 0; column < evidence_pair_knots; ++column) {
-        sum += share_of_knot(inputs[evidence_pairs[p].first], row, evidence_pair_knots) *
-               share_of_knot(inputs[evidence_pairs[p].second], column, evidence_pair_knots) *
-               model.table[p][row * evidence_pair_knots + column];
-      }
-    }
-  }
   return sum;
 }
 
-TEST(EvidenceLogit, AddsTheContributionsOfAllCurvesAndTables) {
-  for (const bool with_pairs : {false, true}) {
-    const EvidenceModel model = test::random_curves(1, with_pairs);
-    test::Normal normal(2);
-    for (int round = 0; round < 200; ++round) {
-      DecisionInputs inputs{};
-      for (float& x : inputs) x = static_cast<float>(3.0 * normal());
-      ASSERT_NEAR(evidence_logit(model, inputs), logit_of(model, inputs), 1e-4) << round;
-    }
+TEST(EvidenceLogit, AddsTheContributionsOfAllCurves) {
+  const EvidenceModel model = test::random_curves(1);
+  test::Normal normal(2);
+  for (int round = 0; round < 200; ++round) {
+    DecisionInputs inputs{};
+    for (float& x : inputs) x = static_cast<float>(3.0 * normal());
+    ASSERT_NEAR(evidence_logit(model, inputs), logit_of(model, inputs), 1e-4) << round;
   }
 }
 
@@ -67,19 +55,17 @@ DecisionInputs of_the_other(const DecisionInputs& inputs) {
 }
 
 TEST(PairedEvidence, EqualsTheLogitOfEachWheelAlone) {
-  for (const bool with_pairs : {false, true}) {
-    const EvidenceModel model = test::random_curves(6, with_pairs);
-    const PairedEvidence paired(model);
-    test::Normal normal(7);
-    for (int round = 0; round < 200; ++round) {
-      DecisionInputs left{};
-      for (float& x : left) x = static_cast<float>(2.0 * normal());
-      const DecisionInputs right = of_the_other(left);
-      const std::array<float, 2> logits = paired.logits(left);
-      ASSERT_NEAR(logits[0], logit_of(model, left), 1e-4) << round;
-      ASSERT_NEAR(logits[1], logit_of(model, right), 1e-4) << round;
-      ASSERT_GT(std::abs(logits[0] - logits[1]), 1e-4) << round;
-    }
+  const EvidenceModel model = test::random_curves(6);
+  const PairedEvidence paired(model);
+  test::Normal normal(7);
+  for (int round = 0; round < 200; ++round) {
+    DecisionInputs left{};
+    for (float& x : left) x = static_cast<float>(2.0 * normal());
+    const DecisionInputs right = of_the_other(left);
+    const std::array<float, 2> logits = paired.logits(left);
+    ASSERT_NEAR(logits[0], logit_of(model, left), 1e-4) << round;
+    ASSERT_NEAR(logits[1], logit_of(model, right), 1e-4) << round;
+    ASSERT_GT(std::abs(logits[0] - logits[1]), 1e-4) << round;
   }
 }
 
@@ -115,26 +101,15 @@ TEST(EvidenceModel, IsRefusedWithNumbersThatAreNotFinite) {
   broken.curve[81][32] = std::nanf("");
   refused(broken);
   broken = good;
-  broken.table.back().back() = HUGE_VALF;
+  broken.servo_curve.resize(2 * decision_scales);
+  broken.servo_curve[9][5] = HUGE_VALF;
   refused(broken);
   broken = good;
   broken.bias = -HUGE_VALF;
   refused(broken);
   broken = good;
-  broken.table.emplace_back();
+  broken.servo_curve.emplace_back();
   refused(broken);
-}
-
-TEST(EvidencePairs, AreDistinctAndOfTwoDifferentInputs) {
-  for (std::size_t p = 0; p < evidence_pairs.size(); ++p) {
-    EXPECT_LT(evidence_pairs[p].first, evidence_pairs[p].second);
-    EXPECT_LT(evidence_pairs[p].second, decision_inputs);
-    for (std::size_t other = 0; other < p; ++other) {
-      EXPECT_FALSE(evidence_pairs[p].first == evidence_pairs[other].first &&
-                   evidence_pairs[p].second == evidence_pairs[other].second)
-          << p << " " << other;
-    }
-  }
 }
 
 }  // namespace

@@ -19,16 +19,14 @@ using test::brief_fit;
 using test::lifted_curves;
 
 TEST(EvidenceCurves, LearnWhichWheelsCarryALoad) {
-  for (const bool with_pairs : {false, true}) {
-    EvidenceCurves estimator(lifted_curves(with_pairs));
-    EXPECT_GT(test::accuracy(estimator, test::lifted_run(2, 2)), 0.99) << with_pairs;
-    EvidenceCurves in_noise(lifted_curves(with_pairs));
-    EXPECT_GT(test::accuracy(in_noise, test::lifted_run(2, 3, 0.5)), 0.95) << with_pairs;
-  }
+  EvidenceCurves estimator(lifted_curves());
+  EXPECT_GT(test::accuracy(estimator, test::lifted_run(2, 2)), 0.99);
+  EvidenceCurves in_noise(lifted_curves());
+  EXPECT_GT(test::accuracy(in_noise, test::lifted_run(2, 3, 0.5)), 0.95);
 }
 
 TEST(EvidenceCurves, GiveMoreEvidenceForContactUnderMoreLoad) {
-  const EvidenceModel& model = lifted_curves(false);
+  const EvidenceModel& model = lifted_curves();
   DecisionInputs none{};
   DecisionInputs carries{};
   for (std::size_t scale = 0; scale < decision_scales; ++scale) {
@@ -57,7 +55,7 @@ TEST(EvidenceCurves, AreCalibratedForAnyClassWeights) {
   const test::CarriedRun fitted = test::overlapping_loads(normal);
   const test::CarriedRun others = test::overlapping_loads(normal);
   for (const double exponent : {0.0, -1.0}) {
-    EvidenceFitConfig config = brief_fit(false);
+    EvidenceFitConfig config = brief_fit();
     config.descent.passes = 1;
     config.descent.class_exponent = exponent;
     config.descent.augmentation.largest_torque_noise = 0.0;
@@ -116,11 +114,11 @@ TEST(EvidenceCurves, RefuseInvalidValues) {
   EvidenceModel broken;
   broken.curve[0][0] = std::nanf("");
   EXPECT_THROW(EvidenceCurves{broken}, InputError);
-  EXPECT_THROW(static_cast<void>(fit_evidence_model({}, {}, brief_fit(false))), InputError);
+  EXPECT_THROW(static_cast<void>(fit_evidence_model({}, {}, brief_fit())), InputError);
   test::CarriedRun standing = test::lifted_run(1, 10);
   for (auto& wheel : standing.contact) wheel.assign(wheel.size(), 1);
-  EXPECT_THROW(static_cast<void>(fit_evidence_model(std::vector<LabelledRun>{standing.view()}, {},
-                                                    brief_fit(false))),
+  EXPECT_THROW(static_cast<void>(
+                   fit_evidence_model(std::vector<LabelledRun>{standing.view()}, {}, brief_fit())),
                InputError);
 }
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "estimator/evidence/pairs.hpp"
+#include "estimator/evidence/monotone.hpp"
 #include "tests/estimator/evidence/random_curves.hpp"
 #include "tests/estimator/random.hpp"
 
@@ -79,10 +79,7 @@ TEST(EvidenceTraining, CentresEveryCurveOverItsRows) {
       rows.inputs(i, row) += static_cast<float>(0.5 + normal());
     }
   }
-  EvidenceFitConfig config = brisk;
-  config.with_pairs = true;
-  const EvidenceModel model = train_evidence_model(rows, config);
-  ASSERT_EQ(model.table.size(), evidence_pairs.size());
+  const EvidenceModel model = train_evidence_model(rows, brisk);
   const auto mean_of = [&](const EvidenceModel& alone) {
     double sum = 0.0;
     for (Eigen::Index row = 0; row < rows.inputs.cols(); ++row) {
@@ -97,40 +94,15 @@ TEST(EvidenceTraining, CentresEveryCurveOverItsRows) {
     alone.curve[i] = model.curve[i];
     ASSERT_NEAR(mean_of(alone), 0.0, 1e-4) << i;
   }
-  for (std::size_t p = 0; p < model.table.size(); ++p) {
-    EvidenceModel alone;
-    alone.table.resize(evidence_pairs.size());
-    alone.table[p] = model.table[p];
-    ASSERT_NEAR(mean_of(alone), 0.0, 1e-4) << p;
-  }
-}
-
-/// Contact where both inputs of a pair have the same sign: neither gives evidence alone.
-TEST(EvidenceTraining, FindsAnInteractionInAPair) {
-  test::Normal normal(6);
-  DecisionRows rows = empty_rows(20'000);
-  const auto& [first, second] = evidence_pairs.front();
-  for (int row = 0; row < rows.inputs.cols(); ++row) {
-    const double x = 2.0 * normal();
-    const double y = 2.0 * normal();
-    rows.inputs(static_cast<int>(first), row) = static_cast<float>(x);
-    rows.inputs(static_cast<int>(second), row) = static_cast<float>(y);
-    rows.is_contact[row] = x * y > 0.0 ? 1.0F : 0.0F;
-  }
-  EvidenceFitConfig config = brisk;
-  const double alone = evidence_loss(train_evidence_model(rows, config), rows);
-  config.with_pairs = true;
-  const double together = evidence_loss(train_evidence_model(rows, config), rows);
-  EXPECT_NEAR(alone, std::log(2.0), 0.02);
-  EXPECT_LT(together, 0.5 * alone);
 }
 
 TEST(EvidenceTraining, IsSmootherTheLargerTheSmoothnessCost) {
-  const DecisionRows rows = two_gaussians(4000, 3, 7);
+  constexpr std::size_t input = 11;  // of the wheel's reaction: free to fall
+  const DecisionRows rows = two_gaussians(4000, input, 7);
   const auto roughness = [&](double smoothness) {
     EvidenceFitConfig config = brisk;
     config.smoothness = smoothness;
-    const EvidenceCurve curve = train_evidence_model(rows, config).curve[3];
+    const EvidenceCurve curve = train_evidence_model(rows, config).curve[input];
     double sum = 0.0;
     for (std::size_t k = 1; k < curve.size(); ++k) {
       sum += std::pow(static_cast<double>(curve[k] - curve[k - 1]), 2);
@@ -156,7 +128,6 @@ TEST(EvidenceLoss, HasTheGradientOfItsFiniteDifferences) {
   }
   EvidenceModel gradient;
   static_cast<void>(evidence_loss(model, rows, &gradient));
-  ASSERT_EQ(gradient.table.size(), model.table.size());
   double largest = 0.0;
   const auto check = [&](float& number, EvidenceModel& moved, float found) {
     constexpr float step = 0.05F;
@@ -175,9 +146,6 @@ TEST(EvidenceLoss, HasTheGradientOfItsFiniteDifferences) {
       check(moved.curve[i][k], moved, gradient.curve[i][k]);
     }
   }
-  for (std::size_t k = 0; k < moved.table[0].size(); ++k) {
-    check(moved.table[0][k], moved, gradient.table[0][k]);
-  }
   check(moved.bias, moved, gradient.bias);
   EXPECT_GT(largest, 0.01);
 }
@@ -190,6 +158,79 @@ TEST(EvidenceTraining, RepeatsItselfToTheBit) {
   EXPECT_EQ(train_evidence_model(rows, config), once);
   config.descent.seed = 2;
   EXPECT_FALSE(train_evidence_model(rows, config) == once);
+}
+
+TEST(MakeMonotone, GivesTheNearestCurveThatNeverFalls) {
+  // The reference: each value is max over a ≤ k of min over b ≥ k of the mean from a to b.
+  test::Normal normal(20);
+  for (int round = 0; round < 50; ++round) {
+    EvidenceCurve curve;
+    const double slope = 0.1 * (round % 5 - 2);
+    for (std::size_t k = 0; k < curve.size(); ++k) {
+      curve[k] = static_cast<float>(slope * static_cast<double>(k) + normal());
+    }
+    EvidenceCurve monotone = curve;
+    make_monotone(monotone);
+    for (std::size_t k = 0; k < curve.size(); ++k) {
+      double largest = -HUGE_VAL;
+      for (std::size_t a = 0; a <= k; ++a) {
+        double smallest = HUGE_VAL;
+        for (std::size_t b = k; b < curve.size(); ++b) {
+          double sum = 0.0;
+          for (std::size_t i = a; i <= b; ++i) sum += static_cast<double>(curve[i]);
+          smallest = std::min(smallest, sum / static_cast<double>(b - a + 1));
+        }
+        largest = std::max(largest, smallest);
+      }
+      ASSERT_NEAR(monotone[k], largest, 1e-5) << round << " " << k;
+    }
+    EvidenceCurve again = monotone;
+    make_monotone(again);
+    for (std::size_t k = 0; k < curve.size(); ++k) ASSERT_NEAR(again[k], monotone[k], 1e-6);
+  }
+}
+
+/// Contact is likely at medium values of an input only.
+DecisionRows peak(int count, bool of_servo_load, std::size_t input) {
+  test::Normal normal(21);
+  DecisionRows rows = empty_rows(count);
+  if (of_servo_load) rows.servo.setZero(static_cast<int>(2 * decision_scales), count);
+  for (int row = 0; row < count; ++row) {
+    const double x = 1.5 * normal();
+    rows.is_contact[row] = std::abs(x) < 1.0 ? 1.0F : 0.0F;
+    (of_servo_load ? rows.servo(static_cast<int>(input), row)
+                   : rows.inputs(static_cast<int>(input), row)) = static_cast<float>(x);
+  }
+  return rows;
+}
+
+TEST(EvidenceTraining, KeepsCurvesOfTheOwnLoadFromFalling) {
+  const auto largest_fall = [](const EvidenceCurve& curve) {
+    float fall = 0.0F;
+    for (std::size_t k = 1; k < curve.size(); ++k) fall = std::max(fall, curve[k - 1] - curve[k]);
+    return fall;
+  };
+  for (const bool of_servo_load : {false, true}) {
+    // The own load at 1 and 128 ms, the other leg's load, and for torques the wheel's own reaction.
+    for (const std::size_t input :
+         {std::size_t{0}, std::size_t{7}, std::size_t{8}, std::size_t{15}}) {
+      const DecisionRows rows = peak(8000, of_servo_load, input);
+      const auto curve_of = [&](const EvidenceFitConfig& config) {
+        const EvidenceModel model = train_evidence_model(rows, config);
+        return of_servo_load ? model.servo_curve[input] : model.curve[input];
+      };
+      const bool is_own_load = input < decision_scales;
+      const float fall = largest_fall(curve_of(brisk));
+      if (is_own_load) {
+        EXPECT_LT(fall, 1e-5F) << input;
+      } else {
+        EXPECT_GT(fall, 0.5F) << input;
+      }
+      EvidenceFitConfig free = brisk;
+      free.monotone_loads = false;
+      EXPECT_GT(largest_fall(curve_of(free)), 0.5F) << input;
+    }
+  }
 }
 
 TEST(EvidenceTraining, RefusesInvalidValues) {

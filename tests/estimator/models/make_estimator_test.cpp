@@ -1,5 +1,6 @@
 #include "estimator/models/make_estimator.hpp"
 
+#include <array>
 #include <functional>
 
 #include <gmock/gmock.h>
@@ -7,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "estimator/bayes/filter.hpp"
+#include "estimator/evidence/filter.hpp"
 #include "estimator/models/compiled.hpp"
 #include "estimator/models/configuration.hpp"
 #include "tests/estimator/models/models.hpp"
@@ -127,7 +129,7 @@ TEST(MakeEstimator, RefusesInvalidMetadata) {
 }
 
 TEST(MakeEstimator, RefusesMetadataUnderTheirFormerName) {
-  for (const std::string name : {"robust", "phase", "nmn", "load_logistic", "touchdown"}) {
+  for (const std::string name : {"robust", "phase", "nmn", "load_logistic", "evidence_curves"}) {
     ModelArrays arrays = test::fitted_model(name);
     auto metadata = arrays.extract(std::string(metadata_array));
     metadata.key() = former_metadata_array;
@@ -238,9 +240,8 @@ TEST(Configuration, KeepsTheWindowsLengthAtAnotherRate) {
 }
 
 TEST(CompiledModel, BelievesTheSameToTheBit) {
-  for (const std::string name :
-       {"robust", "phase", "nmn", "load_logistic", "force_kinematics", "decision_network",
-        "evidence_curves", "evidence_pairs", "touchdown"}) {
+  for (const std::string name : {"robust", "phase", "nmn", "load_logistic", "force_kinematics",
+                                 "decision_network", "evidence_curves", "evidence_curves_quiet"}) {
     const ModelArrays arrays = test::fitted_model(name);
     std::vector<std::vector<float>> floats;
     std::vector<std::string> texts;
@@ -304,7 +305,7 @@ TEST(Configuration, HasTheServoLoadOnlyWhereTheModelHasIt) {
   legs.hip_friction = 0.06;
   legs.knee_friction = 0.07;
   legs.position_resolution = 1e-3;
-  for (const char* const name : {"touchdown", "decision_network", "evidence_curves"}) {
+  for (const char* const name : {"evidence_curves_quiet", "decision_network", "evidence_curves"}) {
     const ConfigurationText without = default_configuration(name, 1000.0, legs);
     for (const char* const key :
          {"servo_load", "hip_friction", "knee_friction", "position_resolution"}) {
@@ -321,27 +322,67 @@ TEST(Configuration, HasTheServoLoadOnlyWhereTheModelHasIt) {
 }
 
 TEST(Parameters, OfModelsWithTheServoLoadReadBack) {
-  TouchdownModel model{test::random_curves(5, false), test::random_model(6)};
-  const Parameters without = parameters_of(model);
-  for (const auto& [name, values] : without) EXPECT_EQ(name.find("servo"), std::string::npos);
-  model.network.servo_weight.assign(servo_weights, 0.25F);
-  model.evidence.servo_curve.resize(2 * decision_scales);
-  model.evidence.servo_seen.resize(2 * decision_scales);
-  for (std::size_t i = 0; i < model.evidence.servo_curve.size(); ++i) {
-    model.evidence.servo_curve[i].fill(static_cast<float>(i));
-    model.evidence.servo_seen[i] = {-1.0F, static_cast<float>(i)};
+  EvidenceModel curves = test::random_curves(5);
+  DecisionModel network = test::random_model(6);
+  for (const Parameters& without : {parameters_of(curves), parameters_of(network)}) {
+    for (const auto& [name, values] : without) EXPECT_EQ(name.find("servo"), std::string::npos);
   }
-  const Parameters parameters = parameters_of(model);
-  EXPECT_EQ(touchdown_model_of(parameters), model);
+  network.servo_weight.assign(servo_weights, 0.25F);
+  curves.servo_curve.resize(2 * decision_scales);
+  curves.servo_seen.resize(2 * decision_scales);
+  for (std::size_t i = 0; i < curves.servo_curve.size(); ++i) {
+    curves.servo_curve[i].fill(static_cast<float>(i));
+    curves.servo_seen[i] = {-1.0F, static_cast<float>(i)};
+  }
+  EXPECT_EQ(decision_model_of(parameters_of(network)), network);
+  Parameters parameters = parameters_of(curves);
+  EXPECT_EQ(evidence_model_of(parameters), curves);
   EXPECT_TRUE(parameters.contains("curves_servo_load"));
   EXPECT_TRUE(parameters.contains("curves_other_servo_load"));
   // One part without the other is refused.
-  Parameters half = parameters;
-  half.erase("servo_weight");
-  EXPECT_THROW(TouchdownEstimator(touchdown_model_of(half)), InputError);
-  half = parameters;
-  half.erase("curves_other_servo_load");
-  EXPECT_THROW(touchdown_model_of(half), InputError);
+  parameters.erase("curves_other_servo_load");
+  EXPECT_THROW(static_cast<void>(evidence_model_of(parameters)), InputError);
+}
+
+std::array<double, 2> thresholds_of(const ConfigurationText& configuration) {
+  return {std::stod(configuration.at("leave_below")), std::stod(configuration.at("return_above"))};
+}
+
+TEST(EvidenceCurves, HaveTwoOperatingPointsOfOneModel) {
+  const std::array<double, 2> balanced = {balanced_point.leave_below, balanced_point.return_above};
+  const std::array<double, 2> quiet = {quiet_point.leave_below, quiet_point.return_above};
+  EXPECT_EQ(thresholds_of(default_configuration("evidence_curves", 1000.0)), balanced);
+  EXPECT_EQ(thresholds_of(default_configuration("evidence_curves_quiet", 1000.0)), quiet);
+  EXPECT_TRUE(share_fit("evidence_curves", "evidence_curves_quiet"));
+
+  // Each makes the other from its model, which keeps the rest of the configuration.
+  LegGeometry legs;
+  legs.upper_length = 0.2;
+  for (const std::string name : {"evidence_curves", "evidence_curves_quiet"}) {
+    ModelArrays arrays = test::fitted_arrays(name);
+    add_metadata(arrays, {name, 1000.0, "", default_configuration(name, 1000.0, legs), ""});
+    const EvidenceModel model = evidence_model_of(parameters_of(arrays));
+    for (const std::string made : {"evidence_curves", "evidence_curves_quiet"}) {
+      const OperatingPoint& point = made == "evidence_curves" ? balanced_point : quiet_point;
+      EvidenceCurves expected(
+          model,
+          {.geometry = legs, .leave_below = point.leave_below, .return_above = point.return_above});
+      EXPECT_EQ(beliefs_of(*make_estimator(arrays, {.estimator = made})), beliefs_of(expected))
+          << name << " as " << made;
+    }
+  }
+}
+
+TEST(MakeEstimator, NamesThePresentEstimatorOfAnEarlierOne) {
+  for (const char* const former : {"touchdown", "evidence_pairs"}) {
+    ModelArrays arrays = test::fitted_arrays("evidence_curves");
+    arrays[std::string(estimator_array)] = array_of_text(former);
+    add_metadata(arrays, {former, 1000.0, "", {}, ""});
+    EXPECT_THAT(complaint_about(arrays),
+                AllOf(HasSubstr(former), HasSubstr("'evidence_curves' now: fit it again")));
+    EXPECT_THAT(complaint_about(test::fitted_model("evidence_curves"), {.estimator = former}),
+                HasSubstr("'evidence_curves' now"));
+  }
 }
 
 }  // namespace

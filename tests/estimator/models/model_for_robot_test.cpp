@@ -41,7 +41,8 @@ std::string complaint(const ModelArrays& arrays, const ModelUse& use) {
 }
 
 TEST(ModelFor, AnotherRobotStoresItsLegs) {
-  for (const char* name : {"touchdown", "decision_network", "evidence_curves", "load_logistic"}) {
+  for (const char* name :
+       {"evidence_curves_quiet", "decision_network", "evidence_curves", "load_logistic"}) {
     SCOPED_TRACE(name);
     const ModelArrays upkies = test::fitted_model(name);
     const ModelArrays own = model_for(upkies, {.robot = "stilts", .geometry = long_legs});
@@ -56,7 +57,7 @@ TEST(ModelFor, AnotherRobotStoresItsLegs) {
 }
 
 TEST(ModelFor, AnotherConfigurationKeepsTheRest) {
-  const ModelArrays usual = test::fitted_model("touchdown");
+  const ModelArrays usual = test::fitted_model("evidence_curves");
   const ModelUse use = {.configuration = {{"leave_below", "0.25"}}};
   const ModelArrays quiet = model_for(usual, use);
   const ModelMetadata metadata = *metadata_of(quiet);
@@ -84,7 +85,7 @@ TEST(ModelFor, AModelWithoutMetadataAddsThem) {
 }
 
 TEST(ModelFor, AMismatchIsAnError) {
-  const ModelArrays network = test::fitted_model("touchdown");
+  const ModelArrays network = test::fitted_model("evidence_curves");
   EXPECT_THAT(complaint(test::fitted_model("phase"), {.robot = "stilts", .geometry = long_legs}),
               HasSubstr("'phase' uses no kinematics"));
   EXPECT_THAT(complaint(network, {.robot = "stilts"}), HasSubstr("not to 'stilts'"))

@@ -34,11 +34,7 @@ inline ModelArrays fitted_arrays(const std::string& name) {
         .air = {.force_mean = 0.3}, .contact = {.force_mean = 26.0, .leaving_rate = 0.7}}));
   }
   if (name == "decision_network") return of_parameters(parameters_of(random_model(3)));
-  if (name == "evidence_curves") return of_parameters(parameters_of(random_curves(3, false)));
-  if (name == "touchdown") {
-    return of_parameters(parameters_of(TouchdownModel{random_curves(5, false), random_model(6)}));
-  }
-  if (name == "evidence_pairs") return of_parameters(parameters_of(random_curves(4)));
+  if (name.starts_with("evidence_curves")) return of_parameters(parameters_of(random_curves(3)));
   const BayesFilterConfig config = named(name == "measurement_only" ? "robust" : name);
   MeasurementConfig measurement = config.measurement;
   measurement.fit.knee_count = measurement.fit.wheel_count = 40;

@@ -13,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "experiments/boosting/estimator.hpp"
+#include "experiments/boosting/window.hpp"
 #include "tests/estimator/random.hpp"
 
 namespace touchdown::experiments {
@@ -154,7 +155,8 @@ TEST(BoostedTreesEstimator, DetectsContactInUnseenRuns) {
   const std::vector<LabelledRun> runs = {seen.view()};
   BoostingConfig config = quick;
   config.rows = 20'000;
-  BoostedTreesEstimator estimator(fit_trees(boosting_rows(runs, config), config), {});
+  BoostedTreesEstimator<SignalWindow> estimator(
+      fit_trees(boosting_rows<SignalWindow>(runs, config), config), {});
   const DrawnRun other(2);
   std::size_t right = 0;
   for (std::size_t k = 0; k < other.signals.size(); ++k) {

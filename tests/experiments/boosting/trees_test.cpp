@@ -1,5 +1,6 @@
 #include "experiments/boosting/trees.hpp"
 
+#include <array>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ BoostedTrees nine_equal_trees() {
 
 TEST(BoostedTrees, AddTheReachedLeaves) {
   const BoostedTrees trees = nine_equal_trees();
-  WindowFeatures features{};
+  std::array<float, 5> features{};
   features[0] = -1.0F;
   EXPECT_EQ(trees.logit(features), 9.5F);
   features[0] = 0.0F;  // not below
@@ -34,16 +35,16 @@ TEST(BoostedTrees, AddTheReachedLeaves) {
 }
 
 TEST(BoostedTrees, AreRefusedUnlessComplete) {
-  EXPECT_NO_THROW(check_trees(nine_equal_trees()));
-  EXPECT_THROW(check_trees({}), InputError);
+  EXPECT_NO_THROW(check_trees(nine_equal_trees(), 5));
+  EXPECT_THROW(check_trees({}, 5), InputError);
   const auto refused = [](const auto& change) {
     BoostedTrees trees = nine_equal_trees();
     change(trees);
-    EXPECT_THROW(check_trees(trees), InputError);
+    EXPECT_THROW(check_trees(trees, 5), InputError);
   };
   refused([](BoostedTrees& trees) { trees.leaf.pop_back(); });
   refused([](BoostedTrees& trees) { trees.feature.pop_back(); });
-  refused([](BoostedTrees& trees) { trees.feature[5] = window_features; });
+  refused([](BoostedTrees& trees) { trees.feature[5] = 5; });
   refused([](BoostedTrees& trees) { trees.depth = 40; });
   constexpr float infinity = std::numeric_limits<float>::infinity();
   refused([](BoostedTrees& trees) { trees.threshold[1] = infinity; });

@@ -56,8 +56,8 @@ TEST(ChannelWindow, KeepsSmallDeviationsOfLargeValues) {
 }
 
 TEST(SignalWindow, MirrorsTheRightLeg) {
-  SignalWindow one(1000.0);
-  SignalWindow mirrored(1000.0);
+  SignalWindow one(TreeInputsConfig{});
+  SignalWindow mirrored(TreeInputsConfig{});
   const std::vector<double> torque = test::normals(150, 0.5, 1.0, 2);
   for (std::size_t k = 0; k < torque.size(); ++k) {
     one.update(step(k, torque[k], 2.0, -torque[k]));
@@ -69,34 +69,34 @@ TEST(SignalWindow, MirrorsTheRightLeg) {
 }
 
 TEST(SignalWindow, RepeatsMissingValuesUpToTheMaximumGap) {
-  SignalWindow window(1000.0);
+  SignalWindow window(TreeInputsConfig{});
   for (std::size_t k = 0; k < 50; ++k) window.update(step(k, 1.5, 1.0, 0.1));
   const WindowFeatures before = window.features(0);
   constexpr double missing = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 50; k < 69; ++k) {
-    const SignalWindow::Step result = window.update(step(k, missing, 1.0, 0.1));
-    EXPECT_TRUE(result.is_valid);
+    const TreeInputsStep result = window.update(step(k, missing, 1.0, 0.1));
+    EXPECT_TRUE(result.is_valid[0] && result.is_valid[1]);
     EXPECT_EQ(result.status, SignalStatus::invalid);
   }
   EXPECT_EQ(window.features(0), before);
   for (std::size_t k = 69; k < 75; ++k) window.update(step(k, missing, 1.0, 0.1));
-  EXPECT_FALSE(window.update(step(75, missing, 1.0, 0.1)).is_valid);
-  EXPECT_TRUE(window.update(step(76, 1.5, 1.0, 0.1)).is_valid);
+  EXPECT_FALSE(window.update(step(75, missing, 1.0, 0.1)).is_valid[0]);
+  EXPECT_TRUE(window.update(step(76, 1.5, 1.0, 0.1)).is_valid[0]);
 }
 
 TEST(SignalWindow, ResetsAfterALongGap) {
-  SignalWindow window(1000.0);
+  SignalWindow window(TreeInputsConfig{});
   for (std::size_t k = 0; k < 100; ++k) window.update(step(k, 5.0, 5.0, 3.0));
   window.update(step(5000, 1.0, 1.0, 0.0));
-  SignalWindow fresh(1000.0);
+  SignalWindow fresh(TreeInputsConfig{});
   fresh.update(step(5000, 1.0, 1.0, 0.0));
   EXPECT_EQ(window.features(0), fresh.features(0));
 }
 
 TEST(SignalWindow, IsNotValidBeforeItsFirstTorques) {
-  SignalWindow window(1000.0);
+  SignalWindow window(TreeInputsConfig{});
   constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(window.update(step(0, missing, 1.0, 0.1)).is_valid);
+  EXPECT_FALSE(window.update(step(0, missing, 1.0, 0.1)).is_valid[0]);
 }
 
 }  // namespace

@@ -10,9 +10,11 @@
 namespace touchdown::experiments {
 namespace {
 
-TEST(GradientBoostingEntry, KeepsItsTreesToTheBitInAFile) {
+class BoostedEntry : public ::testing::TestWithParam<EstimatorEntry (*)()> {};
+
+TEST_P(BoostedEntry, KeepsItsTreesToTheBitInAFile) {
   const ScratchFolder folder;
-  const EstimatorEntry entry = gradient_boosting_entry();
+  const EstimatorEntry entry = GetParam()();
   EXPECT_TRUE(entry.is_upper_bound);
   const RunSignals run = synthetic_run(1'000'000, 1500);
   const FittedModel fitted = entry.fit(entry, {.whole = {&run}});
@@ -27,8 +29,8 @@ TEST(GradientBoostingEntry, KeepsItsTreesToTheBitInAFile) {
   EXPECT_EQ(p_contact_of(read), p_contact_of(fitted));
 }
 
-TEST(GradientBoostingEntry, RefusesInvalidTrees) {
-  const EstimatorEntry entry = gradient_boosting_entry();
+TEST_P(BoostedEntry, RefusesInvalidTrees) {
+  const EstimatorEntry entry = GetParam()();
   const RunSignals run = synthetic_run(1'000'000, 1500);
   const FittedModel fitted = entry.fit(entry, {.whole = {&run}});
   const auto refused = [&](const char* name, const auto& change) {
@@ -45,6 +47,50 @@ TEST(GradientBoostingEntry, RefusesInvalidTrees) {
   refused("trees", [](std::vector<double>& values) { values[0] = -5.0; });
   refused("threshold", [](std::vector<double>& values) { values[3] = 1e300; });
 }
+
+/// The run with a tracking error of the knees that shows contact, and no other sign of it.
+RunSignals shown_by_targets(std::uint64_t seed) {
+  RunSignals run = synthetic_run(seed, 2000);
+  for (std::size_t k = 0; k < run.steps(); ++k) {
+    Signals& signals = run.signals[k];
+    const bool in_contact = k / 250 % 2 == 0;
+    signals.vertical_acceleration = 0.01 * static_cast<double>(k % 7);
+    for (std::size_t side = 0; side < 2; ++side) {
+      run.contact[side][k] = in_contact ? 1 : 0;
+      const double sign = side == 0 ? 1.0 : -1.0;
+      LegSignals& leg = signals.leg[side];
+      const double chatter = 0.01 * static_cast<double>(k % 5);
+      leg.hip = {0.5 * sign, chatter, 0.3 * chatter};
+      leg.knee = {-1.0 * sign, chatter, 0.3 * chatter};
+      leg.wheel = {0.01 * static_cast<double>(k), 1.0, 0.3 * chatter};
+      signals.target[side].hip = {0.5 * sign, 0.0, 0.0, 40.0, 0.0};
+      signals.target[side].knee = {sign * (in_contact ? -0.95 : -1.0), 0.0, 0.0, 40.0, 0.0};
+    }
+  }
+  return run;
+}
+
+TEST_P(BoostedEntry, UsesTargetsIfItsFitDoes) {
+  const EstimatorEntry entry = GetParam()();
+  const RunSignals run = shown_by_targets(1'000'000);
+  const RunSignals other = shown_by_targets(3);
+  const auto right = [&](bool servo_load) {
+    const FittedModel model = entry.fit(entry, {.whole = {&run}, .servo_load = servo_load});
+    const auto decided =
+        decide(*entry.make(entry, {.model = &model}), other, noise_run(other, {}), {});
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < other.steps(); ++k) {
+      count += decided[0][k] == other.contact[0][k] ? 1U : 0U;
+    }
+    return static_cast<double>(count) / static_cast<double>(other.steps());
+  };
+  EXPECT_GT(right(true), 0.95);
+  EXPECT_LT(right(false), 0.7);
+}
+
+INSTANTIATE_TEST_SUITE_P(Inputs, BoostedEntry,
+                         ::testing::Values(boosted_channels_entry, boosted_signals_entry),
+                         [](const auto& entry) { return entry.param().name; });
 
 }  // namespace
 }  // namespace touchdown::experiments

@@ -76,16 +76,16 @@ RunSignals with_targets(RunSignals run) {
   return run;
 }
 
-TEST(TouchdownEntry, HasTheServoLoadIfItsFitDoes) {
+TEST(DecisionEntries, HaveTheServoLoadIfTheirFitDoes) {
   const RunSignals run = with_targets(synthetic_run(1'000'000, 1500));
   for (const EstimatorEntry& entry :
-       {touchdown_entry(), decision_network_entry(), evidence_curves_entry()}) {
+       {decision_network_entry(), evidence_curves_entry(), quiet_evidence_curves_entry()}) {
     const FittedModel with = entry.fit(entry, {.whole = {&run}, .servo_load = true});
     const FittedModel without = entry.fit(entry, {.whole = {&run}});
     const auto has = [](const FittedModel& model, const char* name) {
       return model.parameters->parameters.contains(name);
     };
-    EXPECT_EQ(has(with, "servo_weight"), entry.name != "evidence_curves");
+    EXPECT_EQ(has(with, "servo_weight"), entry.name == "decision_network");
     EXPECT_EQ(has(with, "curves_servo_load"), entry.name != "decision_network");
     EXPECT_FALSE(has(without, "servo_weight") || has(without, "curves_servo_load"));
     // A fit without the channel does not depend on targets.

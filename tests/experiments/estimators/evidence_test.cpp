@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "estimator/evidence/filter.hpp"
+#include "estimator/models/make_estimator.hpp"
 #include "experiments/estimators/decision.hpp"
 #include "experiments/signals/run_signals.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
@@ -13,15 +15,13 @@ TEST(EvidenceEntries, KeepTheirCurvesToTheBitInAFile) {
   const ScratchFolder folder;
   const RunSignals run = synthetic_run(1'000'000, 1500);
   const RunSignals other = synthetic_run(3, 1500);
-  for (const EstimatorEntry& entry :
-       {evidence_curves_entry(), evidence_pairs_entry(), touchdown_entry()}) {
+  for (const EstimatorEntry& entry : {evidence_curves_entry(), quiet_evidence_curves_entry()}) {
     const FittedModel fitted = entry.fit(entry, {.whole = {&run}});
     write_fitted_model(fitted, folder.path() / "m.npz");
     const FittedModel read = read_fitted_model(ModelKind::parameters, folder.path() / "m.npz");
     EXPECT_EQ(read.parameters->parameters, fitted.parameters->parameters);
     EXPECT_EQ(read.parameters->estimator, entry.name);
     EXPECT_EQ(evidence_in(read), evidence_in(fitted));
-    EXPECT_EQ(evidence_in(read)->table.empty(), entry.name != "evidence_pairs");
     const auto p_contact_of = [&](const FittedModel& model) {
       return predict(*entry.make(entry, {.model = &model}), other, noise_run(other, {}), {})[1]
           .p_contact;
@@ -45,8 +45,8 @@ TEST(EvidenceEntries, AreFittedWithTheChosenSmoothness) {
             evidence_in(other.fit(other, {.whole = {&run}})));
 }
 
-TEST(EvidenceEntries, RefuseIncompleteModelsAndOtherPairsOrFeatures) {
-  const EstimatorEntry entry = evidence_pairs_entry();
+TEST(EvidenceEntries, RefuseIncompleteModelsAndOtherFeatures) {
+  const EstimatorEntry entry = evidence_curves_entry();
   const RunSignals run = synthetic_run(1'000'000, 1500);
   const recordings::ParameterModelFile good = *entry.fit(entry, {.whole = {&run}}).parameters;
   const auto refused = [&](const auto& spoil) {
@@ -57,9 +57,7 @@ TEST(EvidenceEntries, RefuseIncompleteModelsAndOtherPairsOrFeatures) {
     EXPECT_THROW(entry.make(entry, {.model = &model}), InputError);
   };
   refused([](recordings::Parameters& all) { all.erase("curves_load"); });
-  refused([](recordings::Parameters& all) { all.erase("tables"); });
   refused([](recordings::Parameters& all) { all.at("curves_torque_noise").pop_back(); });
-  refused([](recordings::Parameters& all) { all.at("pairs")[0] += 1.0; });
   refused([](recordings::Parameters& all) { all.at("bias")[0] = HUGE_VAL; });
   refused([](recordings::Parameters& all) { all.at("senses")[0] -= 1.0; });
   refused([](recordings::Parameters& all) { all.erase("senses"); });
@@ -81,7 +79,39 @@ TEST(EvidenceEntries, DecideByTheThresholdsInTheirMetadata) {
     return std::array{tracks[0].contact, tracks[1].contact};
   };
   EXPECT_NE(decisions_with("leave_below", "0.0001"), decisions_with("leave_below", "0.9"));
-  EXPECT_NE(decisions_with("return_above", "0.75"), decisions_with("return_above", "0.9999999"));
+  EXPECT_NE(decisions_with("return_above", "0.86"), decisions_with("return_above", "0.9999999"));
+}
+
+TEST(EvidenceEntries, ShareAFitAndDifferInTheirOperatingPoint) {
+  const EstimatorEntry balanced = evidence_curves_entry();
+  const EstimatorEntry quiet = quiet_evidence_curves_entry();
+  EXPECT_TRUE(share_model(balanced, quiet));
+  EXPECT_EQ(balanced.chosen("leave_below"), balanced_point.leave_below);
+  EXPECT_EQ(quiet.chosen("leave_below"), quiet_point.leave_below);
+  EXPECT_EQ(quiet.chosen("return_above"), quiet_point.return_above);
+  const RunSignals run = synthetic_run(1'000'000, 1500);
+  const RunSignals other = synthetic_run(3, 3000);
+  // A model of either entry, with its metadata or without any, runs at the point of the entry.
+  for (const EstimatorEntry& fitted : {balanced, quiet}) {
+    FittedModel model = fitted.fit(fitted, {.whole = {&run}});
+    for (const bool has_metadata : {false, true}) {
+      if (has_metadata) {
+        model.metadata = ModelMetadata{.estimator = fitted.name,
+                                       .sample_rate = 1000.0,
+                                       .robot = {},
+                                       .configuration = default_configuration(fitted.name, 1000.0),
+                                       .fingerprint = {}};
+      }
+      for (const EstimatorEntry& entry : {balanced, quiet}) {
+        const OperatingPoint& point = entry.name == balanced.name ? balanced_point : quiet_point;
+        EvidenceCurves expected(evidence_in(model).value(), {.leave_below = point.leave_below,
+                                                             .return_above = point.return_above});
+        EXPECT_EQ(decide(*entry.make(entry, {.model = &model}), other, noise_run(other, {}), {}),
+                  decide(expected, other, noise_run(other, {}), {}))
+            << fitted.name << " as " << entry.name;
+      }
+    }
+  }
 }
 
 TEST(EvidenceIn, IsEmptyForOtherModels) {

@@ -69,16 +69,16 @@ TEST(LoadedEstimator, OfAShippedNetworkIsNmn) {
 
 TEST(LoadedEstimator, OfTheShippedModelEqualsItsEntry) {
   const std::filesystem::path file =
-      std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models/touchdown.npz";
+      std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models/evidence_curves.npz";
   const RunSignals run = synthetic_run(3, 1000);
-  const EstimatorEntry& entry = estimator_entry("touchdown_shipped");
+  const EstimatorEntry& entry = estimator_entry("shipped");
   EXPECT_EQ(p_contact_of(*load_estimator(file), run), p_contact_of(*entry.make(entry, {}), run));
-  EXPECT_EQ(load_metadata(file).estimator, "touchdown");
+  EXPECT_EQ(load_metadata(file).estimator, "evidence_curves");
   EXPECT_EQ(load_metadata(file).robot, "upkie");
 }
 
 TEST(ShippedModel, RefusesAnotherRobotOrRateInExperimentsAsItsFileDoes) {
-  const EstimatorEntry& entry = estimator_entry("touchdown_shipped");
+  const EstimatorEntry& entry = estimator_entry("shipped");
   const auto complaint = [&](const EstimatorSetup& setup) -> std::string {
     try {
       (void)entry.make(entry, setup);
@@ -101,20 +101,21 @@ TEST(ShippedModel, RefusesAnotherRobotOrRateInExperimentsAsItsFileDoes) {
   EXPECT_EQ(complaint({.legs = LegGeometry{}, .robot = "upkie"}), "none");
   for (const double rate : {199.0, 200.0, 250.0, 400.0, 600.0, 1000.0, 1005.0}) {
     EXPECT_EQ(complaint({.sample_rate = rate}), "none") << rate;
-    const auto file = std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models/touchdown.npz";
+    const auto file = std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models/evidence_curves.npz";
     EXPECT_NO_THROW((void)load_estimator(file, {.sample_rate = rate})) << rate;
   }
   for (const double rate : {100.0, 190.0, 1100.0, 2000.0}) {
     EXPECT_THAT(complaint({.sample_rate = rate}), HasSubstr("serves 200 to 1000 Hz")) << rate;
-    const auto file = std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models/touchdown.npz";
+    const auto file = std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models/evidence_curves.npz";
     EXPECT_THROW((void)load_estimator(file, {.sample_rate = rate}), InputError) << rate;
   }
 }
 
 TEST(ShippedModel, HasTheChecksumInItsManifest) {
   const std::filesystem::path models = std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models";
-  const YAML::Node manifest = YamlDocument::load(models / "touchdown.json").root();
-  EXPECT_EQ(manifest["sha256"].as<std::string>(), sha256(read_file(models / "touchdown.npz")));
+  const YAML::Node manifest = YamlDocument::load(models / "evidence_curves.json").root();
+  EXPECT_EQ(manifest["sha256"].as<std::string>(),
+            sha256(read_file(models / "evidence_curves.npz")));
 }
 
 TEST(LoadedEstimator, SharesFitsAsEntriesDo) {

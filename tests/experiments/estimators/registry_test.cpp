@@ -1,6 +1,9 @@
 #include "experiments/estimators/registry.hpp"
 
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -15,6 +18,7 @@ TEST(Registry, HasUniqueNamesAndCompleteEntries) {
     EXPECT_TRUE(names.insert(entry.name).second) << entry.name;
     EXPECT_FALSE(entry.title.empty()) << entry.name;
     EXPECT_FALSE(entry.summary.empty()) << entry.name;
+    EXPECT_FALSE(entry.reason.empty()) << entry.name;
     EXPECT_NE(entry.make, nullptr) << entry.name;
     EXPECT_EQ(entry.fits().has_value(), entry.fit != nullptr) << entry.name;
     EXPECT_EQ(&estimator_entry(entry.name), &entry);
@@ -22,6 +26,39 @@ TEST(Registry, HasUniqueNamesAndCompleteEntries) {
   EXPECT_TRUE(names.contains(std::string(always_contact_name)));
   EXPECT_THROW(estimator_entry("rubust"), InputError);
   EXPECT_THROW(estimator_entry("paper_grid"), InputError);  // of the ablation study
+}
+
+TEST(Registry, StatesWhatEstimatorsAreGiven) {
+  const auto given = [](const char* name, bool servo_load) {
+    return given_text(estimator_entry(name), servo_load);
+  };
+  EXPECT_EQ(given("evidence_curves", true), "geometry, mass, targets; fitted");
+  EXPECT_EQ(given("evidence_curves_quiet", false), "geometry, mass; fitted");
+  EXPECT_EQ(given("boosted_channels", true), given("evidence_curves", true));
+  EXPECT_EQ(given("boosted_signals", true), "targets; fitted");
+  EXPECT_EQ(given("support_force", true), "geometry");
+  EXPECT_EQ(given("free_fall", true), "signals");
+  EXPECT_EQ(given("robust", true), "signals; fitted");
+  EXPECT_EQ(given("shipped", true), "geometry, mass, targets; fitted elsewhere");
+  EXPECT_EQ(given("nmn", true), "signals; fitted elsewhere");
+}
+
+TEST(Registry, NamesThePresentEstimatorOfAnEarlierName) {
+  const std::vector<std::pair<const char*, const char*>> names = {
+      {"touchdown", "evidence_curves"},
+      {"touchdown_shipped", "shipped"},
+      {"evidence_pairs", "evidence_curves"},
+      {"gradient_boosting", "boosted_signals"}};
+  for (const auto& [former, present] : names) {
+    try {
+      (void)estimator_entry(former);
+      ADD_FAILURE() << former;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.what(), "unknown estimator '" + std::string(former) + "': it is '" +
+                                  std::string(present) + "' now");
+    }
+    EXPECT_NO_THROW((void)estimator_entry(present));
+  }
 }
 
 TEST(Registry, NoiseCountsOnlyOnTheSensorsThatAreUsed) {

@@ -90,8 +90,7 @@ TEST(TrainingSegments, HaveNoRunsForEstimatorsWithoutSegments) {
 
 TEST(TrainingSegments, HaveRunsForEveryEstimatorWithSegments) {
   Experiment experiment = experiment_with_segments();
-  for (const char* name :
-       {"hmm", "decision_network", "evidence_curves", "touchdown", "gradient_boosting"}) {
+  for (const char* name : {"hmm", "decision_network", "evidence_curves", "boosted_channels"}) {
     experiment.estimators = {name};
     EXPECT_EQ(plan_of(request_of(experiment)).runs.size(), 2U * (2U + 3U + 1U + 1U)) << name;
   }

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 Experiment experiment_with(const std::string& more,
-                           const std::string& estimators = "touchdown_shipped, always_contact",
+                           const std::string& estimators = "shipped, always_contact",
                            const std::string& scenario = "scenarios/hop.yaml") {
   return experiment_from_yaml(YamlDocument::parse(
       fmt::format("name: served\nsimulators: [mujoco]\nestimators: [{}]\n"
@@ -44,7 +44,7 @@ TEST(ServedRobots, AnotherRobotIsRefusedBeforeAnythingIsComputed) {
        {"upkie_heavy", "upkie_long_legs", "ros_style", "knee_and_wheel"}) {
     const std::string key = "robot: models/" + robot + ".yaml";
     EXPECT_THAT(complaint_about(experiment_with(key)),
-                AllOf(HasSubstr("touchdown_shipped: "),
+                AllOf(HasSubstr("shipped: "),
                       HasSubstr("was fitted to the robot 'upkie', not to '" + robot + "'"),
                       HasSubstr("`transfer: true`")))
         << robot;
@@ -74,20 +74,19 @@ TEST(ServedRobots, AnotherRateIsRefused) {
     const std::string file = folder.write(
         "scene.yaml", fmt::format("{}\nsimulation: {{physics_step_us: 500, control_step_us: {}}}\n",
                                   read_file(TOUCHDOWN_SOURCE_DIR "/scenarios/hop.yaml"), period));
-    const std::string complaint = complaint_about(experiment_with("", "touchdown_shipped", file));
+    const std::string complaint = complaint_about(experiment_with("", "shipped", file));
     EXPECT_THAT(complaint, is_served ? ::testing::Matcher<std::string>("none")
                                      : HasSubstr("serves 200 to 1000 Hz, not at "))
         << period;
-    EXPECT_EQ(complaint_about(experiment_with("transfer: true", "touchdown_shipped", file)),
-              "none");
+    EXPECT_EQ(complaint_about(experiment_with("transfer: true", "shipped", file)), "none");
   }
 }
 
 TEST(ServedRobots, ContactFeedbackIsRefusedToo) {
   const std::string loop =
       "robot: models/upkie_heavy.yaml\nclosed_loop: {scenes: [{scenario: scenarios/hop.yaml}], "
-      "contact: [touchdown_shipped, truth], laws: [soft_landing], runs: 1}";
-  EXPECT_THAT(complaint_about(experiment_with(loop, "touchdown_shipped")),
+      "contact: [shipped, truth], laws: [soft_landing], runs: 1}";
+  EXPECT_THAT(complaint_about(experiment_with(loop, "shipped")),
               HasSubstr("was fitted to the robot 'upkie', not to 'upkie_heavy'"));
 }
 

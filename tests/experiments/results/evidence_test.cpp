@@ -16,7 +16,7 @@ FittedModel model_of(const EvidenceModel& model) {
 }
 
 TEST(EvidenceTable, HasEveryCurveOverTheRangeOfItsRows) {
-  EvidenceModel model = test::random_curves(1, false);
+  EvidenceModel model = test::random_curves(1);
   model.seen[3] = {-0.1F, 2.0F};
   const Table table = evidence_columns().table(
       evidence_points({{"mujoco", {{"evidence_curves", model_of(model)}}}}));

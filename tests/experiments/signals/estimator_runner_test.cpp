@@ -33,6 +33,7 @@ EstimatorEntry external(const std::string& name) {
   return {.name = name,
           .title = "External",
           .summary = "Runs free fall on whole runs",
+          .reason = "a test",
           .sensors = {.acceleration = true},
           .whole_run = [](const EstimatorSetup& /*setup*/) { return whole_run_free_fall(); }};
 }

@@ -96,7 +96,7 @@ TEST(Trials, ChangeBeliefsByEveryHyperparameter) {
   const RunSignals fitted = synthetic_run(first_fit_run, 1500);
   const RunSignals run = synthetic_run(0, 3000);
   for (const EstimatorEntry& entry : all_estimator_entries()) {
-    const bool is_slow = entry.name == "decision_network" || entry.name == "gradient_boosting";
+    const bool is_slow = entry.name == "decision_network" || entry.is_upper_bound;
     if (is_slow) continue;
     const std::vector<HyperparameterValues> trials = trial_hyperparameters(entry, 1, 8);
     for (const Hyperparameter& hyperparameter : entry.hyperparameters) {

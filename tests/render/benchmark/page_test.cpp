@@ -53,7 +53,8 @@ class BenchmarkPage : public ::testing::Test {
                   "mean_balanced_accuracy,mean_balanced_accuracy_low,mean_balanced_accuracy_high,"
                   "worst_balanced_accuracy,worst_scene,worst_simulator,is_not_significantly_worse,"
                   "log_loss_bits,excess_log_loss_bits\n"
-                  "upkie,harsh,0,0,gradient_boosting,0.91,0.9,0.92,0.8,<i>hop,mujoco,0,0.1,0\n"
+                  "upkie,harsh,0,0,boosted_channels,0.91,0.9,0.92,0.8,<i>hop,mujoco,0,0.1,0\n"
+                  "upkie,harsh,0,0,boosted_signals,0.92,0.9,0.93,0.8,<i>hop,mujoco,0,0.11,0.01\n"
                   "upkie,harsh,0,0,robust,0.845,0.83,0.85,0.7,<i>hop,mujoco,1,0.125,0.025\n"
                   "upkie,harsh,0,0,phase,0.84,0.83,0.85,0.7,<i>hop,mujoco,1\n"
                   "upkie,harsh,0,0,paper,0.83,0.82,0.84,0.7,<i>hop,mujoco,0\n"
@@ -124,16 +125,21 @@ TEST_F(BenchmarkPage, DrawsMeansWithoutIntervalsToo) {
   EXPECT_EQ(points("without"), 2U * 4U);
 }
 
-TEST_F(BenchmarkPage, DrawsTheReferenceUpperBoundAsALine) {
+TEST_F(BenchmarkPage, DrawsReferenceUpperBoundsAsLinesWithTheirNames) {
   draw_standings_figures(folder_.path(), 0.95);
   EXPECT_THAT(read_file(folder_ / "figures/benchmark_upkie_harsh.gp"),
-              AllOf(HasSubstr("set arrow 1 from 0.91,graph 0 to 0.91,graph 1"),
-                    HasSubstr("The dashed line is the reference upper bound"),
-                    Not(HasSubstr("'Gradient boosting'"))));
-  EXPECT_THAT(page(),
-              AllOf(HasSubstr("Its log loss exceeds that of the reference upper bound by 0.025 "
-                              "bits per wheel and step"),
-                    HasSubstr("reference upper bound 0.910; Bayes filter (robust) 0.845")));
+              AllOf(HasSubstr("set arrow 1 from 0.91,graph 0 to 0.91,graph 1 nohead dt 2"),
+                    HasSubstr("set arrow 2 from 0.92,graph 0 to 0.92,graph 1 nohead dt 3"),
+                    HasSubstr("Reference upper bounds: dashed, Boosted trees, own channels; "
+                              "dotted, Boosted trees, all signals."),
+                    Not(HasSubstr("'Boosted trees"))));
+  EXPECT_THAT(
+      page(),
+      AllOf(HasSubstr("Its log loss exceeds that of the best reference upper bound by 0.025 "
+                      "bits per wheel and step"),
+            HasSubstr("reference upper bound, Boosted trees, own channels, 0.910; reference "
+                      "upper bound, Boosted trees, all signals, 0.920; Bayes filter (robust) "
+                      "0.845")));
 }
 
 TEST_F(BenchmarkPage, ShowsTheFilmOfTheWorstSegmentIfThereIsOne) {

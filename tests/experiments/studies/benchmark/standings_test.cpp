@@ -68,11 +68,11 @@ TEST(Standings, MeasureExcessLogLossFromTheReferenceUpperBound) {
   for (const Standings::Entry& entry : without[0].entries) {
     EXPECT_TRUE(std::isnan(entry.excess_log_loss));
   }
-  rows.push_back(row_with("stairs", "gradient_boosting", 0.99, 0.125));
-  rows.push_back(row_with("kerb", "gradient_boosting", 0.99, 0.375));
+  rows.push_back(row_with("stairs", "boosted_channels", 0.99, 0.125));
+  rows.push_back(row_with("kerb", "boosted_channels", 0.99, 0.375));
   const auto entries = standings(rows, intervals)[0].entries;
   ASSERT_EQ(entries.size(), 3U);
-  EXPECT_EQ(entries[0].estimator, "gradient_boosting");
+  EXPECT_EQ(entries[0].estimator, "boosted_channels");
   EXPECT_EQ(entries[0].excess_log_loss, 0.0);
   EXPECT_NEAR(entries[1].log_loss, 0.5, 1e-12);
   EXPECT_NEAR(entries[1].excess_log_loss, 0.25, 1e-12);

@@ -1,15 +1,22 @@
+#include <map>
+#include <string>
+#include <tuple>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/tables/table.hpp"
+#include "estimator/evidence/curves.hpp"
+#include "estimator/models/parameters.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_directory/shard.hpp"
 #include "experiments/run_experiment.hpp"
 #include "experiments/studies/closed_loop/rollout.hpp"
 #include "experiments/studies/experiment_file.hpp"
+#include "recordings/models/parameter_model.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -24,10 +31,11 @@ using ::testing::Not;
 using ::testing::ThrowsMessage;
 
 Experiment with_closed_loop(const ScratchFolder& folder, const std::string& section,
-                            const std::string& sensors = "sensors/upkie.yaml") {
+                            const std::string& sensors = "sensors/upkie.yaml",
+                            const std::string& estimators = "[support_force, robust]") {
   const std::string step = folder.write("small_step.yaml", small_step_scene).string();
   return experiment_from_yaml(
-      YamlDocument::parse("name: small\nestimators: [support_force, robust]\nsensors: " + sensors +
+      YamlDocument::parse("name: small\nestimators: " + estimators + "\nsensors: " + sensors +
                               "\nfit: {scenarios: [" + step + "]}\ntest: {scenarios: [" + step +
                               "], runs: 1}\nrecordings: none\nvideo: {enabled: false}\n" + section,
                           "small.yaml"));
@@ -101,32 +109,50 @@ TEST(ClosedLoop, IsTheSameInShardsAndWhenResumed) {
   EXPECT_EQ(read_file(folder / "shards/tables/results.csv"), results);
 }
 
+/// A model that decides by the load of the servos' laws alone.
+FittedModel model_by_servo_load() {
+  EvidenceModel model;
+  model.servo_curve.assign(std::tuple_size_v<ServoLoadInputs>, EvidenceCurve{});
+  model.servo_seen.resize(model.servo_curve.size());
+  for (std::size_t k = 0; k < evidence_knots; ++k) {
+    model.servo_curve[3][k] = 4.0F * (static_cast<float>(k) - 22.0F);  // 0 nats at 12 N
+  }
+  return {.parameters = std::make_shared<const recordings::ParameterModelFile>(
+              recordings::ParameterModelFile{"evidence_curves", parameters_of(model), {}})};
+}
+
 TEST(ClosedLoop, ContactSourcesDecideAsInOfflineEvaluation) {
   // The reference: the recorded run, evaluated offline with the same sensors and noise.
   const ScratchFolder folder;
-  for (const char* sensors : {"sensors/upkie.yaml", "sensors/harsh.yaml", "sensors/ideal.yaml"}) {
-    const RunRequest request = request_of(
-        with_closed_loop(folder,
-                         of_steps(folder, ", noise: [{torque: 0.3, accelerometer: 1.0}]") +
-                             "  contact: [support_force]\n",
-                         sensors));
-    const Experiment& experiment = request.experiment;
-    scenarios::CompiledScenes scenes;
-    const ClosedLoopCell cell = closed_loop_cells(experiment).front();
-    const ClosedLoopRun loop = run_closed_loop(request, cell, 1, {}, scenes, [] { return true; });
-    recordings::Recording reported = loop.recording;
-    report_through_sensors(profile_of(request.sensors, experiment.sensors), experiment, 1,
-                           reported);
-    const RunSignals run =
-        signals_of(reported, experiment.labels, experiment.scoring, experiment.intervals.over);
-    const EstimatorEntry& entry = estimator_entry("support_force");
-    const auto estimator = entry.make(entry, {});
-    const auto offline =
-        predict(*estimator, run, noise_run(run, noise_key(experiment, 0, 1)), cell.noise.levels());
-    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-      EXPECT_EQ(loop.trace.contact[wheel], offline[wheel].contact) << sensors;
+  const std::map<std::string, FittedModel> models = {{"support_force", {}},
+                                                     {"evidence_curves", model_by_servo_load()}};
+  for (const auto& [name, model] : models) {
+    for (const char* sensors : {"sensors/upkie.yaml", "sensors/harsh.yaml", "sensors/ideal.yaml"}) {
+      const RunRequest request = request_of(
+          with_closed_loop(folder,
+                           of_steps(folder, ", noise: [{torque: 0.3, accelerometer: 1.0}]") +
+                               "  contact: [" + name + "]\n",
+                           sensors, "[" + name + "]"));
+      const Experiment& experiment = request.experiment;
+      scenarios::CompiledScenes scenes;
+      const ClosedLoopCell cell = closed_loop_cells(experiment).front();
+      const FittedModels fitted = {{cell.simulator, {{name, model}}}};
+      const ClosedLoopRun loop =
+          run_closed_loop(request, cell, 1, fitted, scenes, [] { return true; });
+      recordings::Recording reported = loop.recording;
+      report_through_sensors(profile_of(request.sensors, experiment.sensors), experiment, 1,
+                             reported);
+      const RunSignals run =
+          signals_of(reported, experiment.labels, experiment.scoring, experiment.intervals.over);
+      const EstimatorEntry& entry = estimator_entry(name);
+      const auto estimator = entry.make(entry, {.model = &model, .legs = run.legs});
+      const auto offline = predict(*estimator, run, noise_run(run, noise_key(experiment, 0, 1)),
+                                   cell.noise.levels());
+      for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+        EXPECT_EQ(loop.trace.contact[wheel], offline[wheel].contact) << name << ", " << sensors;
+      }
+      EXPECT_THAT(loop.trace.contact[0], AllOf(Contains(0), Contains(1))) << name;
     }
-    EXPECT_THAT(loop.trace.contact[0], AllOf(Contains(0), Contains(1)));
   }
 }
 
