@@ -78,7 +78,6 @@
     const find = (selector) => root.querySelector(selector);
     const data = unpacked(JSON.parse(find("script").textContent));
     const [view, overview, curves, slider, state, play] = [".view", ".overview", ".curves", ".time", ".state", ".play"].map(find);
-    root.hidden = false;
     const scene = openScene(view);
     if (!scene) {
       view.hidden = true;
@@ -315,5 +314,9 @@
     if (run.flights.length) go(Math.max(0, run.flights[0][0] + 0.5 * (run.flights[0][1] - run.flights[0][0])));
   };
 
-  for (const root of document.querySelectorAll(".replay")) start(root);
+  // The page is painted before the replay's preparation begins.
+  for (const root of document.querySelectorAll(".replay")) {
+    root.hidden = false;
+    requestAnimationFrame(() => setTimeout(() => start(root)));
+  }
 })();
