@@ -39,7 +39,10 @@ void add_geom(const mjModel& model, int geom, std::vector<Primitive>& primitives
   const auto add = [&](Shape shape, const Eigen::Vector3d& full, double along_z = 0.0) {
     primitive.shape = shape;
     primitive.size = full;
-    primitive.position = centre + primitive.orientation * Eigen::Vector3d(0.0, 0.0, along_z);
+    primitive.position = centre;
+    if (along_z != 0.0) {
+      primitive.position += primitive.orientation * Eigen::Vector3d(0.0, 0.0, along_z);
+    }
     primitives.push_back(primitive);
   };
   switch (model.geom_type[geom]) {
