@@ -43,8 +43,6 @@ OF_RUNS = {
     'causes_phase_washboard.png': (WASHBOARD, 'figures/phase_posterior.png'),
     'causes_robust_squat.png': (SQUAT, 'figures/detail_mujoco.png'),
     'evidence_curves.png': (['experiments/transparency.yaml'], 'figures/evidence_curves_mujoco.png'),
-    'operating_points.png': (['experiments/operating_points.yaml'], 'figures/operating_points.png'),
-    'touchdown_noise_mujoco.png': (['experiments/evidence_curves.yaml'], 'figures/error_mujoco.png'),
 }
 
 # image: (scenario, moment in seconds, more arguments of `touchdown simulate`)
