@@ -22,7 +22,7 @@ TOUCHDOWN_FUZZ(beliefs) {
     try {
       read();
     } catch (const Error& error) {
-      expected(error);
+      expected(error, input);
     }
   }
 }

@@ -53,7 +53,7 @@ TOUCHDOWN_FUZZ(log) {
   try {
     once = annotated(input.substr(1), chunk);
   } catch (const Error& error) {
-    expected(error);
+    expected(error, input);
     return;
   }
   if (once.rows != 0 && annotated(once.log, 0).rows != once.rows) __builtin_trap();

@@ -20,7 +20,7 @@ TOUCHDOWN_FUZZ(mapping) {
                                   folder.write("map.yaml", std::string(input.substr(0, end))),
                                   stream);
   } catch (const Error& error) {
-    expected(error);
+    expected(error, input);
   }
 }
 

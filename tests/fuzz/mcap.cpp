@@ -17,7 +17,7 @@ TOUCHDOWN_FUZZ(mcap) {
     }
     if (bytes == 1 && reader.note().empty()) return;  // the data were read
   } catch (const Error& error) {
-    expected(error);
+    expected(error, input);
   }
 }
 

@@ -15,7 +15,7 @@ TOUCHDOWN_FUZZ(measurement_model) {
     const MeasurementModel model = recordings::read_measurement_model(file.path());
     (void)model({0.5, 1e308});
   } catch (const Error& error) {
-    expected(error);
+    expected(error, input);
   }
 }
 

@@ -16,7 +16,7 @@ TOUCHDOWN_FUZZ(neural_network) {
   try {
     (void)recordings::read_neural_network(file.path());
   } catch (const Error& error) {
-    expected(error);
+    expected(error, input);
   }
 }
 

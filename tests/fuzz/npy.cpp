@@ -11,7 +11,7 @@ TOUCHDOWN_FUZZ(npy) {
   try {
     array = recordings::from_npy(input, "fuzz.npy");
   } catch (const Error& error) {
-    expected(error);
+    expected(error, input);
     return;
   }
   const recordings::NpyArray again = recordings::from_npy(recordings::to_npy(array), "again.npy");

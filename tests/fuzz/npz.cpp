@@ -13,7 +13,7 @@ TOUCHDOWN_FUZZ(npz) {
     (void)recordings::npz_names(file.path());
     (void)recordings::read_npz(file.path());
   } catch (const Error& error) {
-    expected(error);
+    expected(error, input);
   }
 }
 

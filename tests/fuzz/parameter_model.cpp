@@ -17,7 +17,7 @@ TOUCHDOWN_FUZZ(parameter_model) {
     (void)recordings::parameter(parameters, "slope");
     (void)recordings::parameter(parameters, "force_mean", 2);
   } catch (const Error& error) {
-    expected(error);
+    expected(error, input);
   }
 }
 

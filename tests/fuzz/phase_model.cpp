@@ -17,7 +17,7 @@ TOUCHDOWN_FUZZ(phase_model) {
   try {
     (void)recordings::read_phase_model(file.path());
   } catch (const Error& error) {
-    expected(error);
+    expected(error, input);
   }
 }
 

@@ -21,7 +21,7 @@ TOUCHDOWN_FUZZ(sqlite_bag) {
     }
     if (bytes == 1 && reader.note().empty()) return;  // the data were read
   } catch (const Error& error) {
-    expected(error);
+    expected(error, input);
   }
 }
 

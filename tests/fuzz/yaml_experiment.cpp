@@ -16,7 +16,7 @@ TOUCHDOWN_FUZZ(yaml_experiment) {
     const std::string written = to_yaml(experiments::experiment_from_yaml(document));
     (void)experiments::experiment_from_yaml(YamlDocument::parse(written, "again.yaml"));
   } catch (const Error& error) {
-    expected(error);
+    expected(error, input);
   }
 }
 

@@ -12,7 +12,7 @@ TOUCHDOWN_FUZZ(yaml_robot) {
   try {
     (void)from_yaml<models::RobotDescription>(YamlDocument::parse(std::string(input), "fuzz.yaml"));
   } catch (const Error& error) {
-    expected(error);
+    expected(error, input);
   }
 }
 

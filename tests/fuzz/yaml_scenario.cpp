@@ -13,7 +13,7 @@ TOUCHDOWN_FUZZ(yaml_scenario) {
     const std::string written = to_yaml(scenarios::scenario_from_yaml(document));
     (void)scenarios::scenario_from_yaml(YamlDocument::parse(written, "again.yaml"));
   } catch (const Error& error) {
-    expected(error);
+    expected(error, input);
   }
 }
 

@@ -9,6 +9,7 @@ namespace touchdown::fuzz {
 
 /// Arguments of `--set` for a scenario, one assignment per line.
 TOUCHDOWN_FUZZ(yaml_set) {
+  const std::string_view all = input;
   try {
     YamlDocument document = YamlDocument::parse(
         "name: x\nterrain: {pieces: [{flat: {length: 3.0}}]}\nend: {duration: 2.5}\n"
@@ -21,7 +22,7 @@ TOUCHDOWN_FUZZ(yaml_set) {
     }
     (void)to_yaml(scenarios::scenario_from_yaml(document));
   } catch (const Error& error) {
-    expected(error);
+    expected(error, all);
   }
 }
 
