@@ -197,7 +197,7 @@ TEST_F(Limits, FiguresMayHaveNamesThatGnuplotTakesForSomethingElse) {
   }
 }
 
-/// A program without enough descriptors or disk prints one line, in which it names the cause.
+/// What a program without enough descriptors or disk reports: one line, in which it names the cause.
 void expect_one_reason(const Ended& ended, const std::string& command) {
   EXPECT_TRUE(ended.exit_code == 0 || ended.exit_code == 1) << command << ": " << ended.errors;
   if (ended.exit_code == 0) return;
