@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/evaluation/tasks.hpp"
 #include "experiments/fitting/fitting.hpp"
@@ -49,8 +50,7 @@ double cost_of(const Action& action) {
 class ScratchDirectory {
  public:
   ScratchDirectory()
-      : path_(std::filesystem::temp_directory_path() /
-              fmt::format("touchdown_calibration_{}", ::getpid())) {}
+      : path_(temporary_folder() / fmt::format("touchdown_calibration_{}", ::getpid())) {}
   ~ScratchDirectory() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);

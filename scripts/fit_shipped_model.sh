@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Fits the shipped models, in minutes: Upkie crouched and with nearly straight legs, with ideal and with
 # real actuators, in both engines, with Upkie's sensors, on scenes drawn from all families.
-# The balanced and the quiet model are the same fit at two operating points.
+# The balanced and the quiet model are the same fit at two operating points. They use no targets of
+# joints, which most logs lack.
 # Usage: scripts/fit_shipped_model.sh build/release/touchdown models/evidence_curves.npz
 set -euo pipefail
 program="$(realpath "$1")"
@@ -38,7 +39,7 @@ for robot in "${robots[@]}"; do
     done
   done
 done
-"$program" fit "$logs"/*.mpack --estimator evidence_curves --servo-load --own-legs --robot upkie -o "$output"
+"$program" fit "$logs"/*.mpack --estimator evidence_curves --own-legs --robot upkie -o "$output"
 "$program" export "$output" --set leave_below="$leave_below" --set return_above="$return_above" -o "$quiet"
 
 words() { printf '"%s", ' "$@" | sed 's/, $//'; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "core/files.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "render/film/composer.hpp"
 #include "render/film/video.hpp"
@@ -50,7 +51,7 @@ void paint(const std::vector<FilmedRun>& runs, std::vector<Film> films, int work
 fs::file_time_type newest_in(const fs::path& folder) {
   fs::file_time_type newest = fs::file_time_type::min();
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+  for (const fs::path& entry : entries_in(folder)) {
     newest = std::max(newest, fs::last_write_time(entry, ignored));
   }
   return newest;

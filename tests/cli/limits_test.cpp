@@ -197,7 +197,8 @@ TEST_F(Limits, FiguresMayHaveNamesThatGnuplotTakesForSomethingElse) {
   }
 }
 
-/// What a program without enough descriptors or disk reports: one line, in which it names the cause.
+/// What a program without enough descriptors or disk reports: one line, in which it names the
+/// cause.
 void expect_one_reason(const Ended& ended, const std::string& command) {
   EXPECT_TRUE(ended.exit_code == 0 || ended.exit_code == 1) << command << ": " << ended.errors;
   if (ended.exit_code == 0) return;
@@ -236,7 +237,9 @@ TEST_F(Limits, TooFewDescriptorsAreNamedByEveryVerb) {
   for (const std::string& arguments : verbs) {
     for (const int descriptors : {4, 5, 6, 7, 8, 10, 12, 16}) {
       fs::remove_all(folder_ / "generated");
-      const Ended ended = after(fmt::format("ulimit -n {}", descriptors), arguments, folder_);
+      const Ended ended =
+          after(fmt::format("exec 3>&- 4>&- 5>&- 6>&- 7>&- 8>&- 9>&-; ulimit -n {}", descriptors),
+                arguments, folder_);  // without what a test runner leaves open
       expect_one_reason(ended, fmt::format("{} descriptors: {}", descriptors, arguments));
       if (ended.exit_code == 0) break;
     }
