@@ -14,7 +14,7 @@ Place handle_in(const cv::Mat& image) {
   Place place;
   for (int y = 0; y < image.rows; ++y) {
     for (int x = 0; x < image.cols; ++x) {
-      const auto pixel = image.at<cv::Vec3b>(y, x);
+      const auto& pixel = image.at<cv::Vec3b>(y, x);
       if (pixel != cv::Vec3b(0xb2, 0x72, 0x00)) continue;  // blue, green, red
       place.x += x;
       place.y += y;

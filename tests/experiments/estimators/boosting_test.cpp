@@ -49,7 +49,7 @@ TEST_P(BoostedEntry, RefusesInvalidTrees) {
 }
 
 /// The run with a tracking error of the knees that shows contact, and no other sign of it.
-RunSignals shown_by_targets(std::uint64_t seed) {
+RunSignals shown_by_targets(std::int64_t seed) {
   RunSignals run = synthetic_run(seed, 2000);
   for (std::size_t k = 0; k < run.steps(); ++k) {
     Signals& signals = run.signals[k];
