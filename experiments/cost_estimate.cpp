@@ -8,10 +8,7 @@
 #include <mutex>
 #include <set>
 #include <tuple>
-#include <unistd.h>
 #include <utility>
-
-#include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -46,24 +43,6 @@ double cost_of(const Action& action) {
   return processor_seconds() - start;
 }
 
-/// A folder for notes of failed runs, removed at the end.
-class ScratchDirectory {
- public:
-  ScratchDirectory()
-      : path_(temporary_folder() / fmt::format("touchdown_calibration_{}", ::getpid())) {}
-  ~ScratchDirectory() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchDirectory(const ScratchDirectory&) = delete;
-  ScratchDirectory& operator=(const ScratchDirectory&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 /// Runs of one scene by one robot are about equally long in every engine.
 using SceneKey = std::tuple<std::string, std::string>;
 
@@ -96,7 +75,7 @@ void simulate(const Experiment& experiment, const Plan& plan, const std::set<std
   if (chosen.empty()) return;
   Plan unkept = plan;
   for (PlannedRun& run : unkept.runs) run.kept = false;
-  const ScratchDirectory scratch;
+  const PartFolder scratch(temporary_folder() / "touchdown_calibration");  // notes of failed runs
   const RunDirectory directory("calibration", "calibration", scratch.path());
   std::mutex mutex;
   double steps = 0.0;
