@@ -58,6 +58,10 @@ OF_SCENES = {
 }
 
 
+# Side by side in robots.png.
+ROBOTS = ['upkie.xml', 'upkie_straight.yaml', 'upkie_large_wheels.yaml', 'upkie_long_legs.yaml', 'upkie_asymmetric.yaml']
+
+
 def call(*command, folder=ROOT):
     subprocess.run(list(map(str, command)), cwd=folder, check=True, stdout=subprocess.DEVNULL)
 
@@ -76,12 +80,22 @@ class Painter:
             self.finished[key] = folder
         return self.finished[key]
 
-    def scene(self, image, scenario, moment, *settings):
+    def scene(self, image, scenario, moment, *settings, width=640, height=360):
         with tempfile.TemporaryDirectory() as folder:
             recording = pathlib.Path(folder, 'run.mpack')
             call(self.program, 'simulate', f'scenarios/{scenario}.yaml', *settings, '-o', recording)
-            call(self.program, 'render', recording, '-o', image, '--poster', '--scene', '--from', moment, '--width', 640,
-                 '--height', 360)
+            call(self.program, 'render', recording, '-o', image, '--poster', '--scene', '--from', moment, '--width', width,
+                 '--height', height)
+
+    def robots(self, image):
+        with tempfile.TemporaryDirectory() as folder:
+            pictures = [pathlib.Path(folder, f'{number}.png') for number in range(len(ROBOTS))]
+            for picture, robot in zip(pictures, ROBOTS):
+                self.scene(picture, 'flat', 1, '--set', f'robot=models/{robot}', width=500, height=640)
+            inputs = [word for picture in pictures for word in ('-i', picture)]
+            crops = ''.join(f'[{number}]crop=320:380:90:120[robot{number}];' for number in range(len(pictures)))
+            row = ''.join(f'[robot{number}]' for number in range(len(pictures))) + f'hstack=inputs={len(pictures)}'
+            call('ffmpeg', '-y', '-loglevel', 'error', *inputs, '-filter_complex', crops + row, image)
 
     def log(self, image):
         with tempfile.TemporaryDirectory() as folder:
@@ -98,6 +112,8 @@ class Painter:
             self.scene(image, *OF_SCENES[name])
         elif name == 'robot_log.png':
             self.log(image)
+        elif name == 'robots.png':
+            self.robots(image)
         elif name == 'stairs_both_engines.jpg':
             call(self.program, 'render', self.run(STAIRS), '-o', image, '--poster', '--layout', 'side-by-side',
                  '--from', 3.08)
@@ -110,8 +126,7 @@ class Painter:
             sys.exit(f'{name}: no recipe')
 
 
-BY_HAND = {'robots.png'}  # five renders of scenarios/flat.yaml side by side
-OTHERS = {'robot_log.png', 'stairs_both_engines.jpg', 'closed_loop.jpg', 'performance.png'}
+OTHERS = {'robot_log.png', 'robots.png', 'stairs_both_engines.jpg', 'closed_loop.jpg', 'performance.png'}
 
 
 def names():
