@@ -23,6 +23,7 @@ std::vector<std::uint8_t> wheels_in_contact(const recordings::Recording& recordi
 
 std::vector<scoring::Flight> visible_flights(const recordings::Recording& recording,
                                              scoring::LabelConfig labels) {
+  if (recording.truth.size() < recording.steps()) return {};
   constexpr double visible = 0.05;  // s
   labels.debounce = std::max(labels.debounce, visible);
   return scoring::flights(scoring::any_wheel(scoring::contact_labels(recording, labels)));

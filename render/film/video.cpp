@@ -138,15 +138,9 @@ class FilmFile {
 }  // namespace
 
 double first_flight(const recordings::Recording& recording, const scoring::LabelConfig& labels) {
-  scoring::LabelConfig visible = labels;
-  visible.debounce = std::max(visible.debounce, 0.04);
-  const std::vector<std::uint8_t> contact = wheels_in_contact(recording, visible);
-  std::size_t begin = 0;
-  for (std::size_t k = 1; k < contact.size(); ++k) {
-    if (contact[k] == 0 && contact[k - 1] != 0) begin = k;
-    if (begin > 0 && contact[k] != 0 && contact[k - 1] == 0) {
-      return recording.period() * static_cast<double>(begin + k) / 2.0;
-    }
+  for (const scoring::Flight& flight : visible_flights(recording, labels)) {
+    if (flight.takeoff == 0 || flight.landing == recording.steps()) continue;
+    return recording.period() * static_cast<double>(flight.takeoff + flight.landing) / 2.0;
   }
   return recording.period() * static_cast<double>(recording.steps()) / 2.0;
 }
