@@ -78,7 +78,7 @@ class BeliefWriter {
       annotator_->annotate(reader.record(), belief, evidence);
     }
     if (drawn_ && time >= drawn_->from && time <= drawn_->to) {
-      draw(step, belief, evidence.transition);
+      draw(step, belief, evidence);
     }
   }
 
@@ -100,10 +100,8 @@ class BeliefWriter {
   const render::LogTrace& trace() const { return trace_; }
 
  private:
-  void draw(const experiments::LogStep& step, const Belief& belief,
-            const Evidence::Transition& transition) {
-    render::LogTraceStep drawn =
-        render::log_trace_step(step.signals, belief, transition.p_takeoff, transition.p_landing);
+  void draw(const experiments::LogStep& step, const Belief& belief, const Evidence& evidence) {
+    render::LogTraceStep drawn = render::log_trace_step(step.signals, belief, evidence);
     if (step.normal_force) {
       drawn.true_contact = {(*step.normal_force)[0] > labels_.force_threshold,
                             (*step.normal_force)[1] > labels_.force_threshold};

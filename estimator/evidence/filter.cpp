@@ -1,5 +1,7 @@
 #include "estimator/evidence/filter.hpp"
 
+#include "estimator/evidence/contributions.hpp"
+
 namespace touchdown {
 
 namespace {
@@ -12,12 +14,26 @@ const EvidenceModel& checked(const EvidenceModel& model) {
 }  // namespace
 
 EvidenceCurves::EvidenceCurves(const EvidenceModel& model, const DecisionConfig& config)
-    : evidence_(checked(model)), decision_(config, !model.servo_curve.empty()) {}
+    : model_(checked(model)), evidence_(model), decision_(config, !model.servo_curve.empty()) {}
+
+Evidence EvidenceCurves::evidence() const noexcept {
+  Evidence evidence;
+  if (has_inputs_[0]) {
+    evidence.contributions[0] =
+        evidence_contributions(model_, decision_.left_inputs(), decision_.left_servo_load());
+  }
+  if (has_inputs_[1]) {
+    evidence.contributions[1] =
+        evidence_contributions(model_, of_other_wheel(decision_.left_inputs()),
+                               of_other_wheel(decision_.left_servo_load()));
+  }
+  return evidence;
+}
 
 const Belief& EvidenceCurves::estimate(const Signals& signals) noexcept {
-  const std::array<bool, 2>& is_valid = decision_.update(signals);
+  has_inputs_ = decision_.update(signals);
   std::array<float, 2> logits{};
-  if (is_valid[0] || is_valid[1]) {
+  if (has_inputs_[0] || has_inputs_[1]) {
     decision_.compute_inputs();
     logits = evidence_.logits(decision_.left_inputs(), decision_.left_servo_load());
   }

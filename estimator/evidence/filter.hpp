@@ -18,13 +18,21 @@ class EvidenceCurves : public ContactEstimator {
   /// Throws InputError as `check_evidence_model` does, and for an invalid configuration.
   explicit EvidenceCurves(const EvidenceModel& model, const DecisionConfig& config = {});
 
-  void reset() noexcept override { decision_.reset(); }
+  void reset() noexcept override {
+    decision_.reset();
+    has_inputs_ = {};
+  }
+
+  /// The contributions at the last step, of wheels that its signals are usable for.
+  [[nodiscard]] Evidence evidence() const noexcept override;
 
  private:
   const Belief& estimate(const Signals& signals) noexcept override;
 
+  EvidenceModel model_;
   PairedEvidence evidence_;
   LogitDecision decision_;
+  std::array<bool, 2> has_inputs_{};  ///< whether the last step has; left, right
 };
 
 }  // namespace touchdown

@@ -30,6 +30,11 @@ struct Panel {
   const char* y_range;
 };
 
+LogCurve contribution(std::size_t wheel, std::size_t number) {
+  return static_cast<LogCurve>(static_cast<std::size_t>(LogCurve::contributions) +
+                               wheel * contribution_names.size() + number);
+}
+
 std::vector<Panel> panels_of(const LogTrace& trace) {
   std::vector<Panel> panels = {
       {"knee (N·m)",
@@ -42,12 +47,24 @@ std::vector<Panel> panels_of(const LogTrace& trace) {
       {"P(contact)",
        {{LogCurve::p_contact_left, "left", 1}, {LogCurve::p_contact_right, "right", 2}},
        "[-0.03:1.03]"}};
-  const auto column = static_cast<std::size_t>(LogCurve::p_takeoff);
-  if (std::any_of(trace.bins().begin(), trace.bins().end(),
-                  [&](const LogTrace::Bin& bin) { return !std::isnan(bin.low[column]); })) {
+  const auto has_values = [&](LogCurve curve) {
+    const auto column = static_cast<std::size_t>(curve);
+    return std::any_of(trace.bins().begin(), trace.bins().end(),
+                       [&](const LogTrace::Bin& bin) { return !std::isnan(bin.low[column]); });
+  };
+  if (has_values(LogCurve::p_takeoff)) {
     panels.push_back({"P(switch)",
                       {{LogCurve::p_takeoff, "takeoff", 4}, {LogCurve::p_landing, "landing", 3}},
                       "[-0.03:1.03]"});
+  }
+  for (const std::size_t wheel : {0U, 1U}) {
+    if (!has_values(contribution(wheel, 0))) continue;
+    Panel panel = {wheel == 0 ? "left (nats)" : "right (nats)", {}, "[*:*]"};
+    for (std::size_t i = 0; i < contribution_names.size(); ++i) {
+      panel.curves.push_back(
+          {contribution(wheel, i), contribution_names[i], static_cast<int>(i) + 1});
+    }
+    panels.push_back(panel);
   }
   return panels;
 }
@@ -74,8 +91,10 @@ std::string curve_commands(const Panel& panel, const std::string& file) {
     columns.push_back(fmt::format("1:{} with lines lt {} lw 1 dt 1 title {}", low + 1, line_type,
                                   gnuplot_text(name)));
   }
-  return fmt::format("set ylabel {} offset -0.5,0\nset yrange {}\n", gnuplot_text(panel.label),
-                     panel.y_range) +
+  constexpr std::size_t roomy = 3;  // more entries need a denser key
+  return fmt::format("set ylabel {} offset -0.5,0\nset yrange {}\nset key maxrows {} {}\n",
+                     gnuplot_text(panel.label), panel.y_range, panel.curves.size(),
+                     panel.curves.size() > roomy ? "font ',9' spacing 0.85" : "font '' spacing 1") +
          plot(file, columns);
 }
 
@@ -119,19 +138,21 @@ std::string status_commands(const std::string& file) {
 
 }  // namespace
 
-LogTraceStep log_trace_step(const Signals& signals, const Belief& belief, double p_takeoff,
-                            double p_landing) {
+LogTraceStep log_trace_step(const Signals& signals, const Belief& belief,
+                            const Evidence& evidence) {
   LogTraceStep step;
   step.time = signals.time;
-  step.value = {signals.leg[0].knee.torque,
-                signals.leg[1].knee.torque,
-                signals.leg[0].wheel.torque,
-                signals.leg[1].wheel.torque,
-                signals.vertical_acceleration,
-                belief.wheel[0].p_contact,
-                belief.wheel[1].p_contact,
-                p_takeoff,
-                p_landing};
+  step.value = {
+      signals.leg[0].knee.torque,  signals.leg[1].knee.torque,    signals.leg[0].wheel.torque,
+      signals.leg[1].wheel.torque, signals.vertical_acceleration, belief.wheel[0].p_contact,
+      belief.wheel[1].p_contact,   evidence.transition.p_takeoff, evidence.transition.p_landing};
+  std::size_t curve = static_cast<std::size_t>(LogCurve::contributions);
+  for (const Evidence::Contributions& wheel : evidence.contributions) {
+    for (const double nats : {wheel.load, wheel.ground_torque, wheel.axle_motion, wheel.torso,
+                              wheel.other_leg, wheel.offset}) {
+      step.value[curve++] = nats;
+    }
+  }
   step.contact = {belief.wheel[0].contact, belief.wheel[1].contact};
   step.status = is_used(belief.status) ? SignalStatus::good : belief.status;
   return step;
@@ -185,7 +206,8 @@ void LogTrace::add(const LogTraceStep& step) {
 std::string LogTrace::table() const {
   std::string text =
       "# begin_s\tend_s\tlow and high of: left knee, right knee, left wheel, right wheel (N m), "
-      "vertical acceleration (m/s2), p_contact left, right, p_takeoff, p_landing\tshare of steps "
+      "vertical acceleration (m/s2), p_contact left, right, p_takeoff, p_landing, contributions to "
+      "left and to right (nats)\tshare of steps "
       "decided as contact: left, right\ttrue contact: left, right\tsteps good, invalid, gap, "
       "frozen\n";
   for (std::size_t i = 0; i < bins_.size(); ++i) {
@@ -226,7 +248,10 @@ Figure draw_log(const LogTrace& trace, const std::string& title,
       panels.size() + 2, gnuplot_text(title), begin, end > begin ? end : begin + 1.0);
   for (const Panel& panel : panels) commands += curve_commands(panel, file);
   commands += "unset key\n" + contact_commands(file, with_truth) + status_commands(file);
-  return draw_figure(stem, 1000, 1000, commands + end_multiplot, {{file, trace.table()}});
+  constexpr std::size_t usual_panels = 5;
+  const int height =
+      1000 + 200 * static_cast<int>(std::max(panels.size(), usual_panels) - usual_panels);
+  return draw_figure(stem, 1000, height, commands + end_multiplot, {{file, trace.table()}});
 }
 
 }  // namespace touchdown::render

@@ -24,8 +24,14 @@ enum class LogCurve : int {
   p_contact_right,
   p_takeoff,
   p_landing,
+  /// `Evidence::Contributions` of the left wheel, in its order, then those of the right one.
+  contributions,
 };
-inline constexpr std::size_t log_curve_count = 9;
+/// The names of a wheel's contributions in files and legends.
+inline constexpr std::array<const char*, 6> contribution_names = {
+    "load", "ground torque", "axle motion", "torso", "other leg", "offset"};
+inline constexpr std::size_t log_curve_count =
+    static_cast<std::size_t>(LogCurve::contributions) + 2 * contribution_names.size();
 
 /// The drawn values of one step of a log.
 struct LogTraceStep {
@@ -36,8 +42,7 @@ struct LogTraceStep {
   SignalStatus status = SignalStatus::good;         ///< `degraded` counts as good
 };
 
-LogTraceStep log_trace_step(const Signals& signals, const Belief& belief, double p_takeoff,
-                            double p_landing);
+LogTraceStep log_trace_step(const Signals& signals, const Belief& belief, const Evidence& evidence);
 
 /// A summary of a log of any length for drawing: bins of equally many steps with the lowest and the
 /// highest value of each curve, so that no spike is lost. When there are too many bins, neighbours
@@ -78,9 +83,10 @@ class LogTrace {
 
 /// Draws a log with an estimator's output over time: torques, vertical acceleration, contact
 /// probability, decided contact and the signals' status; takeoff and landing probability where the
-/// estimator has them; true contact where it is known. Each curve fills the space between its
-/// lowest and highest value. Files as `draw_figure`. Errors: `InputError` for a trace without
-/// steps; `Error` as `draw_figure`.
+/// estimator has them; contributions to each wheel's log-odds if the estimator is an additive
+/// model; true contact where it is known. Each curve fills the space between its lowest and highest
+/// value. Files as `draw_figure`. Errors: `InputError` for a trace without steps; `Error` as
+/// `draw_figure`.
 Figure draw_log(const LogTrace& trace, const std::string& title, const std::filesystem::path& stem);
 
 }  // namespace touchdown::render

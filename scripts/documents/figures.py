@@ -24,6 +24,11 @@ WASHBOARD = [*KERB, PUSH_OFFS, '--set=test.scenarios=[scenarios/washboard.yaml]'
 SQUAT = [*KERB, '--set=test.scenarios=[scenarios/squat.yaml]', '--set=detail.at=2.5', '--set=detail.before=1.0',
          '--set=detail.after=0.8', '--set=posterior.enabled=false']
 
+# The fit of this experiment; the picture needs no more than one test run.
+CURVES = ['experiments/transparency.yaml', '--set=estimators=[evidence_curves]', '--set=simulators=[mujoco]',
+          '--set=fit.servo_load=true', '--set=test.scenarios=[scenarios/stairs.yaml]', '--set=test.runs=1',
+          '--set=noise.torque=[0]', '--set=noise.accelerometer=[0]', '--set=highlights=[{torque: 0, accelerometer: 0}]']
+
 # image: (arguments of `touchdown run`, file in the run directory)
 OF_RUNS = {
     'figure_error.png': (STAIRS, 'figures/error_mujoco.png'),
@@ -42,7 +47,7 @@ OF_RUNS = {
     'causes_phase_repaired.png': ([*KERB, PUSH_OFFS], 'figures/phase_posterior.png'),
     'causes_phase_washboard.png': (WASHBOARD, 'figures/phase_posterior.png'),
     'causes_robust_squat.png': (SQUAT, 'figures/detail_mujoco.png'),
-    'evidence_curves.png': (['experiments/transparency.yaml'], 'figures/evidence_curves_mujoco.png'),
+    'evidence_curves.png': (CURVES, 'figures/evidence_curves_mujoco.png'),
 }
 
 # image: (scenario, moment in seconds, more arguments of `touchdown simulate`)
@@ -97,10 +102,10 @@ class Painter:
             row = ''.join(f'[robot{number}]' for number in range(len(pictures))) + f'hstack=inputs={len(pictures)}'
             call('ffmpeg', '-y', '-loglevel', 'error', *inputs, '-filter_complex', crops + row, image)
 
-    def log(self, image):
+    def log(self, image, *part):
         with tempfile.TemporaryDirectory() as folder:
             call(self.program, 'simulate', ROOT / 'scenarios/stairs.yaml', '--run', 3, '-o', 'robot.mpack', folder=folder)
-            call(self.program, 'estimate', 'robot.mpack', '--figure', 'log.png', folder=folder)
+            call(self.program, 'estimate', 'robot.mpack', '--figure', 'log.png', *part, folder=folder)
             shutil.copyfile(pathlib.Path(folder, 'log.png'), image)
 
     def draw(self, name):
@@ -112,6 +117,8 @@ class Painter:
             self.scene(image, *OF_SCENES[name])
         elif name == 'robot_log.png':
             self.log(image)
+        elif name == 'evidence_inputs.png':
+            self.log(image, '--from', 3.0, '--to', 3.5)
         elif name == 'robots.png':
             self.robots(image)
         elif name == 'stairs_both_engines.jpg':
@@ -126,7 +133,7 @@ class Painter:
             sys.exit(f'{name}: no recipe')
 
 
-OTHERS = {'robot_log.png', 'robots.png', 'stairs_both_engines.jpg', 'closed_loop.jpg', 'performance.png'}
+OTHERS = {'evidence_inputs.png', 'robot_log.png', 'robots.png', 'stairs_both_engines.jpg', 'closed_loop.jpg', 'performance.png'}
 
 
 def names():

@@ -1,5 +1,7 @@
 #include "render/curves/log_figure.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -15,15 +17,23 @@ namespace touchdown::render {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::NanSensitiveDoubleEq;
 
-constexpr std::size_t columns = 28;
+/// Columns of the table: of the shares of contact, of true contact, of the numbers of steps by
+/// status.
+constexpr std::size_t contact_at = 2 + 2 * log_curve_count;
+constexpr std::size_t truth_at = contact_at + 2;
+constexpr std::size_t status_at = truth_at + 2;
+constexpr std::size_t columns = status_at + 4;
 
 LogTraceStep step_at(std::size_t k) {
   LogTraceStep step;
   step.time = 0.001 * static_cast<double>(k);
   const bool air = k % 1000 >= 700;
-  step.value = {air ? 0.1 : 1.2, air ? -0.1 : -1.2, 0.2, -0.3, k == 4321 ? 250.0 : 0.0,
-                air ? 0.0 : 1.0, air ? 0.1 : 0.9,   0.3, 0.4};
+  step.value.fill(NAN);
+  const std::array values = {air ? 0.1 : 1.2, air ? -0.1 : -1.2, 0.2, -0.3, k == 4321 ? 250.0 : 0.0,
+                             air ? 0.0 : 1.0, air ? 0.1 : 0.9,   0.3, 0.4};
+  std::copy(values.begin(), values.end(), step.value.begin());
   step.contact = {!air, true};
   step.true_contact = {!air, k % 2 == 0};
   if (k == 1234) step.status = SignalStatus::invalid;
@@ -56,12 +66,12 @@ TEST(LogTrace, KeepsEveryStepOfAShortLog) {
     EXPECT_EQ(rows[i][0], step.time);
     EXPECT_EQ(rows[i][1], step.time);
     for (std::size_t c = 0; c < log_curve_count; ++c) {
-      EXPECT_EQ(rows[i][2 + 2 * c], step.value[c]);
-      EXPECT_EQ(rows[i][3 + 2 * c], step.value[c]);
+      EXPECT_THAT(rows[i][2 + 2 * c], NanSensitiveDoubleEq(step.value[c]));
+      EXPECT_THAT(rows[i][3 + 2 * c], NanSensitiveDoubleEq(step.value[c]));
     }
-    EXPECT_EQ(rows[i][20], step.contact[0] ? 1.0 : 0.0);
-    EXPECT_EQ(rows[i][23], (*step.true_contact)[1] ? 1.0 : 0.0);
-    EXPECT_EQ(rows[i][25], 1000 + i == 1234 ? 1.0 : 0.0);
+    EXPECT_EQ(rows[i][contact_at], step.contact[0] ? 1.0 : 0.0);
+    EXPECT_EQ(rows[i][truth_at + 1], (*step.true_contact)[1] ? 1.0 : 0.0);
+    EXPECT_EQ(rows[i][status_at + 1], 1000 + i == 1234 ? 1.0 : 0.0);
   }
 }
 
@@ -78,10 +88,11 @@ TEST(LogTrace, LosesNoSpikeAndNoStepOfALongLogAtAConstantMemory) {
   double invalid = 0.0;
   double all = 0.0;
   for (const auto& row : rows) {
-    const double of_bin = row[24] + row[25] + row[26] + row[27];
+    const double of_bin =
+        row[status_at] + row[status_at + 1] + row[status_at + 2] + row[status_at + 3];
     highest = std::max(highest, row[2 + 2 * 4 + 1]);
-    contact += row[20] * of_bin;
-    invalid += row[25];
+    contact += row[contact_at] * of_bin;
+    invalid += row[status_at + 1];
     all += of_bin;
   }
   EXPECT_EQ(highest, 250.0);
@@ -117,7 +128,7 @@ TEST(LogTrace, LeavesOutMissingValues) {
   const auto rows = rows_of(trace.table());
   EXPECT_TRUE(std::isnan(rows[0][2]));
   EXPECT_EQ(rows[0][4], -1.2);
-  EXPECT_TRUE(std::isnan(rows[0][22]));
+  EXPECT_TRUE(std::isnan(rows[0][truth_at]));
 }
 
 TEST(LogFigure, IsDrawnWithItsDataBesideIt) {
@@ -158,6 +169,32 @@ TEST(LogFigure, OfOneStepOrWithoutTransitionsOrTruthCanBeDrawn) {
   EXPECT_EQ(picture.find("P(switch)"), std::string::npos);
   EXPECT_EQ(picture.find(">true<"), std::string::npos);
   EXPECT_THROW(draw_log(LogTrace(), "", folder / "none"), InputError);
+}
+
+TEST(LogFigure, ShowsContributionsOfAdditiveModelsOnly) {
+  const ScratchFolder folder;
+  Evidence evidence;
+  evidence.contributions[1] = {-6.0, 0.5, -2.0, 0.25, 1.0, 3.0};
+  LogTrace trace;
+  for (std::size_t k = 0; k < 10; ++k) {
+    Signals signals;
+    signals.time = 0.001 * static_cast<double>(k);
+    trace.add(log_trace_step(signals, Belief(), evidence));
+  }
+  const std::string picture = read_file(draw_log(trace, "", folder / "right").svg);
+  EXPECT_THAT(picture, HasSubstr("right (nats)"));
+  EXPECT_EQ(picture.find("left (nats)"), std::string::npos);
+  for (const char* const name : contribution_names) EXPECT_THAT(picture, HasSubstr(name));
+  const std::vector<double> row = rows_of(trace.table()).front();
+  const std::size_t first = contact_at - 2 * contribution_names.size();
+  EXPECT_EQ(std::vector(row.begin() + static_cast<std::ptrdiff_t>(first),
+                        row.begin() + static_cast<std::ptrdiff_t>(contact_at)),
+            (std::vector{-6.0, -6.0, 0.5, 0.5, -2.0, -2.0, 0.25, 0.25, 1.0, 1.0, 3.0, 3.0}));
+
+  LogTrace without;
+  without.add(log_trace_step(Signals(), Belief(), Evidence()));
+  EXPECT_EQ(read_file(draw_log(without, "", folder / "none").svg).find("(nats)"),
+            std::string::npos);
 }
 
 }  // namespace
