@@ -8,6 +8,7 @@
 #include "cli/manual/described_verb.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "core/program/command_line.hpp"
 #include "core/program/interrupt.hpp"
 #include "core/program/memory.hpp"
 #include "core/program/streams.hpp"
@@ -28,23 +29,9 @@ std::string joined(int argc, char** argv) {
   return line;
 }
 
-std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
-  const std::string near = did_you_mean(word, known);
-  return near.empty() ? fmt::format(" (known: {})", fmt::join(known, ", ")) : near;
-}
-
 std::vector<std::string> verbs(const CLI::App& program) {
   std::vector<std::string> names;
   for (const DescribedVerb& verb : described_verbs(program)) names.push_back(verb.name);
-  return names;
-}
-
-/// The names of a verb's options, the long name of each option first.
-std::vector<std::string> flags(const CLI::App& verb) {
-  std::vector<std::string> names;
-  for (const DescribedOption& option : described(verb).options) {
-    if (!option.positional) names.insert(names.end(), option.names.rbegin(), option.names.rend());
-  }
   return names;
 }
 
@@ -54,18 +41,12 @@ std::string complaint(const CLI::App& program, int argc, char** argv,
   const std::vector<std::string> known = verbs(program);
   const std::string verb = argc > 1 ? argv[1] : "";
   if (std::find(known.begin(), known.end(), verb) == known.end()) {
-    if (verb.rfind('-', 0) == 0) {
-      return fmt::format("unknown flag '{}'{}", verb, suggestion(verb, flags(program)));
-    }
-    return fmt::format("unknown command '{}'{}", verb, suggestion(verb, known));
+    if (verb.starts_with('-')) return unknown_flag(verb, program);
+    const std::string near = did_you_mean(verb, known);
+    return fmt::format("unknown command '{}'{}", verb,
+                       near.empty() ? fmt::format(" (known: {})", fmt::join(known, ", ")) : near);
   }
-  const CLI::App* asked = program.get_subcommand(verb);
-  for (const std::string& rest : asked->remaining(true)) {
-    if (rest.rfind('-', 0) != 0) continue;
-    const std::string flag = rest.substr(0, rest.find('='));
-    return fmt::format("{}: unknown flag '{}'{}", verb, flag, suggestion(flag, flags(*asked)));
-  }
-  return fmt::format("{}: {}", verb, on_one_line(error.what()));
+  return fmt::format("{}: {}", verb, refused_words(*program.get_subcommand(verb), error.what()));
 }
 
 /// "file: reason", without the name of the failed function.

@@ -19,6 +19,12 @@ std::vector<std::string> choices_in(const std::string& type) {
   return choices;
 }
 
+/// Replaces line ends by blanks.
+std::string on_one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
 DescribedOption described_option(const CLI::Option& option) {
   DescribedOption result;
   for (const std::string& name : option.get_snames()) result.names.push_back("-" + name);
@@ -38,11 +44,6 @@ DescribedOption described_option(const CLI::Option& option) {
 }
 
 }  // namespace
-
-std::string on_one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
 
 DescribedVerb described(const CLI::App& app) {
   DescribedVerb result;

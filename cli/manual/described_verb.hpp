@@ -28,9 +28,6 @@ struct DescribedVerb {
   std::vector<DescribedOption> options;
 };
 
-/// Replaces line ends by blanks.
-std::string on_one_line(std::string text);
-
 /// Describes a verb, or the program without its verbs.
 DescribedVerb described(const CLI::App& app);
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/program/command_line.hpp"
 #include "core/program/interrupt.hpp"
 #include "core/program/outputs.hpp"
 #include "core/program/streams.hpp"
@@ -68,7 +69,7 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::Success& success) {  // --help
     return program.exit(success);
   } catch (const CLI::ParseError& error) {
-    return complain(fmt::format("train: {}", error.what()), wrong_request);
+    return complain(fmt::format("train: {}", refused_words(program, error.what())), wrong_request);
   }
   try {
     request.stop = &stop_on_interrupt();

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/program/command_line.hpp"
 #include "core/program/interrupt.hpp"
 #include "core/program/outputs.hpp"
 #include "core/program/streams.hpp"
@@ -114,7 +115,7 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::Success& success) {  // --help
     return program.exit(success);
   } catch (const CLI::ParseError& error) {
-    return complain(fmt::format("watch: {}", error.what()), wrong_request);
+    return complain(fmt::format("watch: {}", refused_words(program, error.what())), wrong_request);
   }
   try {
     return watch(flags, stop_on_interrupt());
