@@ -112,8 +112,8 @@ void simulate(SimulateFlags flags, const CliSession& session) {
   if (sensors) report_through(*sensors, recording);
   recordings::write_recording(recording, flags.output);
   const auto all = scoring::flights(scoring::any_wheel(scoring::contact_labels(recording, {})));
-  print("{}: {} {}, {} flights\n", flags.output, recording.info.scenario,
-        scenarios::ending_text(recording, scenario.end), all.size());
+  print("{}: {} {}, {} flight{}\n", flags.output, recording.info.scenario,
+        scenarios::ending_text(recording, scenario.end), all.size(), all.size() == 1 ? "" : "s");
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
 #include "experiments/fit_run_check.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "experiments/config/experiment_estimators.hpp"
+#include "experiments/rollouts/failures.hpp"
 
 namespace touchdown::experiments {
 
@@ -15,8 +18,13 @@ bool is_whole_fit_run(const PlannedRun& run) { return run.role == RunRole::fit &
 
 FitRunCheck::FitRunCheck(const Experiment& experiment, const Plan& plan,
                          const std::set<std::size_t>& needed) {
+  const bool has_segments = std::any_of(plan.runs.begin(), plan.runs.end(), [](const auto& run) {
+    return run.role == RunRole::fit && run.group != 0;
+  });
   for (const std::string& name : experiment.estimators) {
     const EstimatorEntry& entry = estimator_entry(experiment, name);
+    const bool has_other_runs = has_segments && entry.learns_from_segments;
+    if (entry.fits() && !has_other_runs) whole_run_estimators_.push_back(name);
     if (entry.phase) phase_estimators_.push_back(name);
     if (entry.config) measurement_estimators_.push_back(name);
   }
@@ -44,13 +52,20 @@ void FitRunCheck::add(const Rollout& run) {
   Runs& runs = fits_.at({run.plan.fit, run.plan.simulator});
   runs.scenes.insert(run.plan.scenario.name);
   runs.is_any_usable = runs.is_any_usable || !run.failed();
+  if (run.failed()) runs.failures[run.plan.file] = run.report.ending;
   Contents& all = runs.contents;
   all.contact = all.contact || own.contact;
   all.no_contact = all.no_contact || own.no_contact;
   all.rolling = all.rolling || own.rolling;
   all.flight = all.flight || own.flight;
-  if (--runs.left > 0 || !runs.is_any_usable) return;
+  if (--runs.left > 0) return;
   const std::string& simulator = run.plan.simulator;
+  if (!runs.is_any_usable) {
+    if (whole_run_estimators_.empty()) return;
+    throw InputError(fmt::format("fit on {}: {}: no run of fit.scenarios stayed upright: {}",
+                                 simulator, fmt::join(whole_run_estimators_, ", "),
+                                 failures_text(runs.failures)));
+  }
   require(all.rolling, phase_estimators_, "rolling on both wheels", simulator, runs);
   require(all.flight, phase_estimators_, "flight", simulator, runs);
   require(all.contact, measurement_estimators_, "contact", simulator, runs);

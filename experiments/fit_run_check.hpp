@@ -22,7 +22,8 @@ class FitRunCheck {
   FitRunCheck(const Experiment& experiment, const Plan& plan, const std::set<std::size_t>& needed);
 
   /// Called once for each simulated run, from several threads. Errors: `InputError` with the
-  /// estimators that cannot be fitted, what the runs lack, and the scenes.
+  /// estimators that cannot be fitted, what the runs lack, and the scenes; or with the reason of
+  /// the first failure if all runs failed.
   void add(const Rollout& run);
 
  private:
@@ -36,14 +37,16 @@ class FitRunCheck {
   /// The whole runs of one fit on one engine.
   struct Runs {
     std::size_t left = 0;  ///< not simulated yet
-    bool is_any_usable = false;
     Contents contents = {};
+    bool is_any_usable = false;
     std::set<std::string> scenes = {};
+    std::map<std::string, std::string> failures = {};  ///< endings by file
   };
 
   static void require(bool holds, const std::vector<std::string>& estimators,
                       const std::string& missing, const std::string& simulator, const Runs& runs);
 
+  std::vector<std::string> whole_run_estimators_;  ///< fitted, and not to segments
   std::vector<std::string> phase_estimators_;
   std::vector<std::string> measurement_estimators_;
   std::map<std::pair<std::string, std::string>, Runs> fits_;  ///< by name of the fit and engine

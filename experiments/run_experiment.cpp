@@ -18,6 +18,7 @@
 #include "experiments/needs.hpp"
 #include "experiments/results/manifest.hpp"
 #include "experiments/results/result_files.hpp"
+#include "experiments/rollouts/failures.hpp"
 #include "experiments/rollouts/training_segments.hpp"
 #include "experiments/rollouts/training_sets.hpp"
 #include "experiments/run_directory/own_files.hpp"
@@ -44,6 +45,16 @@ bool is_any_scored(const Rollouts& runs) {
   return std::any_of(runs.begin(), runs.end(), [](const auto& entry) {
     return entry.second.plan.role == RunRole::test && !entry.second.failed();
   });
+}
+
+/// Errors: `Error` with the reasons if no test run can be scored.
+void require_scored_run(const Rollouts& runs) {
+  if (is_any_scored(runs)) return;
+  std::map<std::string, std::string> endings;
+  for (const auto& [index, run] : runs) {
+    if (run.plan.role == RunRole::test) endings[run.plan.file] = run.report.ending;
+  }
+  throw Error("no test run stayed upright: there is nothing to score: " + failures_text(endings));
 }
 
 /// The fitted models, and the tuning trials before the fit.
@@ -297,9 +308,7 @@ ExperimentResult score(ExperimentContext& context, Computed& done) {
     append(result.figures, found.figures);
   };
   timed(context, "score", [&] {
-    if (!is_any_scored(done.runs)) {
-      throw Error("no test run stayed upright: there is nothing to score");
-    }
+    require_scored_run(done.runs);
     const CollectedCounts counts = collect(plan, plan.runs_in(0), context.saved);
     const scoring::BootstrapConfig& bootstrap = experiment.intervals.bootstrap;
     result.summaries = summarise(own(counts.counted), result.cells, bootstrap);
@@ -385,9 +394,13 @@ RunOutline outline_of(const Experiment& experiment, const RunOptions& options) {
   const int threads = threads_of(experiment);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
-  return {
-      directory, plan.tasks.size(), threads,
-      estimate_cost(request, plan, [stop = options.stop] { return stop == nullptr || !*stop; })};
+  try {
+    return {
+        directory, plan.tasks.size(), threads,
+        estimate_cost(request, plan, [stop = options.stop] { return stop == nullptr || !*stop; })};
+  } catch (const Stopped&) {
+    throw Stopped("stopped; nothing was written");
+  }
 }
 
 ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& options) {

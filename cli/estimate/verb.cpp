@@ -18,10 +18,12 @@
 #include "experiments/logs/log_score.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/summary.hpp"
+#include "experiments/rollouts/rollouts.hpp"
 #include "recordings/log/annotator.hpp"
 #include "recordings/log/byte_source.hpp"
 #include "recordings/mapping/mapped_log.hpp"
 #include "render/curves/log_figure.hpp"
+#include "scenarios/ending.hpp"
 
 namespace touchdown::cli {
 
@@ -131,6 +133,13 @@ std::string gravity_line(const experiments::LogSteps& log) {
       "imu", log.upside_down());
 }
 
+/// A simulated run that failed: its scores are not those of a robot that drives.
+std::string outcome_line(const recordings::RecordingInfo& info, double duration) {
+  if (!info.outcome || !experiments::is_failure(*info.outcome)) return {};
+  return fmt::format("{:<12} {} after {:.3f} s: studies do not score such runs\n", "run",
+                     scenarios::outcome_text(*info.outcome), duration);
+}
+
 /// The result about one log.
 struct Evaluation {
   std::string summary;
@@ -166,7 +175,8 @@ Evaluation evaluate(recordings::LogReader& reader, const experiments::LogEstimat
   require_valid_steps(reader, writer, findings);
   return {fmt::format("{}: {} steps, {:.3f} s at {:.6g} Hz, {}\n", reader.name(), writer.steps(),
                       writer.duration(), log.sample_rate(), chosen.entry.title) +
-              summary + gravity_line(log) + model_line(chosen),
+              outcome_line(reader.info(), writer.duration()) + summary + gravity_line(log) +
+              model_line(chosen),
           std::move(findings)};
 }
 

@@ -92,12 +92,23 @@ std::string false_takeoffs_text(const std::vector<ScoreSummary>& scores,
   return std::isnan(per_minute) ? "–" : fmt::format("{:.1f}", per_minute);
 }
 
+TestRuns test_runs(const ExperimentResult& result, const std::string& simulator) {
+  TestRuns runs;
+  for (const Rollout& run : result.runs) {
+    if (run.plan.role != RunRole::test || run.plan.simulator != simulator) continue;
+    ++runs.all;
+    if (!run.failed()) ++runs.scored;
+  }
+  return runs;
+}
+
+std::string text_of(const TestRuns& runs) {
+  if (runs.scored == runs.all) return plural(runs.all, "test run");
+  return fmt::format("{} of {}", runs.scored, plural(runs.all, "test run"));
+}
+
 std::string scored_text(const ExperimentResult& result, const std::string& simulator) {
-  const auto runs = scored_runs(result.runs);
-  const auto scored = std::count_if(runs.begin(), runs.end(), [&](const RunSignals* run) {
-    return run->info.simulator == simulator;
-  });
-  return fmt::format("{} × {}; {}{}", plural(static_cast<std::size_t>(scored), "test run"),
+  return fmt::format("{} × {}; {}{}", text_of(test_runs(result, simulator)),
                      plural(static_cast<std::size_t>(result.experiment.noise.seeds), "noise seed"),
                      labels_text(result.experiment), setup_caption(result.experiment));
 }

@@ -34,6 +34,15 @@ std::string estimator_title_in(const Experiment& experiment, const std::string& 
 /// False takeoffs per minute for the summary's condition and cell: "0.6"; a dash if not counted.
 std::string false_takeoffs_text(const std::vector<ScoreSummary>& scores,
                                 const CellSummary& summary);
+/// The test runs of one engine.
+struct TestRuns {
+  std::size_t scored = 0;  ///< that did not fail
+  std::size_t all = 0;
+};
+TestRuns test_runs(const ExperimentResult& result, const std::string& simulator);
+/// "40 test runs", "38 of 40 test runs".
+std::string text_of(const TestRuns& runs);
+
 /// The data of one engine's scores: "40 test runs × 1 noise seed; contact: ...".
 std::string scored_text(const ExperimentResult& result, const std::string& simulator);
 

@@ -60,13 +60,15 @@ std::string summary_text(const ExperimentResult& result) {
   const Experiment& experiment = result.experiment;
   std::string text;
   for (const std::string& simulator : experiment.simulators) {
-    const auto runs = scored_runs(result.runs);
-    const auto scored = std::count_if(runs.begin(), runs.end(), [&](const RunSignals* run) {
-      return run->info.simulator == simulator;
-    });
+    const TestRuns runs = test_runs(result, simulator);
+    if (runs.scored == 0) {
+      text += fmt::format("\n{}: no test run stayed upright: nothing is scored\n", simulator);
+      continue;
+    }
     for (const noise::NoiseCell& cell : experiment.highlights) {
-      text += fmt::format("\n{}: {} test runs × {} noise seeds, {}{}\n\n", simulator, scored,
-                          experiment.noise.seeds, noise_text(cell), setup_caption(experiment));
+      text += fmt::format("\n{}: {} × {}, {}{}\n\n", simulator, text_of(runs),
+                          plural(static_cast<std::size_t>(experiment.noise.seeds), "noise seed"),
+                          noise_text(cell), setup_caption(experiment));
       text += to_text(cell_table(result, simulator, cell));
     }
     if (result.cells.size() > 1) {

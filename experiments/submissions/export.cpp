@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "experiments/rollouts/failures.hpp"
 #include "experiments/run_directory/free_space.hpp"
 #include "experiments/submissions/exported_arrays.hpp"
 #include "experiments/submissions/readme.hpp"
@@ -172,12 +173,12 @@ ExportReport export_runs(const RunRequest& request, const Plan& plan,
   }
   std::vector<Written> written(runs.size());  // each by one thread
   std::mutex mutex;
-  std::set<std::string> failed;
+  std::map<std::string, std::string> failed;  // endings by file
   for_each_rollout(request.experiment, plan, needed, directory, MissingRun::refuse, should_continue,
                    [&](std::size_t index, const Rollout& run) {
                      if (run.failed()) {
                        const std::scoped_lock lock(mutex);
-                       failed.insert(run.plan.file);
+                       failed[run.plan.file] = run.report.ending;
                        return;
                      }
                      for (const std::size_t i : exported_by_run.at(index)) {
@@ -185,7 +186,8 @@ ExportReport export_runs(const RunRequest& request, const Plan& plan,
                        written[i] = write_run(runs[i], request, plan, run.signals, part.path());
                      }
                    });
-  ExportReport report{0, 0, {failed.begin(), failed.end()}};
+  ExportReport report;
+  for (const auto& [file, ending] : failed) report.failed.push_back(file);
   std::map<std::string, std::string> sums;  // by file
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (written[i].steps == 0) continue;
@@ -193,7 +195,9 @@ ExportReport export_runs(const RunRequest& request, const Plan& plan,
     ++report.files;
     report.bytes += written[i].bytes;
   }
-  if (report.files == 0) throw Error("no run stayed upright: there is nothing to export");
+  if (report.files == 0) {
+    throw Error("no run stayed upright: there is nothing to export: " + failures_text(failed));
+  }
   const std::string index = to_csv(index_columns().table(index_of(runs, written, request, plan)));
   sums["index.csv"] = write_file(part.path() / "index.csv", index).sha256;
   sums["README.md"] = write_file(part.path() / "README.md", readme_of(request)).sha256;

@@ -82,5 +82,51 @@ TEST(FitRunCheck, DoesNotUseRunsThatFell) {
   EXPECT_THROW(check({{"phase"}, rolls, hangs}, recordings::Outcome::fell), InputError);
 }
 
+/// What the check does with runs of which each one fails in another way. `segment`: whether there
+/// are training segments as well.
+void check_failing(const std::vector<std::string>& estimators, bool segment) {
+  Experiment experiment;
+  experiment.estimators = estimators;
+  Plan plan;
+  const auto failures = {recordings::Outcome::left_terrain, recordings::Outcome::fell,
+                         recordings::Outcome::diverged};
+  for (const recordings::Outcome failure : failures) {
+    PlannedRun run;
+    run.role = RunRole::fit;
+    run.simulator = "bullet";
+    run.file = "run_" + std::to_string(static_cast<int>(failure));
+    plan.runs.push_back(run);
+  }
+  if (segment) {
+    plan.runs.push_back(plan.runs.front());
+    plan.runs.back().group = 1;
+  }
+  FitRunCheck check(experiment, plan, {0, 1, 2});
+  for (std::size_t i = 0; i < failures.size(); ++i) {
+    Rollout run = rollout(plan.runs[i], rolls);
+    run.report.outcome = failures.begin()[i];
+    run.report.ending = "ended badly";
+    check.add(run);
+  }
+}
+
+TEST(FitRunCheck, NamesTheFirstFailureIfEveryRunFails) {
+  EXPECT_THAT(
+      [] {
+        check_failing({"robust", "free_fall", "load_logistic"}, false);
+      },
+      ThrowsMessage<InputError>(
+          "fit on bullet: robust, load_logistic: no run of fit.scenarios stayed upright: "
+          "run_2 ended badly, and 2 others"));
+  // Those that are fitted to segments have other runs.
+  EXPECT_THAT(
+      [] {
+        check_failing({"phase", "robust"}, true);
+      },
+      ThrowsMessage<InputError>(HasSubstr("fit on bullet: robust: no run")));
+  EXPECT_NO_THROW(check_failing({"phase"}, true));
+  EXPECT_NO_THROW(check_failing({"free_fall", "upkie_observer"}, false));
+}
+
 }  // namespace
 }  // namespace touchdown::experiments
