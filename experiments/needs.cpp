@@ -25,10 +25,9 @@ constexpr double signal_step_bytes =
 /// Additional memory per step where test runs keep their motion.
 constexpr double motion_step_bytes = sizeof(Eigen::Vector3d) + sizeof(scoring::TimedPose);
 
-/// Adds the fitted runs of the experiment's own fit.
-void add_fitted_runs(const RunRequest& request, Needs& needs) {
+/// Adds the fitted runs of the experiment's own fit on so many engines.
+void add_fitted_runs(const RunRequest& request, double engines, Needs& needs) {
   const Experiment& experiment = request.experiment;
-  const auto engines = static_cast<double>(experiment.simulators.size());
   for (const std::string& file : experiment.fit.scenarios) {
     add_runs(needs, scenario_of(request, file).scenario, engines * experiment.fit.runs, 0.0);
   }
@@ -43,7 +42,7 @@ double held_steps(const RunRequest& request, const Needs& all) {
   const KeptSignals kept = kept_signals(experiment);
   if (kept == KeptSignals::all) return all.steps;
   Needs held;
-  add_fitted_runs(request, held);
+  add_fitted_runs(request, 1.0, held);  // engine by engine
   for (const std::string& file : experiment.test.scenarios) {
     if (kept == KeptSignals::none) break;
     const auto engines = static_cast<double>(experiment.simulators.size());
@@ -59,7 +58,7 @@ Needs needs_of(const RunRequest& request) {
   const auto engines = static_cast<double>(experiment.simulators.size());
   const double seeds = experiment.noise.seeds;
   Needs needs;
-  add_fitted_runs(request, needs);
+  add_fitted_runs(request, engines, needs);
   for (const Study* study : requested_studies(experiment)) study->add_needs(request, needs);
   for (const std::string& file : experiment.test.scenarios) {
     add_runs(needs, scenario_of(request, file).scenario, engines * experiment.test.runs, seeds,

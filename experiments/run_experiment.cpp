@@ -57,29 +57,34 @@ void require_scored_run(const Rollouts& runs) {
   throw Error("no test run stayed upright: there is nothing to score: " + failures_text(endings));
 }
 
+bool is_engine_of(const Experiment& experiment, const std::string& simulator) {
+  const std::vector<std::string>& engines = experiment.simulators;
+  return std::find(engines.begin(), engines.end(), simulator) != engines.end();
+}
+
 /// The fitted models, and the tuning trials before the fit.
 struct Fitted {
   FittedModels models;
   std::vector<Trial> trials;
 };
 
-/// Runs one of the experiment's fits for every engine, with its refits. It uses the hyperparameters
+/// Runs one of the experiment's fits on its engines, with its refits. It uses the hyperparameters
 /// in `chosen` unless the fit has a tuning of its own.
 Fitted fit(const Experiment& experiment, const Rollouts& runs, const std::string& name, int refits,
            const ShouldContinue& should_continue, const SavedTrials& saved,
            TunedHyperparameters chosen) {
-  std::vector<RunSignals> fitted;
+  RunPointers fitted;
   for (const auto& [index, run] : runs) {
     const PlannedRun& plan = run.plan;
-    const bool is_wanted = plan.role == RunRole::fit && plan.fit == name && plan.group == 0;
-    if (is_wanted && !run.failed()) fitted.push_back(run.signals);
+    const bool is_wanted = plan.role == RunRole::fit && plan.fit == name && plan.group == 0 &&
+                           is_engine_of(experiment, plan.simulator);
+    if (is_wanted && !run.failed()) fitted.push_back(&run.signals);
   }
-  std::vector<RunSignals> segments;
+  RunPointers segments;
   for (const std::string& simulator : experiment.simulators) {
-    for (RunSignals& segment :
-         training_segments_of(runs, simulator, experiment.training_segments, name)) {
-      segments.push_back(std::move(segment));
-    }
+    const RunPointers own =
+        training_segments_of(runs, simulator, experiment.training_segments, name);
+    segments.insert(segments.end(), own.begin(), own.end());
   }
   Fitted all;
   if (experiment.tuning && (name.empty() || experiment.tuning->everywhere)) {
@@ -88,6 +93,7 @@ Fitted fit(const Experiment& experiment, const Rollouts& runs, const std::string
   }
   const auto add = [&](int refit, FittedModels&& of_refit) {
     for (auto& [simulator, by_estimator] : of_refit) {
+      if (!is_engine_of(experiment, simulator)) continue;
       all.models[model_key(simulator, name, refit)] = std::move(by_estimator);
     }
   };
@@ -122,7 +128,7 @@ FittedModels fit_training_sets(const Experiment& experiment, const ExperimentCon
   for (const auto& [name, size] : plan.training_sets) {
     if (!is_tested(name, runs, plan)) continue;
     for (int refit = 0; refit <= plan.refits.at(name); ++refit) {
-      const std::vector<RunSignals> set = training_set(
+      const RunPointers set = training_set(
           refit == 0 ? pieces.runs : drawn_anew(pieces.runs, experiment.seed, refit), size);
       try {
         FittedModels of_set = fit_models(of_pieces, set, {}, context.should_continue, chosen);
@@ -138,13 +144,15 @@ FittedModels fit_training_sets(const Experiment& experiment, const ExperimentCon
   return models;
 }
 
-/// Simulates the streamed runs of one fit.
+/// Simulates the streamed runs of one fit on one engine.
 Rollouts simulate_fit(const ExperimentContext& context, const std::set<std::size_t>& streamed,
-                      const std::string& name, MissingRun missing) {
+                      const std::string& name, const std::string& simulator, MissingRun missing) {
   std::set<std::size_t> wanted;
   for (const std::size_t index : streamed) {
     const PlannedRun& run = context.plan.runs[index];
-    if (run.role == RunRole::fit && run.fit == name) wanted.insert(index);
+    if (run.role == RunRole::fit && run.fit == name && run.simulator == simulator) {
+      wanted.insert(index);
+    }
   }
   if (wanted.empty()) return {};
   const Experiment& experiment = context.request.experiment;
@@ -187,8 +195,8 @@ std::size_t evaluate_streamed(const ExperimentContext& context,
 }
 
 /// Fits the models that the evaluation of these runs needs; none if no run can be scored.
-/// Runs of other fits that are `streamed` are simulated first, and only their reports remain in
-/// `runs`.
+/// Fitted runs that are `streamed` are simulated engine by engine, so that memory holds those of
+/// one engine, and only their reports remain in `runs`.
 Fitted fit(const ExperimentContext& context, const std::set<std::size_t>& streamed,
            MissingRun missing, Rollouts& runs) {
   const Plan& plan = context.plan;
@@ -211,26 +219,26 @@ Fitted fit(const ExperimentContext& context, const std::set<std::size_t>& stream
   const SavedTrials saved(context.directory.path() / "state" / "tuning",
                           state_key(context.request));
   Fitted all;
+  Experiment of_engine = experiment;
   for (const std::string& name : fits) {
     // The experiment's own fit is the first. Without `everywhere` the others use its choice.
-    const auto refits = plan.refits.find(name);
-    Rollouts of_fit = simulate_fit(context, streamed, name, missing);
-    Fitted one = fit(experiment, of_fit.empty() ? runs : of_fit, name,
-                     refits == plan.refits.end() ? 0 : refits->second, context.should_continue,
-                     saved, chosen_in(all.trials));
-    for (auto& [index, run] : of_fit) {
-      drop_signals(run);
-      runs.emplace(index, std::move(run));
+    const auto found = plan.refits.find(name);
+    const int refits = found == plan.refits.end() ? 0 : found->second;
+    const TunedHyperparameters chosen = chosen_in(all.trials);
+    for (const std::string& simulator : experiment.simulators) {
+      of_engine.simulators = {simulator};
+      Rollouts of_fit = simulate_fit(context, streamed, name, simulator, missing);
+      Fitted one = fit(of_engine, of_fit.empty() ? runs : of_fit, name, refits,
+                       context.should_continue, saved, chosen);
+      for (auto& [index, run] : of_fit) {
+        drop_signals(run);
+        runs.emplace(index, std::move(run));
+      }
+      all.models.merge(one.models);
+      std::move(one.trials.begin(), one.trials.end(), std::back_inserter(all.trials));
     }
-    all.models.merge(one.models);
-    std::move(one.trials.begin(), one.trials.end(), std::back_inserter(all.trials));
   }
   all.models.merge(fit_training_sets(experiment, context, runs, chosen_in(all.trials)));
-  if (plan.kept_signals != KeptSignals::all) {
-    for (auto& [index, run] : runs) {
-      if (run.plan.role == RunRole::fit) drop_signals(run);
-    }
-  }
   if (!context.should_continue()) throw Stopped();
   return all;
 }

@@ -37,7 +37,7 @@ double cell_updates(const Experiment& experiment, const std::vector<noise::Noise
 void one_task(benchmark::State& state, const std::string& estimator,
               const decltype(&sweep_run)& sweep) {
   const Experiment experiment = study({estimator});
-  const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
+  const FittedModels models = fit_models(experiment, pointers_to({synthetic_run(first_fit_run)}));
   const RunSignals run = synthetic_run(0, run_steps);
   const NoiseRun noise = noise_run(run, noise_key(experiment, 0, 0));
   const std::vector<noise::NoiseCell> cells = noise::noise_cells(experiment.noise);
@@ -62,7 +62,7 @@ void on_threads(benchmark::State& state) {
   Experiment experiment = study(estimator_names());
   std::erase(experiment.estimators, always_contact_name);
   experiment.noise.seeds = 4;
-  const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
+  const FittedModels models = fit_models(experiment, pointers_to({synthetic_run(first_fit_run)}));
   const std::vector<RunSignals> runs = {synthetic_run(0, run_steps), synthetic_run(1, run_steps)};
   const std::vector<noise::NoiseCell> cells = noise::noise_cells(experiment.noise);
   const std::vector<Condition> conditions = own_engine_conditions(experiment);

@@ -109,7 +109,8 @@ static void describe(Fields& fields, TrainingSegments& segments) {
 }
 
 /// All runs of a scenario without perturbations are equal, so they count as one.
-static void describe(Fields& fields, TuningConfig& tuning, const RunsConfig& fit) {
+static void describe(Fields& fields, TuningConfig& tuning, const Experiment& experiment) {
+  const RunsConfig& fit = experiment.fit;
   fields.require("trials", tuning.trials, 1, 10'000)
       .doc("Trials of each estimator; the first has its defaults.");
   fields("folds", tuning.folds, 2, 1000).doc("Folds of the fitted runs, for cross-validation.");
@@ -119,6 +120,17 @@ static void describe(Fields& fields, TuningConfig& tuning, const RunsConfig& fit
     fields.list("noise", tuning.noise).doc("Noise settings of the trials.");
   }
   fields.check(!tuning.noise.empty(), "noise", "expected at least one noise setting");
+  if (fields.present("fixed", !tuning.fixed.empty())) {
+    fields("fixed", tuning.fixed)
+        .doc("Estimators that keep their defaults, such as a second operating point.");
+  }
+  for (std::size_t i = 0; i < tuning.fixed.size(); ++i) {
+    const std::vector<std::string>& known = experiment.estimators;
+    fields.check_item(std::find(known.begin(), known.end(), tuning.fixed[i]) != known.end(),
+                      "fixed", i,
+                      fmt::format("expected an estimator of the experiment, found '{}'{}",
+                                  tuning.fixed[i], did_you_mean(tuning.fixed[i], known)));
+  }
   const std::size_t runs =
       fit.scenarios.size() * (fit.perturbed ? static_cast<std::size_t>(fit.runs) : 1);
   fields.finish();
@@ -198,9 +210,9 @@ static void describe_fit(Fields& fit, Experiment& experiment) {
   fit.know("tuning");
   if (fit.present("tuning", experiment.tuning.has_value())) {
     if (fit.reading()) experiment.tuning.emplace();
-    fit.section("tuning", *experiment.tuning, experiment.fit)
+    fit.section("tuning", *experiment.tuning, experiment)
         .fallback("none")
-        .doc("The same number of trials for every estimator with hyperparameters.");
+        .doc("The same number of trials for every ranked estimator with hyperparameters.");
   }
   if (fit.present("servo_load", experiment.fit_servo_load)) {
     fit("servo_load", experiment.fit_servo_load)

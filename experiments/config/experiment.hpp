@@ -47,6 +47,8 @@ struct TuningConfig {
   /// Whether a benchmark's other robots and sensors have trials of their own. Otherwise they use
   /// the values chosen for the experiment's own robot and sensors.
   bool everywhere = false;
+  /// Estimators that keep their defaults, such as a second operating point of another one.
+  std::vector<std::string> fixed = {};
 };
 
 /// Which recordings the run directory keeps. A run without a recording is simulated again where it

@@ -1,6 +1,7 @@
 #include "experiments/fitting/fitting.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -68,12 +69,9 @@ TunedHyperparameters or_given(TunedHyperparameters chosen, const Experiment& exp
   return chosen;
 }
 
-std::vector<const RunSignals*> of_engine(const std::vector<RunSignals>& runs,
-                                         const std::string& simulator) {
-  std::vector<const RunSignals*> own;
-  for (const RunSignals& run : runs) {
-    if (run.info.simulator == simulator) own.push_back(&run);
-  }
+RunPointers of_engine(const RunPointers& runs, const std::string& simulator) {
+  RunPointers own = runs;
+  std::erase_if(own, [&](const RunSignals* run) { return run->info.simulator != simulator; });
   return own;
 }
 
@@ -97,9 +95,8 @@ ModelMetadata new_metadata(const std::string& estimator, const FitRuns& runs,
   return metadata;
 }
 
-FittedModels fit_models(const Experiment& experiment, const std::vector<RunSignals>& fit_runs,
-                        const std::vector<RunSignals>& segments,
-                        const std::function<bool()>& should_continue,
+FittedModels fit_models(const Experiment& experiment, const RunPointers& fit_runs,
+                        const RunPointers& segments, const std::function<bool()>& should_continue,
                         const TunedHyperparameters& of_tuning) {
   const TunedHyperparameters chosen = or_given(of_tuning, experiment);
   std::vector<Job> jobs = jobs_of(experiment, chosen);
@@ -110,12 +107,19 @@ FittedModels fit_models(const Experiment& experiment, const std::vector<RunSigna
     return FitRuns{of_engine(fit_runs, simulator), of_engine(segments, simulator),
                    experiment.scoring, stop_if_asked, experiment.fit_servo_load};
   };
+  // Reference upper bounds take longest: they begin, so that no thread waits for them at the end.
+  std::vector<Job*> in_order;
+  for (Job& job : jobs) in_order.push_back(&job);
+  std::stable_partition(in_order.begin(), in_order.end(),
+                        [](const Job* job) { return job->entry.is_upper_bound; });
+  std::atomic<std::size_t> next = 0;
   Progress progress("fitting", "models", static_cast<std::int64_t>(jobs.size()));
-  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
+  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t /*number*/) {
     stop_if_asked();
-    const std::string& simulator = jobs[i].simulator;
+    Job& job = *in_order[next++];
+    const std::string& simulator = job.simulator;
     try {
-      jobs[i].model = fit_model(jobs[i].entry, runs_of(simulator));
+      job.model = fit_model(job.entry, runs_of(simulator));
     } catch (const InputError& error) {
       throw InputError(fmt::format("fit on {}: {}", simulator, error.what()));
     }

@@ -18,8 +18,7 @@ using TunedHyperparameters = std::map<std::string, std::map<std::string, Hyperpa
 TunedHyperparameters or_given(TunedHyperparameters chosen, const Experiment& experiment);
 
 /// The runs of one engine.
-std::vector<const RunSignals*> of_engine(const std::vector<RunSignals>& runs,
-                                         const std::string& simulator);
+RunPointers of_engine(const RunPointers& runs, const std::string& simulator);
 
 /// Fits one model, still without metadata. Errors: `InputError` for runs of reserved seeds; the
 /// errors of the entry's `fit`.
@@ -34,8 +33,8 @@ ModelMetadata new_metadata(const std::string& estimator, const FitRuns& runs,
 /// Phase models are fitted to the engine's training segments, if it has any. Every model contains
 /// the chosen or given hyperparameters, also for estimators without a fit. `should_continue` is
 /// called before each density. Errors: `Stopped` when it returns false.
-FittedModels fit_models(const Experiment& experiment, const std::vector<RunSignals>& fit_runs,
-                        const std::vector<RunSignals>& segments = {},
+FittedModels fit_models(const Experiment& experiment, const RunPointers& fit_runs,
+                        const RunPointers& segments = {},
                         const std::function<bool()>& should_continue = {},
                         const TunedHyperparameters& chosen = {});
 

@@ -4,20 +4,19 @@
 
 namespace touchdown::experiments {
 
-std::vector<RunSignals> drawn_anew(const std::vector<RunSignals>& runs, std::uint64_t seed,
-                                   int number) {
+RunPointers drawn_anew(const RunPointers& runs, std::uint64_t seed, int number) {
   constexpr std::uint64_t stream = 0x7265666974;  // "refit"
-  std::vector<RunSignals> drawn;
+  RunPointers drawn;
   for (std::size_t place = 0; place < runs.size(); ++place) {
-    const recordings::RecordingInfo& here = runs[place].info;
-    std::vector<const RunSignals*> alike;
-    for (const RunSignals& run : runs) {
-      if (run.info.scenario == here.scenario && run.info.simulator == here.simulator) {
-        alike.push_back(&run);
+    const recordings::RecordingInfo& here = runs[place]->info;
+    RunPointers alike;
+    for (const RunSignals* run : runs) {
+      if (run->info.scenario == here.scenario && run->info.simulator == here.simulator) {
+        alike.push_back(run);
       }
     }
     const double u = uniform01(seed, stream + static_cast<std::uint64_t>(number), place);
-    drawn.push_back(*alike[static_cast<std::size_t>(u * static_cast<double>(alike.size()))]);
+    drawn.push_back(alike[static_cast<std::size_t>(u * static_cast<double>(alike.size()))]);
   }
   return drawn;
 }

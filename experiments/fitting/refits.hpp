@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "experiments/signals/run_signals.hpp"
 
@@ -9,7 +8,6 @@ namespace touchdown::experiments {
 
 /// Draws as many runs from these with replacement, within each scene and engine, so that every
 /// scene and engine keeps its number of runs. The draw depends only on `seed` and `number`.
-std::vector<RunSignals> drawn_anew(const std::vector<RunSignals>& runs, std::uint64_t seed,
-                                   int number);
+RunPointers drawn_anew(const RunPointers& runs, std::uint64_t seed, int number);
 
 }  // namespace touchdown::experiments

@@ -282,7 +282,7 @@ FittedModel fit_model(const EstimatorEntry& entry, std::span<const FitLog> logs,
   const std::vector<RunSignals> runs = entry.phase ? logs_with_takeoffs(logs, config, report)
                                                    : logs_of_both_classes(logs, config, report);
   FitRuns fitted;
-  for (const RunSignals& run : runs) fitted.whole.push_back(&run);
+  fitted.whole = pointers_to(runs);
   fitted.scoring.skip = config.skip;
   fitted.before_density = [&] { stop_if_asked(config); };
   fitted.servo_load = config.servo_load;

@@ -36,7 +36,7 @@ std::string_view to_text(RunRole role) { return role == RunRole::fit ? "fit" : "
 
 bool is_streamed(const PlannedRun& run, const Plan& plan) {
   if (plan.kept_signals == KeptSignals::all) return false;
-  if (run.role == RunRole::fit) return !run.fit.empty();
+  if (run.role == RunRole::fit) return true;
   return run.group > 0 || plan.kept_signals == KeptSignals::none;
 }
 

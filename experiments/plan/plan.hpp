@@ -129,8 +129,9 @@ struct Plan {
   std::vector<std::size_t> runs_in(std::size_t group) const;
 };
 
-/// Whether a run is simulated after the experiment's own fits, and its signals are dropped as soon
-/// as they are used: a run of another fit, or a test run that does not keep them.
+/// Whether a run is simulated when it is needed, and its signals are dropped as soon as they are
+/// used: a fitted run, or a test run that does not keep them. False for all where a study needs
+/// them.
 bool is_streamed(const PlannedRun& run, const Plan& plan);
 
 /// The group of the fitted runs for one entry of `fit.segments`.

@@ -52,7 +52,8 @@ enum class MissingRun : int { simulate, refuse };
 /// Called repeatedly during long computations; false stops them with `Stopped`.
 using ShouldContinue = std::function<bool()>;
 
-/// Simulates planned runs in parallel and writes the recordings to keep. It reads complete
+/// Simulates planned runs in parallel and writes the recordings to keep. Runs for training segments
+/// hold only their segments (experiments/rollouts/training_segments.hpp). It reads complete
 /// recordings that this build made of the same scenario, seed and run. A run that keeps no
 /// recording is always simulated, for either value of `missing`. A run that cannot be simulated is
 /// a failed run and does not stop the others. Errors: `InputError` for an invalid scene; `Error`

@@ -37,12 +37,38 @@ RunSignals segment_of(const RunSignals& run, const TrainingSegments& segments, s
   return cut(run, earliest + later, length);
 }
 
+bool is_of_segment(const PlannedRun& run) {
+  return run.role == RunRole::fit && run.group >= segment_group(0);
+}
+
+auto queue_of(const PlannedRun& run) { return std::tuple(run.fit, run.simulator, run.group); }
+
 }  // namespace
 
-std::vector<RunSignals> training_segments_of(const Rollouts& runs, const std::string& simulator,
-                                             std::span<const TrainingSegments> segments,
-                                             const std::string& fit) {
-  std::vector<RunSignals> all;
+SegmentCutter::SegmentCutter(std::span<const TrainingSegments> segments, Rollouts& runs)
+    : segments_(segments), runs_(runs) {
+  for (const auto& [index, run] : runs) {
+    if (is_of_segment(run.plan)) queues_[queue_of(run.plan)].runs.push_back(index);
+  }
+}
+
+void SegmentCutter::add(std::size_t index) {
+  const PlannedRun& plan = runs_.at(index).plan;
+  if (!is_of_segment(plan)) return;
+  const std::lock_guard lock(mutex_);
+  there_.insert(index);
+  Queue& queue = queues_.at(queue_of(plan));
+  for (; queue.next < queue.runs.size() && there_.contains(queue.runs[queue.next]); ++queue.next) {
+    Rollout& run = runs_.at(queue.runs[queue.next]);
+    if (run.failed()) continue;
+    run.signals = segment_of(run.signals, segments_[plan.group - segment_group(0)], queue.good++);
+  }
+}
+
+RunPointers training_segments_of(const Rollouts& runs, const std::string& simulator,
+                                 std::span<const TrainingSegments> segments,
+                                 const std::string& fit) {
+  RunPointers all;
   for (std::size_t entry = 0; entry < segments.size(); ++entry) {
     std::size_t taken = 0;
     for (const auto& [index, run] : runs) {
@@ -50,7 +76,8 @@ std::vector<RunSignals> training_segments_of(const Rollouts& runs, const std::st
       const bool is_wanted = plan.role == RunRole::fit && plan.simulator == simulator &&
                              plan.fit == fit && plan.group == segment_group(entry) && !run.failed();
       if (!is_wanted || taken == static_cast<std::size_t>(segments[entry].runs)) continue;
-      all.push_back(segment_of(run.signals, segments[entry], taken++));
+      all.push_back(&run.signals);
+      ++taken;
     }
   }
   return all;

@@ -1,7 +1,6 @@
 #include "experiments/rollouts/training_sets.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "core/tables/verbs.hpp"
 #include "experiments/rollouts/training_segments.hpp"
@@ -11,26 +10,24 @@ namespace touchdown::experiments {
 TrainingPieces training_pieces(const Rollouts& runs, const Experiment& experiment) {
   TrainingPieces pieces;
   for (const std::string& simulator : experiment.simulators) {
-    for (RunSignals& segment :
-         training_segments_of(runs, simulator, experiment.training_segments)) {
-      pieces.runs.push_back(std::move(segment));
-    }
+    const RunPointers segments =
+        training_segments_of(runs, simulator, experiment.training_segments);
+    pieces.runs.insert(pieces.runs.end(), segments.begin(), segments.end());
   }
   if (!experiment.training_segments.empty()) return pieces;
   pieces.skip = experiment.scoring.skip;
   for (const auto& [index, run] : runs) {
     const PlannedRun& plan = run.plan;
     const bool is_wanted = plan.role == RunRole::fit && plan.fit.empty() && plan.group == 0;
-    if (is_wanted && !run.failed()) pieces.runs.push_back(run.signals);
+    if (is_wanted && !run.failed()) pieces.runs.push_back(&run.signals);
   }
   return pieces;
 }
 
-std::vector<RunSignals> training_set(const std::vector<RunSignals>& pieces, std::size_t size) {
-  std::vector<const RunSignals*> all;
-  for (const RunSignals& piece : pieces) all.push_back(&piece);
-  std::vector<RunSignals> set;
-  for (const auto& of_engine : group_by(all, [](const auto* run) { return run->info.simulator; })) {
+RunPointers training_set(const RunPointers& pieces, std::size_t size) {
+  RunPointers set;
+  for (const auto& of_engine :
+       group_by(pieces, [](const auto* run) { return run->info.simulator; })) {
     const auto scenes =
         group_by(of_engine.rows, [](const auto* run) { return run->info.scenario; });
     const std::size_t wanted = std::min(size, of_engine.rows.size());
@@ -38,7 +35,7 @@ std::vector<RunSignals> training_set(const std::vector<RunSignals>& pieces, std:
     for (std::size_t turn = 0; taken < wanted; ++turn) {
       for (const auto& scene : scenes) {
         if (turn >= scene.rows.size() || taken == wanted) continue;
-        set.push_back(*scene.rows[turn]);
+        set.push_back(scene.rows[turn]);
         ++taken;
       }
     }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include "experiments/rollouts/rollouts.hpp"
 
@@ -10,7 +9,7 @@ namespace touchdown::experiments {
 /// What training sets are made of: the experiment's training segments, or its fitted runs if it has
 /// no segments.
 struct TrainingPieces {
-  std::vector<RunSignals> runs;
+  RunPointers runs;   ///< held by the rollouts
   double skip = 0.0;  ///< the unused beginning of each (s)
 };
 
@@ -18,7 +17,7 @@ struct TrainingPieces {
 TrainingPieces training_pieces(const Rollouts& runs, const Experiment& experiment);
 
 /// The first `size` pieces of each engine, from its scenes in turn; all of them if there are fewer.
-std::vector<RunSignals> training_set(const std::vector<RunSignals>& pieces, std::size_t size);
+RunPointers training_set(const RunPointers& pieces, std::size_t size);
 
 /// The duration of a piece without its unused beginning (s).
 double used_seconds(const RunSignals& piece, double skip);

@@ -7,6 +7,13 @@
 
 namespace touchdown::experiments {
 
+RunPointers pointers_to(const std::vector<RunSignals>& runs) {
+  RunPointers pointers;
+  pointers.reserve(runs.size());
+  for (const RunSignals& run : runs) pointers.push_back(&run);
+  return pointers;
+}
+
 RunSignals signals_of(const recordings::Recording& recording, const scoring::LabelConfig& labels,
                       const scoring::ScoringConfig& scoring, scoring::SampleUnit unit) {
   RunSignals run;

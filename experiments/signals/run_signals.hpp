@@ -40,6 +40,13 @@ struct RunSignals {
   std::size_t steps() const { return signals.size(); }
 };
 
+/// Runs that others hold. Fits read them in place: their signals are most of an experiment's
+/// memory.
+using RunPointers = std::vector<const RunSignals*>;
+
+/// `runs` must outlive the result.
+RunPointers pointers_to(const std::vector<RunSignals>& runs);
+
 /// Errors: `InputError` when the recording has no ground truth.
 RunSignals signals_of(const recordings::Recording& recording, const scoring::LabelConfig& labels,
                       const scoring::ScoringConfig& scoring, scoring::SampleUnit unit);

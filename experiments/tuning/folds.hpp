@@ -10,9 +10,9 @@ namespace touchdown::experiments {
 
 /// One fold of a cross-validation over the fitted runs.
 struct Fold {
-  std::vector<const RunSignals*> fitted;    ///< training data: whole runs of all other folds
-  std::vector<const RunSignals*> segments;  ///< training data: segments of runs of all other folds
-  std::vector<const RunSignals*> held_out;  ///< validation data: whole runs of this fold
+  RunPointers fitted;    ///< training data: whole runs of all other folds
+  RunPointers segments;  ///< training data: segments of runs of all other folds
+  RunPointers held_out;  ///< validation data: whole runs of this fold
 };
 
 /// Assigns whole runs to folds in turn, so that each scene is spread over the folds, then the runs

@@ -1,5 +1,6 @@
 #include "experiments/tuning/tune.hpp"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -104,8 +105,7 @@ double mean_over_scenes(const SceneCounts& counts) {
 }  // namespace
 
 std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
-                        const std::vector<RunSignals>& fit_runs,
-                        const std::vector<RunSignals>& segments,
+                        const RunPointers& fit_runs, const RunPointers& segments,
                         const std::function<bool()>& should_continue, const SavedTrials& saved) {
   const auto stop_if_asked = [&] {
     if (should_continue && !should_continue()) throw Stopped();
@@ -119,6 +119,10 @@ std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
                  static_cast<std::size_t>(experiment.tuning->folds), experiment.fit.perturbed);
     for (const std::string& name : experiment.estimators) {
       const EstimatorEntry& entry = estimator_entry(experiment, name);
+      const std::vector<std::string>& fixed = experiment.tuning->fixed;
+      if (entry.is_upper_bound || std::find(fixed.begin(), fixed.end(), name) != fixed.end()) {
+        continue;
+      }
       const std::vector<HyperparameterValues> tried =
           trial_hyperparameters(entry, seed_of_fit(experiment), experiment.tuning->trials);
       for (std::size_t fold = 0; fold < folds[simulator].size() && !tried.empty(); ++fold) {

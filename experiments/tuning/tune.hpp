@@ -25,13 +25,13 @@ struct Trial {
 };
 
 /// Runs the same number of trials for every estimator with hyperparameters, on each engine, in
-/// parallel. Returns trials by engine, estimator, then number. Whole runs and segments serve as
-/// training data, whole runs as validation data, with the sensor model and the tuning's noise.
+/// parallel. Those of `TuningConfig::fixed` and reference upper bounds, which are not ranked, keep
+/// their defaults. Returns trials by engine, estimator, then number. Whole runs and segments serve
+/// as training data, whole runs as validation data, with the sensor model and the tuning's noise.
 /// Saved trials are not repeated. Errors: `InputError` when a fold leaves too little data for a
 /// fit; `Stopped`.
 std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
-                        const std::vector<RunSignals>& fit_runs,
-                        const std::vector<RunSignals>& segments,
+                        const RunPointers& fit_runs, const RunPointers& segments,
                         const std::function<bool()>& should_continue,
                         const SavedTrials& saved = {});
 

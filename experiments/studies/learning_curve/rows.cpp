@@ -45,8 +45,8 @@ std::map<std::pair<std::string, int>, double> labelled_seconds(const Evaluation&
   std::map<std::pair<std::string, int>, double> seconds;
   for (const int size : experiment.studies.at<LearningCurveConfig>().sizes) {
     const auto set = training_set(pieces.runs, static_cast<std::size_t>(size));
-    for (const RunSignals& run : set) {
-      seconds[{run.info.simulator, size}] += used_seconds(run, pieces.skip);
+    for (const RunSignals* run : set) {
+      seconds[{run->info.simulator, size}] += used_seconds(*run, pieces.skip);
     }
   }
   return seconds;

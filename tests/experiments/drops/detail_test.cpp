@@ -35,7 +35,7 @@ recordings::Recording rising(const RunSignals& run) {
 struct Study {
   explicit Study(std::vector<std::string> estimators)
       : experiment(synthetic_experiment(estimators)),
-        models(fit_models(experiment, {synthetic_run(first_fit_run)})) {
+        models(fit_models(experiment, pointers_to({synthetic_run(first_fit_run)}))) {
     config.choice = {.run = 3, .drop = 2, .seed = 1};
     config.noise = {{0.5, 3.0}, {2.0, 8.0}};
     config.estimators = std::move(estimators);

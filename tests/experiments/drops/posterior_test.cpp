@@ -23,7 +23,7 @@ struct PosteriorStudy {
   PosteriorStudy() { config.choice = {.run = 3, .drop = 1, .seed = 1}; }
 
   Experiment experiment = synthetic_experiment({"phase"});
-  FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
+  FittedModels models = fit_models(experiment, pointers_to({synthetic_run(first_fit_run)}));
   PosteriorConfig config;
 };
 

@@ -93,7 +93,7 @@ TEST(Oracle, ReportsThePriorWithoutLabels) {
 TEST(Oracle, IsTheOnlyEstimatorThatUsesLabels) {
   RunSignals run = synthetic_run(3);
   const Experiment experiment = synthetic_experiment(estimator_names());
-  const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
+  const FittedModels models = fit_models(experiment, pointers_to({synthetic_run(first_fit_run)}));
   const NoiseRun noise = noise_run(run, noise_key(experiment, 0, 3));
   RunSignals inverted = run;
   for (scoring::ContactSequence& contact : inverted.contact) {

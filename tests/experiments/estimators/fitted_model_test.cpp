@@ -25,8 +25,8 @@ TEST(FittedModel, GivesTheSameBeliefsAfterReadingItsFile) {
   const ScratchFolder folder;
   const RunSignals run = synthetic_run(3);
   const NoiseRun noise = noise_run(run, {});
-  const FittedModels models =
-      fit_models(synthetic_experiment(fitted_estimators()), {synthetic_run(first_fit_run)});
+  const FittedModels models = fit_models(synthetic_experiment(fitted_estimators()),
+                                         pointers_to({synthetic_run(first_fit_run)}));
   for (const std::string& name : fitted_estimators()) {
     const EstimatorEntry& entry = any_estimator_entry(name);
     const FittedModel& fitted = models.at("mujoco").at(name);
@@ -51,7 +51,7 @@ TEST(FittedModel, IsNeverFittedToReservedSeeds) {
   reserved.info.seed = first_reserved_seed;
   for (const std::string& name : fitted_estimators()) {
     try {
-      fit_models(synthetic_experiment({name}), {reserved});
+      fit_models(synthetic_experiment({name}), {&reserved});
       ADD_FAILURE() << name;
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), ::testing::HasSubstr("reserved")) << name;
@@ -63,8 +63,8 @@ TEST(FittedModel, IsNeverFittedToReservedSeeds) {
 }
 
 TEST(FittedModel, OfParametersNamesItsEstimatorAndProvenance) {
-  const FittedModels models =
-      fit_models(synthetic_experiment({"robust", "load_logistic"}), {synthetic_run(first_fit_run)});
+  const FittedModels models = fit_models(synthetic_experiment({"robust", "load_logistic"}),
+                                         pointers_to({synthetic_run(first_fit_run)}));
   const FittedModel& fitted = models.at("mujoco").at("load_logistic");
   EXPECT_FALSE(fitted.measurement || fitted.phase);
   EXPECT_EQ(fitted.parameters->estimator, "load_logistic");

@@ -39,8 +39,8 @@ std::array<std::vector<double>, 2> p_contact_of(ContactEstimator& estimator,
 TEST(LoadedEstimator, EqualsItsEntryToTheBit) {
   const ScratchFolder folder;
   const RunSignals run = synthetic_run(3, 2000);
-  const FittedModels models =
-      fit_models(synthetic_experiment(installed_estimators()), {synthetic_run(first_fit_run)});
+  const FittedModels models = fit_models(synthetic_experiment(installed_estimators()),
+                                         pointers_to({synthetic_run(first_fit_run)}));
   for (const std::string& name : installed_estimators()) {
     const EstimatorEntry& entry = any_estimator_entry(name);
     const std::filesystem::path file = folder / (name + ".npz");

@@ -37,7 +37,7 @@ TEST(RandomSequences, LeaveEveryRegisteredEstimatorWithProbabilities) {
     if (entry.fits()) fitted.push_back(entry.name);
   }
   const FittedModels models =
-      fit_models(synthetic_experiment(fitted), {synthetic_run(first_fit_run)});
+      fit_models(synthetic_experiment(fitted), pointers_to({synthetic_run(first_fit_run)}));
   const RunSignals run = synthetic_run(3);
   for (const EstimatorEntry& entry : estimator_entries()) {
     const EstimatorSetup setup{
@@ -104,7 +104,7 @@ TEST(RandomSequences, DoNotReachAFit) {
   }
   for (const std::string name : {"force_kinematics", "load_logistic", "decision_network"}) {
     const auto parameters = [&](const RunSignals& run) {
-      return fit_models(synthetic_experiment({name}), {run}).at("mujoco").at(name).parameters;
+      return fit_models(synthetic_experiment({name}), {&run}).at("mujoco").at(name).parameters;
     };
     EXPECT_EQ(parameters(absurd)->parameters, parameters(missing)->parameters) << name;
   }

@@ -27,7 +27,7 @@ std::vector<noise::SensorNoise> levels_of(const std::vector<noise::NoiseCell>& c
 /// may have another decision, and the network decides for five steps and two wheels at once.
 void expect_batch_equals_one_by_one(const RunSignals& run, bool can_batch) {
   const Experiment experiment = synthetic_experiment(estimator_names(ablation_estimators()));
-  const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
+  const FittedModels models = fit_models(experiment, pointers_to({synthetic_run(first_fit_run)}));
   const std::vector<noise::NoiseCell> cells = noise::noise_cells(experiment.noise);
   ASSERT_EQ(needs_no_guard(run, levels_of(cells)), can_batch);
   const NoiseRun noise = noise_run(run, noise_key(experiment, 1, run.info.run));
@@ -71,7 +71,7 @@ TEST(SweepRun, RunsOneByOneWhereASignalGuardWouldReact) {
 
 TEST(SweepRun, StopsOnRequest) {
   const Experiment experiment = synthetic_experiment({"robust"});
-  const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
+  const FittedModels models = fit_models(experiment, pointers_to({synthetic_run(first_fit_run)}));
   const RunSignals run = synthetic_run(3);
   const NoiseRun noise = noise_run(run, noise_key(experiment, 0, 3));
   EXPECT_THROW(sweep_run(own_engine_conditions(experiment), noise::noise_cells(experiment.noise),
@@ -97,7 +97,7 @@ TEST(Evaluation, EqualsTheSumOfSingleConditions) {
   const ScratchFolder folder;
   Experiment experiment = synthetic_experiment({"robust", "measurement_only"});
   experiment.highlights = {{0.5, 3.0}};
-  const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
+  const FittedModels models = fit_models(experiment, pointers_to({synthetic_run(first_fit_run)}));
   const std::vector<noise::NoiseCell> cells = noise::noise_cells(experiment.noise);
   const std::vector<Condition> conditions = own_engine_conditions(experiment);
   Plan plan;

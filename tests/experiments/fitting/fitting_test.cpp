@@ -12,8 +12,8 @@ TEST(FitModels, FitsPhasesToSegmentsAndOtherModelsToWholeRuns) {
   const Experiment experiment = synthetic_experiment({"robust", "phase"});
   const std::vector<RunSignals> whole = {synthetic_run(first_fit_run)};
   const std::vector<RunSignals> segments = {synthetic_run(first_fit_run + 7, 2000)};
-  const FittedModels without = fit_models(experiment, whole);
-  const FittedModels with = fit_models(experiment, whole, segments);
+  const FittedModels without = fit_models(experiment, pointers_to(whole));
+  const FittedModels with = fit_models(experiment, pointers_to(whole), pointers_to(segments));
   const auto provenance = [](const FittedModels& models) {
     return models.at("mujoco").at("phase").phase->provenance;
   };

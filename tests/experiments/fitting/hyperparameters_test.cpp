@@ -32,7 +32,7 @@ TEST(GivenHyperparameters, AreUsedByFitsAndEstimators) {
   Experiment experiment = synthetic_experiment({"phase", "free_fall"});
   experiment.hyperparameters = with(given).hyperparameters;
   const std::vector<RunSignals> runs = {synthetic_run(first_fit_run)};
-  const FittedModels models = fit_models(experiment, runs);
+  const FittedModels models = fit_models(experiment, pointers_to(runs));
   const FittedModel& phase = models.at("mujoco").at("phase");
   EXPECT_EQ(phase.metadata->configuration.at("leave_below"), "0.125");
   const auto entry_for = [&](const char* estimator) {

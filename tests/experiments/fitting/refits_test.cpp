@@ -20,9 +20,9 @@ std::vector<RunSignals> runs_of(const std::vector<std::pair<std::string, std::st
   return runs;
 }
 
-std::vector<std::int64_t> numbers(const std::vector<RunSignals>& runs) {
+std::vector<std::int64_t> numbers(const RunPointers& runs) {
   std::vector<std::int64_t> all;
-  for (const RunSignals& run : runs) all.push_back(run.info.run);
+  for (const RunSignals* run : runs) all.push_back(run->info.run);
   return all;
 }
 
@@ -34,8 +34,8 @@ TEST(Refits, DrawAsManyRunsOfEverySceneAndEngine) {
                              {"bullet", "stairs"}});
   for (int number = 1; number <= 20; ++number) {
     std::map<std::pair<std::string, std::string>, int> counts;
-    for (const RunSignals& run : drawn_anew(runs, 1, number)) {
-      ++counts[{run.info.simulator, run.info.scenario}];
+    for (const RunSignals* run : drawn_anew(pointers_to(runs), 1, number)) {
+      ++counts[{run->info.simulator, run->info.scenario}];
     }
     EXPECT_EQ((counts[{"mujoco", "stairs"}]), 2);
     EXPECT_EQ((counts[{"mujoco", "roam"}]), 1);
@@ -45,15 +45,15 @@ TEST(Refits, DrawAsManyRunsOfEverySceneAndEngine) {
 
 TEST(Refits, AreDrawnWithReplacementAndDecidedBySeedAndNumber) {
   const auto runs = runs_of(std::vector<std::pair<std::string, std::string>>(10, {"mujoco", "a"}));
-  const auto one = numbers(drawn_anew(runs, 1, 1));
-  EXPECT_EQ(one, numbers(drawn_anew(runs, 1, 1)));
-  EXPECT_NE(one, numbers(drawn_anew(runs, 1, 2)));
-  EXPECT_NE(one, numbers(drawn_anew(runs, 2, 1)));
+  const auto one = numbers(drawn_anew(pointers_to(runs), 1, 1));
+  EXPECT_EQ(one, numbers(drawn_anew(pointers_to(runs), 1, 1)));
+  EXPECT_NE(one, numbers(drawn_anew(pointers_to(runs), 1, 2)));
+  EXPECT_NE(one, numbers(drawn_anew(pointers_to(runs), 2, 1)));
   // Every run about as often as any other: 200 draws of 10 expect 200 of each.
   std::map<std::int64_t, int> counts;
   bool any_twice = false;
   for (int number = 1; number <= 200; ++number) {
-    const auto drawn = numbers(drawn_anew(runs, 1, number));
+    const auto drawn = numbers(drawn_anew(pointers_to(runs), 1, number));
     any_twice = any_twice || std::set<std::int64_t>(drawn.begin(), drawn.end()).size() < 10;
     for (const std::int64_t run : drawn) ++counts[run];
   }

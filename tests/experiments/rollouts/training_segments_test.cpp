@@ -29,10 +29,18 @@ Rollout run_of(std::size_t entry, std::int64_t number, std::size_t steps,
   return run;
 }
 
-std::vector<std::size_t> begins(const std::vector<RunSignals>& segments) {
+/// Adds rollouts in this order, as several threads do, and returns the engine's segments.
+RunPointers cut_in_order(const std::vector<std::size_t>& order, const std::string& simulator,
+                         const std::vector<TrainingSegments>& segments, Rollouts& runs) {
+  SegmentCutter cutter(segments, runs);
+  for (const std::size_t index : order) cutter.add(index);
+  return training_segments_of(runs, simulator, segments);
+}
+
+std::vector<std::size_t> begins(const RunPointers& segments) {
   std::vector<std::size_t> all;
-  for (const RunSignals& segment : segments) {
-    all.push_back(static_cast<std::size_t>(segment.signals.front().time));
+  for (const RunSignals* segment : segments) {
+    all.push_back(static_cast<std::size_t>(segment->signals.front().time));
   }
   return all;
 }
@@ -42,9 +50,10 @@ TEST(TrainingSegments, BeginAtTheNextOffsetRunByRun) {
   for (int i = 0; i < 7; ++i) runs[static_cast<std::size_t>(i)] = run_of(0, i, 1000);
   const std::vector<TrainingSegments> segments = {
       {.scenario = "a", .runs = 7, .after = 0.2, .length = 0.4, .offsets = 5}};
-  const std::vector<RunSignals> cut = training_segments_of(runs, "mujoco", segments);
+  const RunPointers cut = cut_in_order({0, 1, 2, 3, 4, 5, 6}, "mujoco", segments, runs);
   EXPECT_THAT(begins(cut), ElementsAre(200, 300, 400, 500, 600, 200, 300));
-  for (const RunSignals& segment : cut) {
+  for (const RunSignals* one : cut) {
+    const RunSignals& segment = *one;
     ASSERT_EQ(segment.steps(), 400U);
     for (std::size_t w = 0; w < models::wheel_count; ++w) {
       EXPECT_EQ(segment.normal_force[w].front(), segment.signals.front().time);
@@ -67,19 +76,50 @@ TEST(TrainingSegments, ComeFromTheFirstGoodRunsOfTheirEntryAndEngine) {
       {.scenario = "a", .runs = 2, .after = 0.0, .length = 1.0},
       {.scenario = "b", .runs = 2, .after = 0.0, .length = 1.0}};
   std::vector<std::int64_t> numbers;
-  for (const RunSignals& segment : training_segments_of(runs, "mujoco", segments)) {
-    numbers.push_back(segment.info.run);
+  for (const RunSignals* segment : cut_in_order({0, 1, 2, 3, 4, 5, 6}, "mujoco", segments, runs)) {
+    numbers.push_back(segment->info.run);
   }
   EXPECT_THAT(numbers, ElementsAre(0, 2, 10));
 }
 
 TEST(TrainingSegments, AreShorterWhereTheRunEnds) {
-  const Rollouts runs = {{0, run_of(0, 0, 250)}};
+  Rollouts runs = {{0, run_of(0, 0, 250)}};
   const std::vector<TrainingSegments> segments = {
       {.scenario = "a", .runs = 1, .after = 0.1, .length = 0.4, .offsets = 5}};
-  const std::vector<RunSignals> cut = training_segments_of(runs, "mujoco", segments);
+  const RunPointers cut = cut_in_order({0}, "mujoco", segments, runs);
   ASSERT_EQ(cut.size(), 1U);
-  EXPECT_EQ(cut.front().steps(), 150U);
+  EXPECT_EQ(cut.front()->steps(), 150U);
+}
+
+TEST(TrainingSegments, DoNotDependOnTheOrderInWhichRunsAreThere) {
+  const std::vector<TrainingSegments> segments = {
+      {.scenario = "a", .runs = 5, .after = 0.1, .length = 0.2, .offsets = 3},
+      {.scenario = "b", .runs = 2, .after = 0.0, .length = 0.3, .offsets = 2}};
+  for (const std::vector<std::size_t>& order : {std::vector<std::size_t>{0, 1, 2, 3, 4, 5, 6, 7},
+                                                {7, 6, 5, 4, 3, 2, 1, 0},
+                                                {4, 0, 6, 2, 7, 1, 3, 5}}) {
+    Rollouts runs;
+    for (std::size_t i = 0; i < 6; ++i) runs[i] = run_of(0, static_cast<std::int64_t>(i), 1000);
+    for (std::size_t i = 6; i < 8; ++i) runs[i] = run_of(1, static_cast<std::int64_t>(i), 1000);
+    runs[2].report.outcome = recordings::Outcome::fell;  // the offset of later runs moves
+    EXPECT_THAT(begins(cut_in_order(order, "mujoco", segments, runs)),
+                ElementsAre(100, 450, 800, 100, 450, 0, 700));
+  }
+}
+
+TEST(TrainingSegments, HoldNoOtherStepsOnceTheyAreCut) {
+  const std::vector<TrainingSegments> segments = {
+      {.scenario = "a", .runs = 2, .after = 0.0, .length = 0.1, .offsets = 2}};
+  Rollouts runs;
+  for (std::size_t i = 0; i < 2; ++i) runs[i] = run_of(0, static_cast<std::int64_t>(i), 1000);
+  SegmentCutter cutter(segments, runs);
+  cutter.add(1);  // its offset depends on run 0
+  EXPECT_EQ(runs[1].signals.steps(), 1000U);
+  cutter.add(0);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(runs[i].signals.steps(), 100U);
+    EXPECT_EQ(runs[i].signals.signals.capacity(), 100U);
+  }
 }
 
 }  // namespace

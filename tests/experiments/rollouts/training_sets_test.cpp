@@ -17,10 +17,10 @@ RunSignals piece(const std::string& simulator, const std::string& scene, std::in
   return signals;
 }
 
-std::vector<std::string> names_of(const std::vector<RunSignals>& runs) {
+std::vector<std::string> names_of(const RunPointers& runs) {
   std::vector<std::string> names;
-  for (const RunSignals& run : runs) {
-    names.push_back(run.info.simulator + " " + run.info.scenario + std::to_string(run.info.run));
+  for (const RunSignals* run : runs) {
+    names.push_back(run->info.simulator + " " + run->info.scenario + std::to_string(run->info.run));
   }
   return names;
 }
@@ -29,12 +29,12 @@ TEST(TrainingSet, TakesItsPiecesFromTheScenesInTurn) {
   const std::vector<RunSignals> pieces = {piece("m", "stairs", 1), piece("m", "stairs", 2),
                                           piece("m", "stairs", 3), piece("m", "hop", 1),
                                           piece("m", "roam", 1),   piece("m", "roam", 2)};
-  EXPECT_THAT(names_of(training_set(pieces, 0)), IsEmpty());
-  EXPECT_THAT(names_of(training_set(pieces, 1)), ElementsAre("m stairs1"));
-  EXPECT_THAT(names_of(training_set(pieces, 5)),
+  EXPECT_THAT(names_of(training_set(pointers_to(pieces), 0)), IsEmpty());
+  EXPECT_THAT(names_of(training_set(pointers_to(pieces), 1)), ElementsAre("m stairs1"));
+  EXPECT_THAT(names_of(training_set(pointers_to(pieces), 5)),
               ElementsAre("m stairs1", "m hop1", "m roam1", "m stairs2", "m roam2"));
   for (const std::size_t all : {6U, 7U, 1'000U}) {
-    EXPECT_THAT(names_of(training_set(pieces, all)),
+    EXPECT_THAT(names_of(training_set(pointers_to(pieces), all)),
                 ElementsAre("m stairs1", "m hop1", "m roam1", "m stairs2", "m roam2", "m stairs3"));
   }
 }
@@ -43,10 +43,10 @@ TEST(TrainingSet, HasItsSizeInEveryEngine) {
   const std::vector<RunSignals> pieces = {piece("m", "stairs", 1), piece("b", "stairs", 1),
                                           piece("m", "stairs", 2), piece("b", "hop", 1),
                                           piece("b", "hop", 2)};
-  EXPECT_THAT(names_of(training_set(pieces, 2)),
+  EXPECT_THAT(names_of(training_set(pointers_to(pieces), 2)),
               ElementsAre("m stairs1", "m stairs2", "b stairs1", "b hop1"));
   // One engine has fewer pieces, as after failed runs.
-  EXPECT_THAT(names_of(training_set(pieces, 3)),
+  EXPECT_THAT(names_of(training_set(pointers_to(pieces), 3)),
               ElementsAre("m stairs1", "m stairs2", "b stairs1", "b hop1", "b hop2"));
 }
 

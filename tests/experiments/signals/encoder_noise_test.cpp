@@ -43,7 +43,7 @@ TEST(EncoderNoise, MayNotBeNegative) {
 TEST(EncoderNoise, ChangesOnlyEstimatorsThatUseEncoders) {
   const RunSignals run = synthetic_run(3);
   const Experiment experiment = synthetic_experiment(estimator_names());
-  const FittedModels models = fit_models(experiment, {synthetic_run(first_fit_run)});
+  const FittedModels models = fit_models(experiment, pointers_to({synthetic_run(first_fit_run)}));
   const NoiseRun noise = noise_run(run, noise_key(experiment, 0, 3));
   for (const std::string& name : estimator_names()) {
     const auto estimator = make_estimator(experiment, {"mujoco", "mujoco", name}, models, run);

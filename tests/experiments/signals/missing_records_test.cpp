@@ -107,7 +107,7 @@ TEST(MissingRecords, RepeatThePreviousValuesInPhaseFits) {
   gaps.signals[1200].leg[0].wheel.torque = nan;
   repeats.signals[1200].leg[0].wheel.torque = repeats.signals[1199].leg[0].wheel.torque;
   const auto model = [&](const RunSignals& run) {
-    return fit_models(experiment, {run}).at("mujoco").at("phase").phase->model;
+    return fit_models(experiment, {&run}).at("mujoco").at("phase").phase->model;
   };
   const PhaseModel with = model(gaps);
   const PhaseModel expected = model(repeats);

@@ -14,13 +14,7 @@ RunSignals run_of(const std::string& scene, std::int64_t number) {
   return run;
 }
 
-std::vector<const RunSignals*> pointers(const std::vector<RunSignals>& runs) {
-  std::vector<const RunSignals*> all;
-  for (const RunSignals& run : runs) all.push_back(&run);
-  return all;
-}
-
-bool holds(const std::vector<const RunSignals*>& runs, const RunSignals& draw) {
+bool holds(const RunPointers& runs, const RunSignals& draw) {
   return std::any_of(runs.begin(), runs.end(), [&](const RunSignals* run) {
     return run->info.scenario == draw.info.scenario && run->info.run == draw.info.run;
   });
@@ -33,7 +27,8 @@ TEST(Folds, HoldOutEveryWholeRunOnceWithItsSegments) {
   const std::vector<RunSignals> segments = {run_of("stairs", 7), run_of("stairs", 1),
                                             run_of("kerb", 2), run_of("kerb", 0)};
   for (const std::size_t count : {2U, 3U, 4U}) {
-    const std::vector<Fold> folds = folds_of(pointers(whole), pointers(segments), count, true);
+    const std::vector<Fold> folds =
+        folds_of(pointers_to(whole), pointers_to(segments), count, true);
     ASSERT_EQ(folds.size(), count);
     std::size_t held_out = 0;
     std::size_t fitted_segments = 0;
@@ -56,7 +51,7 @@ TEST(Folds, HoldOutEveryWholeRunOnceWithItsSegments) {
 TEST(Folds, SpreadEachScene) {
   const std::vector<RunSignals> whole = {run_of("stairs", 0), run_of("stairs", 1),
                                          run_of("kerb", 2), run_of("kerb", 3)};
-  for (const Fold& fold : folds_of(pointers(whole), {}, 2, true)) {
+  for (const Fold& fold : folds_of(pointers_to(whole), {}, 2, true)) {
     ASSERT_EQ(fold.held_out.size(), 2U);
     EXPECT_NE(fold.held_out[0]->info.scenario, fold.held_out[1]->info.scenario);
   }
@@ -65,7 +60,7 @@ TEST(Folds, SpreadEachScene) {
 TEST(Folds, CountASceneWithoutPerturbationsAsOneRun) {
   const std::vector<RunSignals> whole = {run_of("stairs", 0), run_of("stairs", 1),
                                          run_of("kerb", 2), run_of("kerb", 3)};
-  for (const Fold& fold : folds_of(pointers(whole), {}, 2, false)) {
+  for (const Fold& fold : folds_of(pointers_to(whole), {}, 2, false)) {
     ASSERT_EQ(fold.held_out.size(), 2U);
     EXPECT_EQ(fold.held_out[0]->info.scenario, fold.held_out[1]->info.scenario);
   }

@@ -1,5 +1,7 @@
 #include "experiments/tuning/tune.hpp"
 
+#include <set>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -49,7 +51,7 @@ TEST(Tune, CorrectsABadDefault) {
   const std::vector<RunSignals> runs = fitted_runs(4);
   Experiment experiment = tuned_experiment({"rigged"}, 16);
   experiment.external_estimators = {rigged()};
-  const std::vector<Trial> trials = tune(experiment, "", runs, {}, {});
+  const std::vector<Trial> trials = tune(experiment, "", pointers_to(runs), {}, {});
   ASSERT_EQ(trials.size(), 16U);
   EXPECT_EQ(trials.front().hyperparameters.at("contact"), 400.0);
   EXPECT_NEAR(trials.front().score, 0.5, 0.01);  // never in contact
@@ -57,7 +59,7 @@ TEST(Tune, CorrectsABadDefault) {
   EXPECT_GT(best.score, 0.9);
   EXPECT_LT(best.hyperparameters.at("contact"), 60.0);
   // It needs no fit, but uses the chosen values.
-  const FittedModels models = fit_models(experiment, runs, {}, {}, chosen_in(trials));
+  const FittedModels models = fit_models(experiment, pointers_to(runs), {}, {}, chosen_in(trials));
   const RunSignals test = synthetic_run(0);
   const Condition condition{"mujoco", "mujoco", "rigged"};
   EXPECT_EQ(entry_of(experiment, condition, models).chosen("contact"),
@@ -80,7 +82,7 @@ TEST(Tune, GivesEveryTunableEstimatorTheSameNumberOfTrials) {
   const Experiment experiment = tuned_experiment(
       {"robust", "phase", "load_logistic", "force_kinematics", "free_fall", "oracle"}, 3);
   std::map<std::string, int> count, chosen;
-  for (const Trial& trial : tune(experiment, "", fitted_runs(4), {}, {})) {
+  for (const Trial& trial : tune(experiment, "", pointers_to(fitted_runs(4)), {}, {})) {
     EXPECT_EQ(trial.number, count[trial.estimator]++);
     chosen[trial.estimator] += trial.is_chosen ? 1 : 0;
     EXPECT_GT(trial.score, 0.3) << trial.estimator;
@@ -100,7 +102,7 @@ TEST(Tune, ChoosesIndependentlyOfTheNumberOfThreads) {
   const auto with = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     std::vector<std::pair<double, bool>> all;
-    for (const Trial& trial : tune(experiment, "", runs, {}, {})) {
+    for (const Trial& trial : tune(experiment, "", pointers_to(runs), {}, {})) {
       all.emplace_back(trial.score, trial.is_chosen);
     }
     return all;
@@ -114,7 +116,7 @@ TEST(Tune, UsesTheNoiseOfItsSection) {
   Experiment experiment = tuned_experiment({"free_fall"}, 12);
   const auto trials_with = [&](const std::vector<noise::NoiseCell>& noise) {
     experiment.tuning->noise = noise;
-    return tune(experiment, "", runs, {}, {});
+    return tune(experiment, "", pointers_to(runs), {}, {});
   };
   const std::vector<Trial> none = trials_with({{}});
   const std::vector<Trial> much = trials_with({{0.0, 20.0}});
@@ -134,7 +136,7 @@ TEST(Tune, ReusesSavedTrials) {
   const Experiment experiment = tuned_experiment({"robust", "free_fall"}, 3);
   const auto scores = [&](const SavedTrials& saved) {
     std::vector<double> all;
-    for (const Trial& trial : tune(experiment, "", runs, {}, {}, saved)) {
+    for (const Trial& trial : tune(experiment, "", pointers_to(runs), {}, {}, saved)) {
       all.push_back(trial.score);
     }
     return all;
@@ -156,7 +158,8 @@ TEST(Tune, ChoosesTheFirstOfEqualTrials) {
     for (Signals& step : run.signals) step.vertical_acceleration = 0.0;
     for (auto& wheel : run.contact) std::fill(wheel.begin(), wheel.end(), std::uint8_t{1});
   }
-  const std::vector<Trial> trials = tune(tuned_experiment({"free_fall"}, 5), "", runs, {}, {});
+  const std::vector<Trial> trials =
+      tune(tuned_experiment({"free_fall"}, 5), "", pointers_to(runs), {}, {});
   for (const Trial& trial : trials) EXPECT_EQ(trial.score, 1.0);
   EXPECT_EQ(chosen_of(trials).number, 0);
 }
@@ -164,10 +167,12 @@ TEST(Tune, ChoosesTheFirstOfEqualTrials) {
 TEST(Tune, NamesTheFoldWithTooLittleData) {
   std::vector<RunSignals> runs = fitted_runs(2);
   for (auto& wheel : runs[1].contact) std::fill(wheel.begin(), wheel.end(), std::uint8_t{1});
-  EXPECT_THAT([&] { tune(tuned_experiment({"load_logistic"}, 2), "", runs, {}, {}); },
+  EXPECT_THAT([&] { tune(tuned_experiment({"load_logistic"}, 2), "", pointers_to(runs), {}, {}); },
               ThrowsMessage<InputError>(
                   HasSubstr("fit.tuning: load_logistic on mujoco, without fold 1 of 2: ")));
-  EXPECT_THROW(tune(tuned_experiment({"robust"}, 2), "", runs, {}, [] { return false; }), Stopped);
+  EXPECT_THROW(
+      tune(tuned_experiment({"robust"}, 2), "", pointers_to(runs), {}, [] { return false; }),
+      Stopped);
 }
 
 /// Robots read the values from the metadata.
@@ -177,9 +182,12 @@ TEST(Tune, StoresChosenValuesInTheMetadata) {
   const auto metadata = [&](const std::string& estimator,
                             const HyperparameterValues& hyperparameters) {
     const TunedHyperparameters chosen = {{"mujoco", {{estimator, hyperparameters}}}};
-    return fit_models(experiment, runs, {}, {}, chosen).at("mujoco").at(estimator).metadata;
+    return fit_models(experiment, pointers_to(runs), {}, {}, chosen)
+        .at("mujoco")
+        .at(estimator)
+        .metadata;
   };
-  const auto usual = fit_models(experiment, runs).at("mujoco");
+  const auto usual = fit_models(experiment, pointers_to(runs)).at("mujoco");
   const auto tuned = metadata("load_logistic", {{"threshold", 0.25}});
   EXPECT_EQ(tuned->configuration.at("threshold"), "0.25");
   EXPECT_EQ(usual.at("load_logistic").metadata->configuration.at("threshold"), "0.5");
@@ -195,12 +203,24 @@ TEST(Tune, StoresChosenValuesInTheMetadata) {
 TEST(Tune, SetsTheHyperparametersOfLogEstimators) {
   const ScratchFolder folder;
   const TunedHyperparameters chosen = {{"mujoco", {{"load_logistic", {{"threshold", 0.25}}}}}};
-  const FittedModels models =
-      fit_models(tuned_experiment({"load_logistic"}, 1), fitted_runs(2), {}, {}, chosen);
+  const FittedModels models = fit_models(tuned_experiment({"load_logistic"}, 1),
+                                         pointers_to(fitted_runs(2)), {}, {}, chosen);
   const std::filesystem::path file = folder / "model.npz";
   write_fitted_model(models.at("mujoco").at("load_logistic"), file);
   EXPECT_EQ(log_estimator({.model = file}).entry.chosen("threshold"), 0.25);
   EXPECT_EQ(estimator_entry("load_logistic").chosen("threshold"), 0.5);
+}
+
+TEST(Tune, LeavesFixedEstimatorsAndUpperBoundsAlone) {
+  const std::vector<RunSignals> runs = fitted_runs(4);
+  Experiment experiment = tuned_experiment(
+      {"free_fall", "support_force", "load_logistic", "boosted_channels", "boosted_signals"}, 2);
+  experiment.tuning->fixed = {"support_force"};
+  std::set<std::string> tried;
+  for (const Trial& trial : tune(experiment, "", pointers_to(runs), {}, {})) {
+    tried.insert(trial.estimator);
+  }
+  EXPECT_EQ(tried, (std::set<std::string>{"free_fall", "load_logistic"}));
 }
 
 }  // namespace
