@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -32,17 +32,59 @@ struct BoosterDeleter {
 using Matrix = std::unique_ptr<void, MatrixDeleter>;
 using Booster = std::unique_ptr<void, BoosterDeleter>;
 
-/// Rows in contact have weight 1, the others `air_weight`.
+/// Gives the rows to the library in batches, as its callbacks want them.
+class RowBatches {
+ public:
+  /// Rows in contact have weight 1, the others `air_weight`.
+  RowBatches(const BoostingRows& rows, float air_weight) : rows_(rows), weights_(rows.count()) {
+    std::transform(rows.is_contact.begin(), rows.is_contact.end(), weights_.begin(),
+                   [&](float is_contact) { return is_contact > 0.0F ? 1.0F : air_weight; });
+    DMatrixHandle handle = nullptr;
+    check(XGProxyDMatrixCreate(&handle));
+    batch_.reset(handle);
+  }
+
+  [[nodiscard]] DMatrixHandle batch() const { return batch_.get(); }
+  static void restart(DataIterHandle self) { static_cast<RowBatches*>(self)->next_ = 0; }
+  static int go_on(DataIterHandle self) { return static_cast<RowBatches*>(self)->go_on(); }
+  /// Whether the library refused a batch; for it the rows then end there.
+  [[nodiscard]] bool failed() const { return failed_; }
+
+ private:
+  /// 0 after the last row.
+  int go_on() {
+    constexpr std::size_t most = 4096;
+    const std::size_t count = std::min(most, rows_.count() - next_);
+    if (count == 0) return 0;
+    const std::string features =
+        fmt::format(R"({{"data": [{}, true], "shape": [{}, {}], "typestr": "<f4", "version": 3}})",
+                    reinterpret_cast<std::uintptr_t>(rows_.features.data() + next_ * rows_.width()),
+                    count, rows_.width());
+    failed_ =
+        !(XGProxyDMatrixSetDataDense(batch(), features.c_str()) == 0 &&
+          XGDMatrixSetFloatInfo(batch(), "label", rows_.is_contact.data() + next_, count) == 0 &&
+          XGDMatrixSetFloatInfo(batch(), "weight", weights_.data() + next_, count) == 0);
+    next_ += count;
+    return failed_ ? 0 : 1;
+  }
+
+  const BoostingRows& rows_;
+  std::vector<float> weights_;
+  Matrix batch_;
+  std::size_t next_ = 0;
+  bool failed_ = false;
+};
+
+/// The rows as bins of their features, a byte each; a matrix of their values needs eight times
+/// that.
 Matrix matrix_of(const BoostingRows& rows, float air_weight) {
+  RowBatches batches(rows, air_weight);
   DMatrixHandle handle = nullptr;
-  check(XGDMatrixCreateFromMat(rows.features.data(), rows.count(), rows.width(),
-                               std::numeric_limits<float>::quiet_NaN(), &handle));
+  check(XGQuantileDMatrixCreateFromCallback(
+      &batches, batches.batch(), nullptr, RowBatches::restart, RowBatches::go_on,
+      R"({"missing": NaN, "nthread": 1, "max_bin": 256})", &handle));
   Matrix matrix(handle);
-  check(XGDMatrixSetFloatInfo(handle, "label", rows.is_contact.data(), rows.count()));
-  std::vector<float> weights(rows.count());
-  std::transform(rows.is_contact.begin(), rows.is_contact.end(), weights.begin(),
-                 [&](float is_contact) { return is_contact > 0.0F ? 1.0F : air_weight; });
-  check(XGDMatrixSetFloatInfo(handle, "weight", weights.data(), weights.size()));
+  check(batches.failed() ? -1 : 0);
   return matrix;
 }
 
@@ -117,6 +159,9 @@ BoostingRows boosting_rows(std::span<const LabelledRun> runs, const BoostingConf
   const std::size_t stride =
       std::max<std::size_t>(1, 2 * steps * config.passes / std::max<std::size_t>(1, config.rows));
   BoostingRows rows;
+  const std::size_t expected = 2 * config.passes * (steps / stride + runs.size());
+  rows.features.reserve(expected * Inputs::count);
+  rows.is_contact.reserve(expected);
   Draws draws(config.seed);
   for (std::size_t pass = 0; pass < config.passes; ++pass) {
     for (const LabelledRun& run : runs) {
@@ -145,7 +190,7 @@ template BoostingRows boosting_rows<SignalWindow>(std::span<const LabelledRun> r
 template BoostingRows boosting_rows<ChannelInputs>(std::span<const LabelledRun> runs,
                                                    const BoostingConfig& config);
 
-BoostedTrees fit_trees(const BoostingRows& rows, const BoostingConfig& config,
+BoostedTrees fit_trees(BoostingRows rows, const BoostingConfig& config,
                        const std::function<void()>& before_tree) {
   const auto contact =
       static_cast<double>(std::count(rows.is_contact.begin(), rows.is_contact.end(), 1.0F));
@@ -155,6 +200,7 @@ BoostedTrees fit_trees(const BoostingRows& rows, const BoostingConfig& config,
   }
   const auto air_weight = static_cast<float>(std::pow(air / contact, config.class_exponent));
   const Matrix matrix = matrix_of(rows, air_weight);
+  rows = {};  // the matrix has copied what it needs
   const Booster booster = booster_of(matrix, config);
   for (std::size_t tree = 0; tree < config.trees; ++tree) {
     if (before_tree) before_tree();

@@ -48,7 +48,7 @@ BoostingRows boosting_rows(std::span<const LabelledRun> runs, const BoostingConf
 /// Fits trees by XGBoost to the log loss, on one thread: the same rows give the same trees.
 /// `before_tree` is called before each tree; an exception from it ends the fit. Throws InputError
 /// without rows of both classes, and Error for errors of the library.
-BoostedTrees fit_trees(const BoostingRows& rows, const BoostingConfig& config,
+BoostedTrees fit_trees(BoostingRows rows, const BoostingConfig& config,
                        const std::function<void()>& before_tree = {});
 
 }  // namespace touchdown::experiments
