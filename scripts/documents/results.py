@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""results.py PROGRAM [--quick]: runs the commands of docs/results.md and compares the numbers of its tables.
+"""results.py PROGRAM [--quick]: runs the commands of README.md and docs/results.md and compares the numbers of
+their tables.
 
 A comment above a table names the command and where its columns are in tables/results.csv of the run:
 
@@ -107,10 +108,12 @@ def main():
     parser.add_argument('program', type=pathlib.Path)
     parser.add_argument('--quick', action='store_true')
     parser.add_argument('--runs', type=pathlib.Path, default=ROOT / 'runs' / 'results')
-    parser.add_argument('--page', type=pathlib.Path, default=ROOT / 'docs' / 'results.md')
+    parser.add_argument('--page', type=pathlib.Path, nargs='+',
+                        default=[ROOT / 'README.md', ROOT / 'docs' / 'results.md'])
     flags = parser.parse_args()
     failed, compared, known = 0, 0, {}
-    for quick, command, columns, key, rows in checks(flags.page.read_text(encoding='utf-8')):
+    pages = ''.join(page.read_text(encoding='utf-8') for page in flags.page)
+    for quick, command, columns, key, rows in checks(pages):
         if flags.quick and not quick:
             continue
         if command not in known:

@@ -52,12 +52,35 @@ class Results(unittest.TestCase):
         faults = [fault for _, _, fault in results.faults_of_table(columns, key, rows, RESULTS)]
         self.assertTrue(all(fault.startswith('0 numbers in results.csv') for fault in faults) and len(faults) == 3)
 
-    def test_of_every_table_of_the_page_name_columns_that_exist(self):
-        page = (ROOT / 'docs' / 'results.md').read_text(encoding='utf-8')
-        found = list(results.checks(page))
-        self.assertEqual(len(found), page.count('<!-- results'))
-        for _, command, columns, _, rows in found:
-            self.assertTrue(rows and all(max(columns) <= len(row) for row in rows), command)
+    def test_of_the_benchmarks_table_agree_with_its_markdown(self):
+        printed = """| estimator | no added noise | 1 N·m, 5 m/s² | extra switches a minute |
+|---|---|---|---|
+| `hmm` | .999 [.998, 1] | 1 | 0.0 / 12.5 |
+"""
+        where = 'study=benchmark_unseen; robot=upkie; metric='
+        quiet, noisy = 'noise=0 N·m, 0 m/s²', 'noise=1 N·m, 5 m/s²'
+        page = (f'<!-- results: touchdown run experiments/benchmark.yaml\n2: {where}mean_balanced_accuracy; {quiet}\n'
+                f'3: {where}mean_balanced_accuracy; {noisy}\n'
+                f'4: {where}extra_switches_per_minute; {quiet} / {noisy}\n-->\n\n{printed}')
+        rows = [{'study': 'benchmark_unseen', 'robot': 'upkie', 'metric': metric, 'estimator': 'hmm',
+                 'noise': noise.partition('=')[2], 'estimate': estimate, 'low': low, 'high': high}
+                for metric, noise, estimate, low, high in
+                (('mean_balanced_accuracy', quiet, '0.99904', '0.99823', '1'),
+                 ('mean_balanced_accuracy', noisy, '0.9997', '', ''),
+                 ('extra_switches_per_minute', quiet, '0.02', '', ''),
+                 ('extra_switches_per_minute', noisy, '12.46', '', ''))]
+        [(_, _, columns, key, cells)] = results.checks(page)
+        self.assertEqual(list(results.faults_of_table(columns, key, cells, rows)), [])
+        rows[3]['estimate'] = '12.6'
+        self.assertEqual([column for _, column, _ in results.faults_of_table(columns, key, cells, rows)], [4])
+
+    def test_of_every_table_of_the_pages_name_columns_that_exist(self):
+        for page in (ROOT / 'README.md', ROOT / 'docs' / 'results.md'):
+            text = page.read_text(encoding='utf-8')
+            found = list(results.checks(text))
+            self.assertEqual(len(found), text.count('<!-- results'), page)
+            for _, command, columns, _, rows in found:
+                self.assertTrue(rows and all(max(columns) <= len(row) for row in rows), command)
 
     def test_of_the_quick_commands_are_those_of_the_page(self):
         with tempfile.TemporaryDirectory() as runs:

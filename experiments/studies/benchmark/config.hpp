@@ -21,6 +21,8 @@ struct BenchmarkConfig {
   bool refits_everywhere = false;
   /// Whether the worst segment of every estimator is filmed, on the experiment's own robot.
   bool clips = false;
+  /// The estimators of the Markdown table of unseen scenes; empty: all that are ranked.
+  std::vector<std::string> table;
 };
 
 /// The section, its keys and its files.

@@ -38,6 +38,10 @@ BenchmarkRow without_scores(BenchmarkRow row) {
 
 }  // namespace
 
+double extra_switches_per_minute(const BenchmarkRow& row) {
+  return 60e6 * scoring::ratio(row.extended.extra_switches, row.score.scored_us);
+}
+
 std::vector<BenchmarkRow> benchmark(const Evaluation& evaluation) {
   const Experiment& experiment = evaluation.request.experiment;
   const std::vector<std::string>& scenes = experiment.test.scenarios;

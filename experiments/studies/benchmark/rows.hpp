@@ -34,6 +34,9 @@ struct BenchmarkRow {
   bool is_scored() const { return !std::isnan(balanced_accuracy.estimate); }
 };
 
+/// Extra switches per minute and wheel; NaN without scored time.
+double extra_switches_per_minute(const BenchmarkRow& row);
+
 /// Rows by setup, scene, engine, estimator, then noise. If every run of a scene failed, its scores
 /// are NaN.
 std::vector<BenchmarkRow> benchmark(const Evaluation& evaluation);

@@ -124,6 +124,7 @@ std::vector<Standings::Entry> entries_of(const Rows& rows, const std::vector<Nam
     for (const BenchmarkRow* row : rows) {
       if (row->estimator == mean.name) {
         entry.log_loss += bits_of(*row);
+        entry.extra_switches += extra_switches_per_minute(*row);
         ++entry.scored;
       }
       const double value = row->balanced_accuracy.estimate;
@@ -133,6 +134,7 @@ std::vector<Standings::Entry> entries_of(const Rows& rows, const std::vector<Nam
       entry.worst_simulator = row->simulator;
     }
     entry.log_loss /= static_cast<double>(entry.scored);
+    entry.extra_switches /= static_cast<double>(entry.scored);
     entries.push_back(std::move(entry));
   }
   double least = std::numeric_limits<double>::quiet_NaN();  // of the upper bounds
@@ -162,18 +164,12 @@ void mark_not_significantly_worse(std::vector<Standings::Entry>& entries,
   }
 }
 
-}  // namespace
-
-std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows,
-                                 const scoring::BootstrapConfig& intervals) {
+/// Standings of in-domain rows; `with_scenes` adds the differences in every scene.
+std::vector<Standings> standings_of(const Rows& planned, bool with_scenes,
+                                    const scoring::BootstrapConfig& intervals) {
   const double level = intervals.level;
-  Rows own;
-  Rows planned;
-  for (const BenchmarkRow& row : rows) {
-    if (row.fitted_on != "own") continue;
-    planned.push_back(&row);
-    if (row.is_scored()) own.push_back(&row);
-  }
+  Rows own = planned;
+  std::erase_if(own, [](const BenchmarkRow* row) { return !row->is_scored(); });
   std::vector<Standings> all;
   for (const auto& scored : group_by(own, setting_of)) {
     const Rows alike = complete_ones(scored.rows);
@@ -187,13 +183,35 @@ std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows,
                       }).size();
     }
     mark_not_significantly_worse(standings.entries, standings.differences);
-    for (const auto& scene : group_by(alike, scene_name)) {
+    for (const auto& scene : group_by(with_scenes ? alike : Rows(), scene_name)) {
       const auto pairs = all_pairs(scene.key, means_by_estimator(scene.rows, intervals), level);
       standings.differences.insert(standings.differences.end(), pairs.begin(), pairs.end());
     }
     all.push_back(std::move(standings));
   }
   return all;
+}
+
+Rows in_domain(const std::vector<BenchmarkRow>& rows) {
+  Rows own;
+  for (const BenchmarkRow& row : rows) {
+    if (row.fitted_on == "own") own.push_back(&row);
+  }
+  return own;
+}
+
+}  // namespace
+
+std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows,
+                                 const scoring::BootstrapConfig& intervals) {
+  return standings_of(in_domain(rows), true, intervals);
+}
+
+std::vector<Standings> standings_of_unseen(const std::vector<BenchmarkRow>& rows,
+                                           const scoring::BootstrapConfig& intervals) {
+  Rows unseen = in_domain(rows);
+  std::erase_if(unseen, [](const BenchmarkRow* row) { return row->split != "unseen"; });
+  return standings_of(unseen, false, intervals);
 }
 
 }  // namespace touchdown::experiments

@@ -24,6 +24,8 @@ struct Standings {
     /// Whether the simultaneous band of its difference from the best includes zero. Reference upper
     /// bounds never count as the best.
     bool is_not_significantly_worse = false;
+    /// Mean over scenes and engines (1/min per wheel).
+    double extra_switches = 0.0;
     /// Mean log loss over scenes and engines (bits per wheel and step).
     double log_loss = 0.0;
     /// Log loss minus the least one of the reference upper bounds (bits per wheel and step). NaN
@@ -51,5 +53,10 @@ struct Standings {
 /// Standings of in-domain estimators that were scored in every scored run.
 std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows,
                                  const scoring::BootstrapConfig& intervals);
+
+/// The same over the unseen scenes alone, with differences of means only. Empty without such
+/// scenes.
+std::vector<Standings> standings_of_unseen(const std::vector<BenchmarkRow>& rows,
+                                           const scoring::BootstrapConfig& intervals);
 
 }  // namespace touchdown::experiments

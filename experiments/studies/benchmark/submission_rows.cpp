@@ -63,7 +63,7 @@ BenchmarkResult write_benchmark(const Evaluation& evaluation, const RunDirectory
   add_submission_rows(evaluation, directory, rows);
   const scoring::BootstrapConfig& intervals = evaluation.request.experiment.intervals.bootstrap;
   BenchmarkResult result = with_standings(std::move(rows), intervals);
-  write_tables(result, intervals.level, directory);
+  write_tables(result, evaluation.request.experiment, directory);
   return result;
 }
 

@@ -12,15 +12,12 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/results/json_table.hpp"
+#include "experiments/studies/benchmark/unseen_table.hpp"
 #include "experiments/tables/noise_columns.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
-
-double per_minute(std::int64_t count, std::int64_t microseconds) {
-  return 60e6 * scoring::ratio(count, microseconds);
-}
 
 Columns<BenchmarkRow> row_columns(double level) {
   using Row = BenchmarkRow;
@@ -41,8 +38,7 @@ Columns<BenchmarkRow> row_columns(double level) {
               [](const Row& r) { return r.extended.takeoff.absolute_median(); })
       .metric("landing_latency_median_ms",
               [](const Row& r) { return r.extended.landing.absolute_median(); })
-      .metric("extra_switches_per_minute",
-              [](const Row& r) { return per_minute(r.extended.extra_switches, r.score.scored_us); })
+      .metric("extra_switches_per_minute", extra_switches_per_minute)
       .metric("calibration_error",
               [](const Row& r) { return r.score.calibration.expected_error(); })
       .metric(
@@ -112,6 +108,7 @@ Columns<Standings::Entry> entry_columns() {
       .text("worst_simulator", &Entry::worst_simulator)
       .is(ColumnRole::note)
       .flag("is_not_significantly_worse", &Entry::is_not_significantly_worse)
+      .metric("extra_switches_per_minute", &Entry::extra_switches)
       .metric("log_loss_bits", &Entry::log_loss)
       .metric("excess_log_loss_bits", &Entry::excess_log_loss)
       .number("scored_scenes", &Entry::scored)
@@ -225,12 +222,15 @@ std::string scenes_text(const Standings& standings, const std::string& simulator
 
 BenchmarkResult with_standings(std::vector<BenchmarkRow> rows,
                                const scoring::BootstrapConfig& intervals) {
-  BenchmarkResult result{std::move(rows), {}};
+  BenchmarkResult result{std::move(rows), {}, {}};
   result.standings = standings(result.rows, intervals);
+  result.unseen = standings_of_unseen(result.rows, intervals);
   return result;
 }
 
-void write_tables(const BenchmarkResult& result, double level, const RunDirectory& directory) {
+void write_tables(const BenchmarkResult& result, const Experiment& experiment,
+                  const RunDirectory& directory) {
+  const double level = experiment.intervals.bootstrap.level;
   nlohmann::ordered_json json;
   const auto write = [&](const std::string& name, const char* key, const auto& columns,
                          const auto& rows) {
@@ -240,9 +240,14 @@ void write_tables(const BenchmarkResult& result, double level, const RunDirector
   write("benchmark.csv", "rows", row_columns(level), result.rows);
   write("benchmark_standings.csv", "standings", with_setup(entry_columns()),
         parts_of(result.standings, &Standings::entries));
+  write("benchmark_unseen.csv", "unseen", with_setup(entry_columns()),
+        parts_of(result.unseen, &Standings::entries));
   write("benchmark_differences.csv", "differences", with_setup(pair_columns()),
         parts_of(result.standings, &Standings::differences));
   write_atomically(directory.own_file("tables", "benchmark.json"), json.dump(1) + "\n");
+  const std::string markdown = unseen_markdown(result.unseen, experiment);
+  if (markdown.empty()) return;
+  write_atomically(directory.own_file("tables", "benchmark_unseen.md"), markdown);
 }
 
 std::string benchmark_text(const BenchmarkResult& result, const Experiment& experiment) {
@@ -256,7 +261,13 @@ std::string benchmark_text(const BenchmarkResult& result, const Experiment& expe
       text += scenes_text(standings, simulator, result.rows, experiment);
     }
   }
-  return text;
+  const std::string markdown = unseen_markdown(result.unseen, experiment);
+  if (markdown.empty()) return text;
+  return text + fmt::format(
+                    "\n{}, sensors {}: mean over the {} pairs of an unseen scene and an engine "
+                    "(tables/benchmark_unseen.md)\n\n{}",
+                    result.unseen.front().robot, result.unseen.front().sensors,
+                    result.unseen.front().entries.front().scored, markdown);
 }
 
 }  // namespace touchdown::experiments

@@ -12,15 +12,17 @@ namespace touchdown::experiments {
 struct BenchmarkResult {
   std::vector<BenchmarkRow> rows;
   std::vector<Standings> standings;
+  std::vector<Standings> unseen;  ///< over the unseen scenes
 };
 
-/// Adds the standings. `level`, here and below, is the level of the intervals.
+/// Adds the standings.
 BenchmarkResult with_standings(std::vector<BenchmarkRow> rows,
                                const scoring::BootstrapConfig& intervals);
 
-/// Writes `benchmark.csv`, `benchmark_standings.csv`, `benchmark_differences.csv`, and all three as
-/// `benchmark.json`.
-void write_tables(const BenchmarkResult& result, double level, const RunDirectory& directory);
+/// Writes `benchmark.csv`, `benchmark_standings.csv`, `benchmark_unseen.csv`,
+/// `benchmark_differences.csv`, all four as `benchmark.json`, and `benchmark_unseen.md`.
+void write_tables(const BenchmarkResult& result, const Experiment& experiment,
+                  const RunDirectory& directory);
 
 /// The terminal text: standings for every robot with its sensors, and scores by scene for the
 /// experiment's own.
