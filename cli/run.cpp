@@ -55,7 +55,7 @@ void outline(const experiments::Experiment& experiment, const experiments::RunOp
       "together  {:.3g} s of processor time, {:.2g} min on {} threads; scores and pictures "
       "besides\n",
       cost.seconds(), cost.seconds() / 60.0 / outline.threads, outline.threads);
-  print("memory    {:.0f} MB of signals\n", 1e-6 * cost.memory);
+  print("memory    about {:.0f} MB\n", 1e-6 * cost.memory);
   print("disk      at most {:.0f} MB\n", 1e-6 * cost.disk);
   std::string steps;
   for (const auto& [engine, seconds] : cost.step_seconds) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <mutex>
 #include <set>
@@ -14,8 +13,11 @@
 #include "core/files.hpp"
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/evaluation/tasks.hpp"
-#include "experiments/fitting/fitting.hpp"
+#include "experiments/experiment_context.hpp"
+#include "experiments/fit_cost.hpp"
 #include "experiments/needs.hpp"
+#include "experiments/process_memory.hpp"
+#include "experiments/processor_time.hpp"
 #include "experiments/rollouts/rollouts.hpp"
 
 namespace touchdown::experiments {
@@ -23,25 +25,8 @@ namespace touchdown::experiments {
 namespace {
 
 /// Limits of the calibration.
-constexpr std::size_t most_scenes = 16;      // simulated on the first engine
-constexpr std::size_t most_fitted_runs = 6;  // in the fits
-constexpr double fitted_seconds = 3.0;       // of each
-constexpr double evaluated_seconds = 1.5;    // of one run
-
-/// Processor time of this process (s).
-double processor_seconds() {
-  timespec now = {};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-/// Processor time that `action` takes (s).
-template <typename Action>
-double cost_of(const Action& action) {
-  const double start = processor_seconds();
-  action();
-  return processor_seconds() - start;
-}
+constexpr std::size_t most_scenes = 16;    // simulated on the first engine
+constexpr double evaluated_seconds = 1.5;  // of one run
 
 /// Runs of one scene by one robot are about equally long in every engine.
 using SceneKey = std::tuple<std::string, std::string>;
@@ -127,99 +112,22 @@ double steps_of(const PlannedRun& run, const Sample& sample) {
   return duration_of(run, sample) * steps_per_second(run);
 }
 
-/// Runs that differ only in their sensors share a simulation, unless they are streamed.
+/// Runs that differ only in their sensors share a simulation. Those of every fit are simulated for
+/// themselves.
 double simulation_cost(const Plan& plan, const Sample& sample) {
-  std::set<std::tuple<std::string, std::string, std::int64_t, std::uint64_t, int, std::size_t>>
+  std::set<std::tuple<std::string, std::string, std::int64_t, std::uint64_t, int, std::string>>
       simulations;
   double seconds = 0.0;
   for (const PlannedRun& run : plan.runs) {
-    const std::size_t group = run.role == RunRole::fit ? run.group : 0;
     const bool is_new = simulations
                             .emplace(run.scenario.name + run.scenario.robot.string(), run.simulator,
-                                     run.run, run.seed, static_cast<int>(run.role), group)
+                                     run.run, run.seed, static_cast<int>(run.role), run.fit)
                             .second;
     const auto rate = sample.step_seconds.find(run.simulator);
     if (is_new && rate != sample.step_seconds.end())
       seconds += rate->second * steps_of(run, sample);
   }
   return seconds;
-}
-
-/// The first `seconds` of a run.
-RunSignals beginning_of(const RunSignals& run, double seconds) {
-  RunSignals part = run;
-  const auto steps = static_cast<std::size_t>(
-      std::llround(1e6 * seconds / static_cast<double>(run.info.control_period_us)));
-  if (steps >= run.steps()) return part;
-  part.signals.resize(steps);
-  part.up_in_imu.resize(steps);
-  for (std::size_t w = 0; w < models::wheel_count; ++w) {
-    part.contact[w].resize(steps);
-    part.normal_force[w].resize(steps);
-  }
-  std::erase_if(part.segments, [&](std::size_t first) { return first >= steps; });
-  part.motion.reset();
-  return part;
-}
-
-/// Fits of the calibration: cost per second of training data.
-struct FitSample {
-  FittedModels models;            ///< of the first engine
-  double fixed_per_second = 0.0;  ///< of fits that no hyperparameter of a trial changes
-  double trial_per_second = 0.0;  ///< of fits that differ from trial to trial
-  double per_second() const { return fixed_per_second + trial_per_second; }
-};
-
-FitSample fitted(const Experiment& experiment, const Sample& sample,
-                 const ShouldContinue& should_continue) {
-  FitSample found;
-  const std::string& engine = experiment.simulators.front();
-  std::vector<RunSignals> runs;
-  double seconds = 0.0;
-  for (const auto& [index, run] : sample.runs) {
-    const bool is_wanted = run.plan.role == RunRole::fit && run.plan.simulator == engine &&
-                           run.plan.fit.empty() && !run.failed() && runs.size() < most_fitted_runs;
-    if (!is_wanted) continue;
-    runs.push_back(beginning_of(run.signals, fitted_seconds));
-    seconds += static_cast<double>(runs.back().steps()) * 1e-6 *
-               static_cast<double>(runs.back().info.control_period_us);
-  }
-  if (runs.empty()) return found;
-  std::vector<const RunSignals*> whole;
-  for (const RunSignals& run : runs) whole.push_back(&run);
-  const FitRuns data{whole,
-                     {},
-                     experiment.scoring,
-                     [&] {
-                       if (!should_continue()) throw Stopped();
-                     },
-                     experiment.fit_servo_load};
-  for (const std::string& name : experiment.estimators) {
-    const EstimatorEntry& entry = estimator_entry(experiment, name);
-    if (!entry.fits()) continue;
-    FittedModel& model = found.models[engine][name];
-    const auto same = std::find_if(
-        found.models[engine].begin(), found.models[engine].end(), [&](const auto& other) {
-          return other.first != name &&
-                 share_model(entry, estimator_entry(experiment, other.first));
-        });
-    if (same != found.models[engine].end()) {
-      model = same->second;
-      model.metadata = new_metadata(name, data, {});
-      continue;
-    }
-    try {
-      const double cost = cost_of([&] { model = fit_model(entry, data); });
-      model.metadata = new_metadata(name, data, {});
-      const bool differs = std::any_of(
-          entry.hyperparameters.begin(), entry.hyperparameters.end(),
-          [](const Hyperparameter& hyperparameter) { return hyperparameter.is_fitted_with; });
-      (differs ? found.trial_per_second : found.fixed_per_second) += cost / seconds;
-    } catch (const InputError&) {
-      found.models[engine].erase(name);  // the beginnings of the runs do not suffice for it
-    }
-  }
-  return found;
 }
 
 /// Training data of one fit on one engine (s): whole runs and segments.
@@ -238,10 +146,19 @@ double training_seconds(const Experiment& experiment, const Plan& plan, const st
   return seconds;
 }
 
+/// Whether tuning has trials of this estimator.
+bool is_tried(const std::string& estimator, const Experiment& experiment) {
+  const EstimatorEntry& entry = estimator_entry(experiment, estimator);
+  const std::vector<std::string>& fixed = experiment.tuning->fixed;
+  return !entry.is_upper_bound && !entry.hyperparameters.empty() &&
+         std::find(fixed.begin(), fixed.end(), estimator) == fixed.end();
+}
+
 /// The evaluation of one step of a run in all conditions of a group, without refits.
 struct StepCost {
   double counted = 0.0;
   double scored = 0.0;
+  double tried = 0.0;  ///< the part of `scored` that is of estimators with trials
 };
 
 StepCost step_cost(const RunRequest& request, const Plan& plan, const FitSample& fits,
@@ -280,6 +197,11 @@ StepCost step_cost(const RunRequest& request, const Plan& plan, const FitSample&
   group.counted.clear();
   cost.scored = measured();
   cost.counted = std::max(0.0, all - cost.scored);
+  if (!experiment.tuning) return cost;
+  std::erase_if(group.conditions, [&](const Condition& condition) {
+    return !is_tried(condition.estimator, experiment);
+  });
+  cost.tried = measured();
   return cost;
 }
 
@@ -319,9 +241,13 @@ double tuning_cost(const RunRequest& request, const Plan& plan, const std::strin
   const Experiment& experiment = request.experiment;
   if (!experiment.tuning || !(fit.empty() || experiment.tuning->everywhere)) return 0.0;
   const TuningConfig& tuning = *experiment.tuning;
-  const double fitted = training_seconds(experiment, plan, fit, sample) * (tuning.folds - 1.0);
-  const double fits_of_trials =
-      fitted * (fits.fixed_per_second + tuning.trials * fits.trial_per_second);
+  const double fitted =
+      training_seconds(experiment, plan, fit, sample) * (tuning.folds - 1.0) / tuning.folds;
+  double fits_of_trials = 0.0;
+  for (const FitCost& cost : fits.costs) {
+    if (!is_tried(cost.estimator, experiment)) continue;
+    fits_of_trials += tuning.folds * (cost.is_tuned ? tuning.trials : 1.0) * cost.of(fitted);
+  }
   double held_out = 0.0;  // steps
   for (const PlannedRun& run : plan.runs) {
     if (run.role == RunRole::fit && run.fit == fit && run.group == 0 &&
@@ -332,26 +258,44 @@ double tuning_cost(const RunRequest& request, const Plan& plan, const std::strin
   const auto cells =
       static_cast<double>(std::max<std::size_t>(1, plan.groups.front().scored.size()));
   const double evaluated =
-      held_out * tuning.trials * step.scored * static_cast<double>(tuning.noise.size()) / cells;
+      held_out * tuning.trials * step.tried * static_cast<double>(tuning.noise.size()) / cells;
   return static_cast<double>(experiment.simulators.size()) * (fits_of_trials + evaluated);
 }
 
-/// Signals that are in memory at once: those of test runs that are held, and of the largest fit.
-double memory_of(const Plan& plan, const Sample& sample) {
+/// Memory of one simulated run on its way to signals, or of one run while it is evaluated.
+double bytes_of_run(double steps, const Plan& plan) {
+  constexpr double recorded_step_bytes =
+      sizeof(models::Observation) + sizeof(models::Action) + sizeof(models::GroundTruth);
+  constexpr double draws = 26.0 * sizeof(double);  // `NoiseRun`
+  return steps * (recorded_step_bytes + signal_bytes_per_step(plan.needs_motion) + draws);
+}
+
+/// What is in memory at once: held signals, and of one fit on one engine the more of its signals
+/// and work, or of a run per thread.
+double memory_of(const Experiment& experiment, const Plan& plan, const Sample& sample,
+                 const FitSample& fits, double at_start) {
   double held = 0.0;
-  std::map<std::string, double> of_fit;
+  double longest = 0.0;  // steps
+  std::map<std::pair<std::string, std::string>, double> of_fit;
   for (const PlannedRun& run : plan.runs) {
-    const double bytes = steps_of(run, sample) * signal_bytes_per_step(plan.needs_motion);
-    const bool is_of_a_fit = run.role == RunRole::fit && plan.kept_signals != KeptSignals::all;
-    if (is_of_a_fit) {
-      of_fit[run.fit] += bytes;
-    } else if (!is_streamed(run, plan)) {
+    double steps = steps_of(run, sample);
+    longest = std::max(longest, steps);
+    if (run.role == RunRole::fit && run.group > 0) {
+      const TrainingSegments& segments = experiment.training_segments[run.group - segment_group(0)];
+      steps = std::min(steps, segments.length * steps_per_second(run));
+    }
+    const double bytes = steps * signal_bytes_per_step(plan.needs_motion);
+    if (!is_streamed(run, plan)) {
       held += bytes;
+    } else if (run.role == RunRole::fit) {
+      of_fit[{run.fit, run.simulator}] += bytes;
     }
   }
   double largest = 0.0;
   for (const auto& [fit, bytes] : of_fit) largest = std::max(largest, bytes);
-  return held + largest;
+  const int threads = threads_of(experiment);
+  const double runs = threads * bytes_of_run(longest, plan);
+  return at_start + held + std::max(runs, largest + std::max(runs, fits.memory(threads)));
 }
 
 }  // namespace
@@ -366,9 +310,10 @@ CostEstimate estimate_cost(const RunRequest& request, const Plan& plan,
                            const std::function<bool()>& should_continue) {
   const auto start = std::chrono::steady_clock::now();
   const Experiment& experiment = request.experiment;
+  const double at_start = memory_in_use();
   CostEstimate estimate;
   const Sample sample = sampled(experiment, plan, should_continue);
-  const FitSample fits = fitted(experiment, sample, should_continue);
+  const FitSample fits = sample_fits(experiment, sample.runs, should_continue);
   const StepCost step = step_cost(request, plan, fits, sample, should_continue);
 
   std::set<std::string> names = {""};
@@ -381,8 +326,7 @@ CostEstimate estimate_cost(const RunRequest& request, const Plan& plan,
   for (const std::string& name : names) {
     const auto refits = plan.refits.find(name);
     const double repeated = refits == plan.refits.end() ? 0.0 : refits->second;
-    fit += engines * (1.0 + repeated) * fits.per_second() *
-           training_seconds(experiment, plan, name, sample);
+    fit += engines * (1.0 + repeated) * fits.of(training_seconds(experiment, plan, name, sample));
     tune += tuning_cost(request, plan, name, fits, step, sample);
   }
   estimate.stages.push_back({"simulate", simulation_cost(plan, sample)});
@@ -393,7 +337,7 @@ CostEstimate estimate_cost(const RunRequest& request, const Plan& plan,
     estimate.stages.push_back({"model_tasks", std::numeric_limits<double>::quiet_NaN()});
   }
   estimate.step_seconds = sample.step_seconds;
-  estimate.memory = memory_of(plan, sample);
+  estimate.memory = memory_of(experiment, plan, sample, fits, at_start);
   estimate.disk = disk_needs(plan).all();
   estimate.measured =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

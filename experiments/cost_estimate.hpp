@@ -19,7 +19,7 @@ struct StageCost {
 struct CostEstimate {
   std::vector<StageCost> stages;
   std::map<std::string, double> step_seconds;  ///< per control step, by engine
-  double memory = 0.0;                         ///< signals that are held at once (bytes)
+  double memory = 0.0;                         ///< at most at one time (bytes)
   double disk = 0.0;                           ///< at most, pictures included (bytes)
   double measured = 0.0;                       ///< duration of the calibration (s)
 
@@ -28,7 +28,8 @@ struct CostEstimate {
 
 /// Estimates the cost from a short calibration on this machine: it simulates one run of every
 /// scene, fits every estimator to a few seconds of them, and evaluates every estimator on a few
-/// seconds more. Costs grow linearly with the data. Writes nothing into run directories. Errors:
+/// seconds more. Costs grow linearly with the data, but for the training of fits that draw a fixed
+/// number of rows (`EstimatorEntry::fit_passes`). Writes nothing into run directories. Errors:
 /// `InputError` for an invalid scene; `Stopped`.
 CostEstimate estimate_cost(const RunRequest& request, const Plan& plan,
                            const std::function<bool()>& should_continue);
