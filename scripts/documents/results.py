@@ -8,7 +8,7 @@ A comment above a table names the command and where its columns are in tables/re
     2: study=success; simulator=mujoco; noise=1 N·m, 5 m/s²; metric=success / simulator=bullet
     -->
 
-Column 2 is then compared; behind " / " stands what differs for the second part of a cell "a / b". A row's
+`columns: NAME` names such lines that are below. Column 2 is then compared; behind " / " stands what differs for the second part of a cell "a / b". A row's
 estimator is the first name in code in its first cell; `row: KEY` takes the first cell's text for another key.
 A cell's numbers are the estimate, or the estimate with its interval, rounded to the cell's decimals; `%` counts in
 percent. Comments that begin with `results quick:` are those of --quick. Runs stay in runs/results and resume.
@@ -24,6 +24,10 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+UNSEEN = 'study=benchmark_unseen; robot=upkie; sensors=upkie; metric='
+COLUMNS = {'unseen': [f'2: {UNSEEN}mean_balanced_accuracy; noise=0 N·m, 0 m/s²',  # tables/benchmark_unseen.md
+                      f'3: {UNSEEN}mean_balanced_accuracy; noise=1 N·m, 5 m/s²',
+                      f'4: {UNSEEN}extra_switches_per_minute; noise=0 N·m, 0 m/s² / noise=1 N·m, 5 m/s²']}
 CHECK = re.compile(r'<!-- results( quick)?: (touchdown run [^\n]*)\n(.*?)-->\n+((?:\|[^\n]*\n)+)', re.S)
 NUMBER = re.compile(r'[-−]?\d*\.?\d+')
 
@@ -32,8 +36,12 @@ def checks(page):
     """Yields (quick, command, {column: [filters of its parts]}, key of the rows, rows of cells)."""
     for quick, command, places, table in CHECK.findall(page):
         columns, key = {}, 'estimator'
-        for line in places.strip().splitlines():
+        lines = places.strip().splitlines()
+        for line in lines:
             name, _, text = line.partition(': ')
+            if name == 'columns':
+                lines += COLUMNS[text.strip()]
+                continue
             if name == 'row':
                 key = text.strip()
                 continue

@@ -57,13 +57,10 @@ class Results(unittest.TestCase):
 |---|---|---|---|
 | `hmm` | .999 [.998, 1] | 1 | 0.0 / 12.5 |
 """
-        where = 'study=benchmark_unseen; robot=upkie; metric='
-        quiet, noisy = 'noise=0 N·m, 0 m/s²', 'noise=1 N·m, 5 m/s²'
-        page = (f'<!-- results: touchdown run experiments/benchmark.yaml\n2: {where}mean_balanced_accuracy; {quiet}\n'
-                f'3: {where}mean_balanced_accuracy; {noisy}\n'
-                f'4: {where}extra_switches_per_minute; {quiet} / {noisy}\n-->\n\n{printed}')
-        rows = [{'study': 'benchmark_unseen', 'robot': 'upkie', 'metric': metric, 'estimator': 'hmm',
-                 'noise': noise.partition('=')[2], 'estimate': estimate, 'low': low, 'high': high}
+        quiet, noisy = '0 N·m, 0 m/s²', '1 N·m, 5 m/s²'
+        page = f'<!-- results: touchdown run experiments/benchmark.yaml\ncolumns: unseen\n-->\n\n{printed}'
+        rows = [{'study': 'benchmark_unseen', 'robot': 'upkie', 'sensors': 'upkie', 'metric': metric,
+                 'estimator': 'hmm', 'noise': noise, 'estimate': estimate, 'low': low, 'high': high}
                 for metric, noise, estimate, low, high in
                 (('mean_balanced_accuracy', quiet, '0.99904', '0.99823', '1'),
                  ('mean_balanced_accuracy', noisy, '0.9997', '', ''),
