@@ -30,9 +30,9 @@ std::optional<LearningCurveRow> row_of(const std::vector<CollectedCounts>& scene
     row.runs += static_cast<int>(sets.front().size());
   }
   if (by_scene.empty()) return std::nullopt;
-  std::vector<const Resampled*> pointers;
-  for (const Resampled& one : by_scene) pointers.push_back(&one);
-  row.balanced_accuracy = interval_of(mean(pointers), bootstrap.level);
+  std::vector<SceneValues> pointers;
+  for (const Resampled& one : by_scene) pointers.push_back({&one});
+  row.balanced_accuracy = interval_of(mean_over_scenes(pointers, bootstrap), bootstrap.level);
   row.simulator = first.test_simulator;
   row.estimator = first.estimator;
   return row;

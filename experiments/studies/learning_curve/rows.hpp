@@ -16,8 +16,8 @@ struct LearningCurveRow {
   std::string estimator;
   int size = 0;           ///< segments or runs
   double labelled = 0.0;  ///< duration of the first set (s)
-  /// The mean over scenes and training sets. Its interval covers the choice of one training set and
-  /// of the test runs.
+  /// The mean over scenes and training sets. Its interval covers the choice of scenes, and of one
+  /// training set.
   Interval balanced_accuracy;
   scoring::Classification points;  ///< over all scenes and training sets
   int draws = 0;                   ///< training sets

@@ -62,5 +62,35 @@ TEST(Refits, AreDrawnWithReplacementAndDecidedBySeedAndNumber) {
   for (const auto& [run, count] : counts) EXPECT_NEAR(count, 200, 60);
 }
 
+TEST(Refits, DrawScenesWhereEachHasOneRun) {
+  std::vector<std::pair<std::string, std::string>> places;
+  for (const char* scene : {"kerbs_7_000", "hops_7_001", "lifts_7_002", "drives_7_003"}) {
+    places.emplace_back("mujoco", scene);
+    places.emplace_back("bullet", scene);
+  }
+  places.emplace_back("bullet", "hops_7_001");  // Bullet has two runs of a scene
+  const std::vector<RunSignals> runs = runs_of(places);
+  std::set<std::set<std::string>> scenes;
+  for (int number = 1; number <= 20; ++number) {
+    std::map<std::string, int> in_bullet;
+    std::set<std::string> in_mujoco;
+    int count = 0;
+    for (const RunSignals* run : drawn_anew(pointers_to(runs), 1, number)) {
+      if (run->info.simulator == "bullet") ++in_bullet[run->info.scenario];
+      if (run->info.simulator == "mujoco") in_mujoco.insert(run->info.scenario);
+      count += run->info.simulator == "mujoco" ? 1 : 0;
+    }
+    EXPECT_EQ(count, 4);
+    EXPECT_EQ(in_bullet,
+              (std::map<std::string, int>{
+                  {"kerbs_7_000", 1}, {"hops_7_001", 2}, {"lifts_7_002", 1}, {"drives_7_003", 1}}));
+    scenes.insert(in_mujoco);
+  }
+  EXPECT_GT(scenes.size(), 3U);
+  EXPECT_FALSE(scenes.contains(std::set<std::string>{}));
+  const auto alone = runs_of({{"mujoco", "a"}});
+  EXPECT_EQ(numbers(drawn_anew(pointers_to(alone), 1, 1)), std::vector<std::int64_t>{0});
+}
+
 }  // namespace
 }  // namespace touchdown::experiments
