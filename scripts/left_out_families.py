@@ -31,7 +31,8 @@ def run(options, name, fitted, tested):
     draws = [("fit", FIT_SEED, options.fitted, fitted), ("test", options.seed, options.tested, tested)]
     sets = [f"{part}.scenarios=" + json.dumps({"generate": {"seed": seed, "count": each * len(of), "families": of}})
             for part, seed, each, of in draws]
-    sets += ["estimators=" + json.dumps(options.estimators), "benchmark.robots=[]", f"seed={options.seed}"]
+    sets += ["estimators=" + json.dumps(options.estimators), "simulators=" + json.dumps(options.simulators),
+             "benchmark.robots=[]", f"seed={options.seed}"]
     words = [word for one in sets for word in ("--set", one)]
     subprocess.run([options.program, "run", EXPERIMENT, "--no-pictures", "--out", folder, *words], check=True,
                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -69,6 +70,7 @@ def main():
     parser.add_argument("--tested", type=int, default=6, help="scenes of each tested family")
     parser.add_argument("--seed", type=int, default=102, help="of the tested scenes")
     parser.add_argument("--estimators", nargs="+", default=["evidence_curves", "decision_network"])
+    parser.add_argument("--simulators", nargs="+", default=["mujoco"])
     parser.add_argument("--runs", type=pathlib.Path, default=pathlib.Path("runs/left_out_families"))
     options = parser.parse_args()
     names = families(options.program)
