@@ -40,8 +40,8 @@ def run(options, name, fitted, tested):
 
 
 def by_scene(rows, estimator):
-    """Mean over engines, by scene and noise."""
-    own = [row for row in rows if row["estimator"] == estimator]
+    """Mean over engines, by scene and noise. Scenes in which the robot fell are left out."""
+    own = [row for row in rows if row["estimator"] == estimator and row["balanced_accuracy"] != "nan"]
     groups = by(own, lambda row: (row["scene"], *(row[name] for name in NOISE)))
     return {key: statistics.mean(float(row["balanced_accuracy"]) for row in rows) for key, rows in groups.items()}
 
@@ -57,7 +57,7 @@ def signed(number):
 
 
 def cell(complete, without, noise):
-    pairs = [(complete[key], without[key]) for key in without if key[1:] == noise]
+    pairs = [(complete[key], without[key]) for key in without if key[1:] == noise and key in complete]
     low, high = interval([after - before for before, after in pairs])
     before, after = (statistics.mean(values) for values in zip(*pairs))
     return f"{short(before, 3)} → {short(after, 3)} [{signed(low)}, {signed(high)}]"
