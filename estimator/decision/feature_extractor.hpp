@@ -83,6 +83,9 @@ class FeatureExtractor {
   [[nodiscard]] ServoLoadInputs servo_load(std::size_t side) const noexcept {
     return side == 0 ? servo_inputs_ : of_other_wheel(servo_inputs_);
   }
+  /// Whether the load by the servo law of a valid leg is muted at this step: a target or a gain is
+  /// missing.
+  [[nodiscard]] bool is_servo_load_muted() const noexcept { return is_muted_; }
   /// The estimated white noise of the torques (N·m), scaled to Upkie's mass and to a rate of 1 kHz:
   /// a lower rate has fewer samples to average.
   [[nodiscard]] double torque_noise() const noexcept { return density_ * torque_noise_.sigma(); }
@@ -113,7 +116,7 @@ class FeatureExtractor {
   std::array<LegFilters, 2> leg_;
   bool has_servo_load_;
   std::array<LowPassBank, 2> servo_load_;
-  bool is_muted_ = false;  ///< whether the load by the servo law is, of a valid leg
+  bool is_muted_ = false;  ///< the load by the servo law
   LowPassBank acceleration_;
   LowPassBank roll_rate_;
   double density_;  ///< factor from white noise at this rate to the same at 1 kHz

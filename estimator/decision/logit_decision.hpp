@@ -42,6 +42,10 @@ class LogitDecision {
   [[nodiscard]] const ServoLoadInputs& left_servo_load() const noexcept {
     return features_.left_servo_load();
   }
+  /// As `FeatureExtractor::is_servo_load_muted`.
+  [[nodiscard]] bool is_servo_load_muted() const noexcept {
+    return features_.is_servo_load_muted();
+  }
   /// The belief, given ln P(contact) / P(no contact) of each wheel that has inputs.
   const Belief& decide(const std::array<double, 2>& logit) noexcept;
 

@@ -140,4 +140,14 @@ void check_evidence_model(const EvidenceModel& model) {
   throw InputError("evidence curves: their numbers must be finite");
 }
 
+void check_evidence_curve_sets(const EvidenceCurveSets& sets) {
+  check_evidence_model(sets.usual);
+  if (!sets.without_targets) return;
+  check_evidence_model(*sets.without_targets);
+  if (!sets.usual.servo_curve.empty() && sets.without_targets->servo_curve.empty()) return;
+  throw InputError(
+      "evidence curves: expected servo curves in the model for steps with targets, and none in "
+      "that for steps without");
+}
+
 }  // namespace touchdown

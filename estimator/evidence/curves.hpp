@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "estimator/decision/feature_extractor.hpp"
@@ -30,6 +32,29 @@ struct EvidenceModel {
 
   bool operator==(const EvidenceModel&) const = default;
 };
+
+/// The curves of a fit. With the load by the servo law they are two models of the same runs: an
+/// additive model cannot give the other inputs more weight at steps where this load is muted.
+struct EvidenceCurveSets {
+  EvidenceCurveSets() = default;
+  /// One model for all steps.
+  EvidenceCurveSets(EvidenceModel all_steps)
+      : usual(std::move(all_steps)) {}  // NOLINT(*-explicit-*)
+  EvidenceCurveSets(EvidenceModel with_targets, EvidenceModel muted)
+      : usual(std::move(with_targets)), without_targets(std::move(muted)) {}
+
+  EvidenceModel usual;
+  /// For steps at which the load by the servo law is muted: targets or gains are missing. `usual`
+  /// serves them, too, if this is empty.
+  std::optional<EvidenceModel> without_targets;
+
+  bool operator==(const EvidenceCurveSets&) const = default;
+};
+
+/// Whether a model uses the targets of the joints, as a word for tables: "with" or "without".
+[[nodiscard]] inline const char* targets_of(const EvidenceModel& model) noexcept {
+  return model.servo_curve.empty() ? "without" : "with";
+}
 
 /// All curves of a model in one order: those of `DecisionInputs`, then those of `ServoLoadInputs`.
 [[nodiscard]] inline std::size_t curve_count(const EvidenceModel& model) noexcept {
@@ -94,7 +119,9 @@ class PairedEvidence {
   float bias_;
 };
 
-/// Throws InputError for numbers that are not finite, and for a wrong number of curves.
+/// Throw InputError for numbers that are not finite, for a wrong number of curves, …
 void check_evidence_model(const EvidenceModel& model);
+/// … and for servo curves in the model of steps without targets, or none beside it.
+void check_evidence_curve_sets(const EvidenceCurveSets& sets);
 
 }  // namespace touchdown

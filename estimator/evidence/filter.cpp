@@ -6,25 +6,30 @@ namespace touchdown {
 
 namespace {
 
-const EvidenceModel& checked(const EvidenceModel& model) {
-  check_evidence_model(model);
-  return model;
+const EvidenceCurveSets& checked(const EvidenceCurveSets& sets) {
+  check_evidence_curve_sets(sets);
+  return sets;
 }
 
 }  // namespace
 
-EvidenceCurves::EvidenceCurves(const EvidenceModel& model, const DecisionConfig& config)
-    : model_(checked(model)), evidence_(model), decision_(config, !model.servo_curve.empty()) {}
+EvidenceCurves::EvidenceCurves(const EvidenceCurveSets& sets, const DecisionConfig& config)
+    : sets_(checked(sets)),
+      usual_(sets.usual),
+      decision_(config, !sets.usual.servo_curve.empty()) {
+  if (sets.without_targets) without_targets_.emplace(*sets.without_targets);
+}
 
 Evidence EvidenceCurves::evidence() const noexcept {
+  const EvidenceModel& model = lacks_targets() ? *sets_.without_targets : sets_.usual;
   Evidence evidence;
   if (has_inputs_[0]) {
     evidence.contributions[0] =
-        evidence_contributions(model_, decision_.left_inputs(), decision_.left_servo_load());
+        evidence_contributions(model, decision_.left_inputs(), decision_.left_servo_load());
   }
   if (has_inputs_[1]) {
     evidence.contributions[1] =
-        evidence_contributions(model_, of_other_wheel(decision_.left_inputs()),
+        evidence_contributions(model, of_other_wheel(decision_.left_inputs()),
                                of_other_wheel(decision_.left_servo_load()));
   }
   return evidence;
@@ -35,7 +40,8 @@ const Belief& EvidenceCurves::estimate(const Signals& signals) noexcept {
   std::array<float, 2> logits{};
   if (has_inputs_[0] || has_inputs_[1]) {
     decision_.compute_inputs();
-    logits = evidence_.logits(decision_.left_inputs(), decision_.left_servo_load());
+    const PairedEvidence& evidence = lacks_targets() ? *without_targets_ : usual_;
+    logits = evidence.logits(decision_.left_inputs(), decision_.left_servo_load());
   }
   return decision_.decide({logits[0], logits[1]});
 }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "estimator/contact_estimator.hpp"
 #include "estimator/decision/config.hpp"
 #include "estimator/decision/logit_decision.hpp"
@@ -11,12 +14,16 @@ namespace touchdown {
 /// inputs and the same decision rule. Each input contributes to the log-odds of contact by a curve
 /// of its own, and the contributions add up (docs/explanation/estimator.md).
 ///
+/// A fit with the load by the servo law has two sets of curves. At each step the estimator uses the
+/// one that its signals allow; both share the features and the low-passed logit. Steps without
+/// targets have the status `degraded`.
+///
 /// `update` never throws, allocates or locks, and never returns NaN. `LogitDecision` describes the
 /// behaviour without usable signals.
 class EvidenceCurves : public ContactEstimator {
  public:
-  /// Throws InputError as `check_evidence_model` does, and for an invalid configuration.
-  explicit EvidenceCurves(const EvidenceModel& model, const DecisionConfig& config = {});
+  /// Throws InputError as `check_evidence_curve_sets` does, and for an invalid configuration.
+  explicit EvidenceCurves(const EvidenceCurveSets& sets, const DecisionConfig& config = {});
 
   void reset() noexcept override {
     decision_.reset();
@@ -28,9 +35,13 @@ class EvidenceCurves : public ContactEstimator {
 
  private:
   const Belief& estimate(const Signals& signals) noexcept override;
+  [[nodiscard]] bool lacks_targets() const noexcept {
+    return without_targets_ && decision_.is_servo_load_muted();
+  }
 
-  EvidenceModel model_;
-  PairedEvidence evidence_;
+  EvidenceCurveSets sets_;
+  PairedEvidence usual_;
+  std::optional<PairedEvidence> without_targets_;
   LogitDecision decision_;
   std::array<bool, 2> has_inputs_{};  ///< whether the last step has; left, right
 };

@@ -1,5 +1,7 @@
 #include "estimator/evidence/fit.hpp"
 
+#include <utility>
+
 #include "estimator/decision/fit.hpp"
 
 namespace touchdown {
@@ -13,6 +15,17 @@ EvidenceModel fit_evidence_model(std::span<const LabelledRun> runs, const Decisi
   EvidenceModel model = train_evidence_model(rows, fit, before_step);
   model.bias += weights_offset(rows);
   return model;
+}
+
+EvidenceCurveSets fit_evidence_curve_sets(std::span<const LabelledRun> runs,
+                                          const DecisionConfig& config,
+                                          const EvidenceFitConfig& fit,
+                                          const std::function<void()>& before_step) {
+  EvidenceModel usual = fit_evidence_model(runs, config, fit, before_step);
+  if (!config.servo_load) return usual;
+  DecisionConfig without_targets = config;
+  without_targets.servo_load = false;
+  return {std::move(usual), fit_evidence_model(runs, without_targets, fit, before_step)};
 }
 
 }  // namespace touchdown

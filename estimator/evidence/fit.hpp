@@ -17,4 +17,9 @@ namespace touchdown {
                                                const EvidenceFitConfig& fit = {},
                                                const std::function<void()>& before_step = {});
 
+/// As above; with the load by the servo law, fits a second model without it to the same runs.
+[[nodiscard]] EvidenceCurveSets fit_evidence_curve_sets(
+    std::span<const LabelledRun> runs, const DecisionConfig& config = {},
+    const EvidenceFitConfig& fit = {}, const std::function<void()>& before_step = {});
+
 }  // namespace touchdown

@@ -147,10 +147,10 @@ const std::vector<Recipe>& recipes() {
             "force_kinematics"),
         of_decisions<DecisionNetwork, decision_model_of>("decision_network", "decision_network",
                                                          network_point),
-        of_decisions<EvidenceCurves, evidence_model_of>("evidence_curves", curves_fit,
-                                                        balanced_point),
-        of_decisions<EvidenceCurves, evidence_model_of>("evidence_curves_quiet", curves_fit,
-                                                        quiet_point)};
+        of_decisions<EvidenceCurves, evidence_curve_sets_of>("evidence_curves", curves_fit,
+                                                             balanced_point),
+        of_decisions<EvidenceCurves, evidence_curve_sets_of>("evidence_curves_quiet", curves_fit,
+                                                             quiet_point)};
     for (const AblationStep& step : steps_from_paper_to_robust()) {
       const bool shares_fit = step.config.measurement == robust.measurement;
       recipes.push_back(

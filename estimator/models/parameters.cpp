@@ -84,8 +84,62 @@ void for_each_servo_channel(const Part& part) {
 
 constexpr const char* servo_weight_name = "servo_weight";
 
-std::string curves_name(const char* channel) { return std::string("curves_") + channel; }
-std::string seen_name(const char* channel) { return std::string("seen_") + channel; }
+/// Before the names of the second set's parameters.
+constexpr const char* of_muted_steps = "without_targets_";
+
+std::string bias_name(const std::string& set) { return set + "bias"; }
+std::string curves_name(const std::string& set, const char* channel) {
+  return set + "curves_" + channel;
+}
+std::string seen_name(const std::string& set, const char* channel) {
+  return set + "seen_" + channel;
+}
+
+/// Adds the parameters of one set of curves. Their names begin with `set`.
+void add_curves(const EvidenceModel& model, const std::string& set, Parameters& parameters) {
+  parameters[bias_name(set)] = {model.bias};
+  const auto put = [&](const char* name, const EvidenceCurve* curve,
+                       const std::array<float, 2>* seen_of, std::size_t count) {
+    std::vector<double>& curves = parameters[curves_name(set, name)];
+    std::vector<double>& seen = parameters[seen_name(set, name)];
+    for (std::size_t i = 0; i < count; ++i) {
+      curves.insert(curves.end(), curve[i].begin(), curve[i].end());
+      seen.insert(seen.end(), seen_of[i].begin(), seen_of[i].end());
+    }
+  };
+  for_each_channel([&](const char* name, std::size_t first, std::size_t count) {
+    put(name, model.curve.data() + first, model.seen.data() + first, count);
+  });
+  if (model.servo_curve.empty()) return;
+  for_each_servo_channel([&](const char* name, std::size_t first) {
+    put(name, model.servo_curve.data() + first, model.servo_seen.data() + first, decision_scales);
+  });
+}
+
+EvidenceModel curves_of(const Parameters& parameters, const std::string& set) {
+  EvidenceModel model;
+  model.bias = static_cast<float>(parameter(parameters, bias_name(set)));
+  const auto read = [&](const char* name, EvidenceCurve* curve, std::array<float, 2>* seen_of,
+                        std::size_t count) {
+    const std::vector<double>& curves =
+        parameter(parameters, curves_name(set, name), count * evidence_knots);
+    const std::vector<double>& seen = parameter(parameters, seen_name(set, name), 2 * count);
+    for (std::size_t i = 0; i < count; ++i) {
+      take(curves.data() + i * evidence_knots, curve[i]);
+      take(seen.data() + 2 * i, seen_of[i]);
+    }
+  };
+  for_each_channel([&](const char* name, std::size_t first, std::size_t count) {
+    read(name, model.curve.data() + first, model.seen.data() + first, count);
+  });
+  if (!parameters.contains(curves_name(set, servo_load_channels[0].name))) return model;
+  model.servo_curve.resize(std::tuple_size_v<ServoLoadInputs>);
+  model.servo_seen.resize(model.servo_curve.size());
+  for_each_servo_channel([&](const char* name, std::size_t first) {
+    read(name, model.servo_curve.data() + first, model.servo_seen.data() + first, decision_scales);
+  });
+  return model;
+}
 
 }  // namespace
 
@@ -173,55 +227,21 @@ DecisionModel decision_model_of(const Parameters& parameters) {
   return model;
 }
 
-Parameters parameters_of(const EvidenceModel& model) {
-  Parameters parameters = {{"bias", {model.bias}}};
+Parameters parameters_of(const EvidenceCurveSets& sets) {
+  Parameters parameters;
   add_feature_set(parameters);
-  const auto put = [&](const char* name, const EvidenceCurve* curve,
-                       const std::array<float, 2>* seen_of, std::size_t count) {
-    std::vector<double>& curves = parameters[curves_name(name)];
-    std::vector<double>& seen = parameters[seen_name(name)];
-    for (std::size_t i = 0; i < count; ++i) {
-      curves.insert(curves.end(), curve[i].begin(), curve[i].end());
-      seen.insert(seen.end(), seen_of[i].begin(), seen_of[i].end());
-    }
-  };
-  for_each_channel([&](const char* name, std::size_t first, std::size_t count) {
-    put(name, model.curve.data() + first, model.seen.data() + first, count);
-  });
-  if (!model.servo_curve.empty()) {
-    for_each_servo_channel([&](const char* name, std::size_t first) {
-      put(name, model.servo_curve.data() + first, model.servo_seen.data() + first, decision_scales);
-    });
-  }
+  add_curves(sets.usual, "", parameters);
+  if (sets.without_targets) add_curves(*sets.without_targets, of_muted_steps, parameters);
   return parameters;
 }
 
-EvidenceModel evidence_model_of(const Parameters& parameters) {
+EvidenceCurveSets evidence_curve_sets_of(const Parameters& parameters) {
   check_feature_set(parameters);
-  EvidenceModel model;
-  model.bias = static_cast<float>(parameter(parameters, "bias"));
-  const auto read = [&](const char* name, EvidenceCurve* curve, std::array<float, 2>* seen_of,
-                        std::size_t count) {
-    const std::vector<double>& curves =
-        parameter(parameters, curves_name(name), count * evidence_knots);
-    const std::vector<double>& seen = parameter(parameters, seen_name(name), 2 * count);
-    for (std::size_t i = 0; i < count; ++i) {
-      take(curves.data() + i * evidence_knots, curve[i]);
-      take(seen.data() + 2 * i, seen_of[i]);
-    }
-  };
-  for_each_channel([&](const char* name, std::size_t first, std::size_t count) {
-    read(name, model.curve.data() + first, model.seen.data() + first, count);
-  });
-  if (parameters.contains(curves_name(servo_load_channels[0].name))) {
-    model.servo_curve.resize(std::tuple_size_v<ServoLoadInputs>);
-    model.servo_seen.resize(model.servo_curve.size());
-    for_each_servo_channel([&](const char* name, std::size_t first) {
-      read(name, model.servo_curve.data() + first, model.servo_seen.data() + first,
-           decision_scales);
-    });
+  EvidenceCurveSets sets = curves_of(parameters, "");
+  if (parameters.contains(bias_name(of_muted_steps))) {
+    sets.without_targets = curves_of(parameters, of_muted_steps);
   }
-  return model;
+  return sets;
 }
 
 }  // namespace touchdown

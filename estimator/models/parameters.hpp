@@ -42,13 +42,13 @@ Parameters parameters_of(const LogisticCurve& curve);
 Parameters parameters_of(const ForceKinematicsModel& model);
 Parameters parameters_of(const DecisionModel& model);
 /// `curves_<channel>` by time scale, then by knot (nats); `seen_<channel>`, the lower and upper end
-/// of each input's range.
-Parameters parameters_of(const EvidenceModel& model);
+/// of each input's range. Those of steps without targets begin with `without_targets_`.
+Parameters parameters_of(const EvidenceCurveSets& sets);
 LogisticCurve logistic_curve_of(const Parameters& parameters);
 ForceKinematicsModel force_kinematics_model_of(const Parameters& parameters);
 /// Converts doubles back to the floats that they came from.
 DecisionModel decision_model_of(const Parameters& parameters);
 /// Likewise.
-EvidenceModel evidence_model_of(const Parameters& parameters);
+EvidenceCurveSets evidence_curve_sets_of(const Parameters& parameters);
 
 }  // namespace touchdown

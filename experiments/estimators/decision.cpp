@@ -37,9 +37,9 @@ FittedModel fit_network(const EstimatorEntry& entry, const FitRuns& runs) {
 
 FittedModel fit_evidence(const EstimatorEntry& entry, const FitRuns& runs) {
   return fit_parameters(entry, runs.together(), [&](std::span<const LabelledRun> labelled) {
-    return parameters_of(fit_evidence_model(labelled, config_of(runs),
-                                            {.smoothness = entry.chosen("smoothness")},
-                                            runs.before_density));
+    return parameters_of(fit_evidence_curve_sets(labelled, config_of(runs),
+                                                 {.smoothness = entry.chosen("smoothness")},
+                                                 runs.before_density));
   });
 }
 
@@ -63,8 +63,8 @@ EstimatorPointer make_curves(const EstimatorEntry& entry, const EstimatorSetup& 
     config.return_above = entry.chosen("return_above");
   }
   if (setup.legs) config.geometry = *setup.legs;
-  return std::make_unique<EvidenceCurves>(evidence_model_of(setup.model->parameters->parameters),
-                                          config);
+  return std::make_unique<EvidenceCurves>(
+      evidence_curve_sets_of(setup.model->parameters->parameters), config);
 }
 
 /// Whether both legs, and the robots that they carry, are the same to a percent. Rotors may differ.
@@ -142,7 +142,7 @@ EstimatorEntry shipped_entry(const char* name, const EstimatorEntry& fitted) {
     if (metadata) configure(config, metadata->configuration);
     config.sample_rate = setup.sample_rate;
     config.geometry = setup.legs.value_or(LegGeometry{});
-    return std::make_unique<EvidenceCurves>(evidence_model_of(file.parameters), config);
+    return std::make_unique<EvidenceCurves>(evidence_curve_sets_of(file.parameters), config);
   };
   return entry;
 }
@@ -194,11 +194,11 @@ EstimatorEntry quiet_shipped_curves_entry() {
   return shipped_entry("shipped_quiet", quiet_evidence_curves_entry());
 }
 
-std::optional<EvidenceModel> evidence_in(const FittedModel& model) {
+std::optional<EvidenceCurveSets> evidence_in(const FittedModel& model) {
   if (!model.parameters) return {};
   const std::string& estimator = model.parameters->estimator;
   if (!estimator.starts_with("evidence_curves")) return {};
-  return evidence_model_of(model.parameters->parameters);
+  return evidence_curve_sets_of(model.parameters->parameters);
 }
 
 }  // namespace touchdown::experiments

@@ -24,6 +24,6 @@ EstimatorEntry quiet_shipped_curves_entry();
 const char* shipped_file(std::string_view estimator);
 
 /// The evidence curves of a model, if it has any. Errors: `InputError` for incomplete curves.
-std::optional<EvidenceModel> evidence_in(const FittedModel& model);
+std::optional<EvidenceCurveSets> evidence_in(const FittedModel& model);
 
 }  // namespace touchdown::experiments

@@ -51,6 +51,21 @@ double in_unit(std::size_t input, double x) {
   return uncompressed(x, static_cast<double>(channel_of(input).softsign_scale));
 }
 
+/// Adds the points of one set of curves.
+void add_points(const EvidenceModel& model, const EvidencePoint& of_fit,
+                std::vector<EvidencePoint>& points) {
+  for (std::size_t input = 0; input < curve_count(model); ++input) {
+    for (const float x : knots_of(seen_by(model, input))) {
+      EvidencePoint& point = points.emplace_back(input_of(input));
+      point.simulator = of_fit.simulator;
+      point.estimator = of_fit.estimator;
+      point.targets = targets_of(model);
+      point.value = in_unit(input, static_cast<double>(x));
+      point.evidence = static_cast<double>(evidence_at(curve_of(model, input), x));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<EvidencePoint> evidence_points(const FittedModels& models) {
@@ -58,17 +73,11 @@ std::vector<EvidencePoint> evidence_points(const FittedModels& models) {
   for (const auto& [simulator, by_estimator] : models) {
     if (is_of_refit(simulator)) continue;
     for (const auto& [estimator, fitted] : by_estimator) {
-      const std::optional<EvidenceModel> model = evidence_in(fitted);
-      if (!model) continue;
-      for (std::size_t input = 0; input < curve_count(*model); ++input) {
-        for (const float x : knots_of(seen_by(*model, input))) {
-          EvidencePoint& point = points.emplace_back(input_of(input));
-          point.simulator = simulator;
-          point.estimator = estimator;
-          point.value = in_unit(input, static_cast<double>(x));
-          point.evidence = static_cast<double>(evidence_at(curve_of(*model, input), x));
-        }
-      }
+      const std::optional<EvidenceCurveSets> sets = evidence_in(fitted);
+      if (!sets) continue;
+      const EvidencePoint of_fit = {.simulator = simulator, .estimator = estimator};
+      add_points(sets->usual, of_fit, points);
+      if (sets->without_targets) add_points(*sets->without_targets, of_fit, points);
     }
   }
   return points;
@@ -79,6 +88,7 @@ Columns<EvidencePoint> evidence_columns() {
   return Columns<Point>()
       .text("simulator", &Point::simulator)
       .text("estimator", &Point::estimator)
+      .text("targets", &Point::targets)
       .text("channel", &Point::channel)
       .text("scale_ms", &Point::scale)
       .text("unit", &Point::unit)

@@ -12,6 +12,7 @@ namespace touchdown::experiments {
 struct EvidencePoint {
   std::string simulator = {};
   std::string estimator = {};
+  std::string targets = {};  ///< `targets_of` the set of curves
   std::string channel = {};
   std::string scale = {};  ///< ms; empty for noise levels
   std::string unit = {};   ///< of the value

@@ -99,25 +99,32 @@ std::vector<std::pair<std::string, EvidenceFigure>> evidence_figures(
   for (const std::string& estimator : experiment.estimators) {
     const auto fitted = models->second.find(estimator);
     if (fitted == models->second.end()) continue;
-    std::optional<EvidenceModel> model = experiments::evidence_in(fitted->second);
-    if (!model) continue;
-    figures.emplace_back(
-        estimator,
-        EvidenceFigure{
-            fmt::format("Evidence of each input for a wheel's contact: {}, {}, {}",
-                        experiments::estimator_entry(experiment, estimator).title, experiment.name,
-                        simulators::simulator_title(simulator)),
-            std::move(*model),
-            fmt::format(
-                "Fitted to {}{}, seed {}; {}{}. The curves form an additive model (GAM) of the log "
-                "odds of contact: values above 0 are evidence for contact, values below 0 against "
-                "it. The estimator adds the values of all curves. Each curve averages 0 over the "
-                "training data and covers all but two in a thousand of its rows. Axes are "
-                "compressed as the estimator's inputs are; those of noise levels are logarithmic.",
-                experiments::plural(fitted_runs(result, simulator), "run"),
-                experiment.training_segments.empty() ? "" : " and segments of others",
-                experiment.seed, experiments::labels_text(experiment),
-                experiments::setup_caption(experiment))});
+    const std::optional<EvidenceCurveSets> sets = experiments::evidence_in(fitted->second);
+    if (!sets) continue;
+    const auto add = [&](const std::string& name, const std::string& steps,
+                         const EvidenceModel& model) {
+      figures.emplace_back(
+          name,
+          EvidenceFigure{
+              fmt::format("Evidence of each input for a wheel's contact{}: {}, {}, {}", steps,
+                          experiments::estimator_entry(experiment, estimator).title,
+                          experiment.name, simulators::simulator_title(simulator)),
+              model,
+              fmt::format(
+                  "Fitted to {}{}, seed {}; {}{}. The curves form an additive model (GAM) of the "
+                  "log odds of contact: values above 0 are evidence for contact, values below 0 "
+                  "against it. The estimator adds the values of all curves. Each curve averages 0 "
+                  "over the training data and covers all but two in a thousand of its rows. Axes "
+                  "are compressed as the estimator's inputs are; those of noise levels are "
+                  "logarithmic.",
+                  experiments::plural(fitted_runs(result, simulator), "run"),
+                  experiment.training_segments.empty() ? "" : " and segments of others",
+                  experiment.seed, experiments::labels_text(experiment),
+                  experiments::setup_caption(experiment))});
+    };
+    add(estimator, sets->without_targets ? " at steps with targets" : "", sets->usual);
+    if (!sets->without_targets) continue;
+    add(estimator + "_without_targets", " at steps without targets", *sets->without_targets);
   }
   return figures;
 }

@@ -336,12 +336,12 @@ TEST(Parameters, OfModelsWithTheServoLoadReadBack) {
   }
   EXPECT_EQ(decision_model_of(parameters_of(network)), network);
   Parameters parameters = parameters_of(curves);
-  EXPECT_EQ(evidence_model_of(parameters), curves);
+  EXPECT_EQ(evidence_curve_sets_of(parameters), curves);
   EXPECT_TRUE(parameters.contains("curves_servo_load"));
   EXPECT_TRUE(parameters.contains("curves_other_servo_load"));
   // One part without the other is refused.
   parameters.erase("curves_other_servo_load");
-  EXPECT_THROW(static_cast<void>(evidence_model_of(parameters)), InputError);
+  EXPECT_THROW(static_cast<void>(evidence_curve_sets_of(parameters)), InputError);
 }
 
 std::array<double, 2> thresholds_of(const ConfigurationText& configuration) {
@@ -361,7 +361,7 @@ TEST(EvidenceCurves, HaveTwoOperatingPointsOfOneModel) {
   for (const std::string name : {"evidence_curves", "evidence_curves_quiet"}) {
     ModelArrays arrays = test::fitted_arrays(name);
     add_metadata(arrays, {name, 1000.0, "", default_configuration(name, 1000.0, legs), ""});
-    const EvidenceModel model = evidence_model_of(parameters_of(arrays));
+    const EvidenceCurveSets model = evidence_curve_sets_of(parameters_of(arrays));
     for (const std::string made : {"evidence_curves", "evidence_curves_quiet"}) {
       const OperatingPoint& point = made == "evidence_curves" ? balanced_point : quiet_point;
       EvidenceCurves expected(

@@ -88,6 +88,9 @@ TEST(DecisionEntries, HaveTheServoLoadIfTheirFitDoes) {
     EXPECT_EQ(has(with, "servo_weight"), entry.name == "decision_network");
     EXPECT_EQ(has(with, "curves_servo_load"), entry.name != "decision_network");
     EXPECT_FALSE(has(without, "servo_weight") || has(without, "curves_servo_load"));
+    // Curves have a second set for steps without targets.
+    EXPECT_EQ(has(with, "without_targets_bias"), entry.name != "decision_network");
+    EXPECT_FALSE(has(without, "without_targets_bias"));
     // A fit without the channel does not depend on targets.
     const RunSignals plain = synthetic_run(1'000'000, 1500);
     EXPECT_EQ(entry.fit(entry, {.whole = {&plain}}).parameters->parameters,
@@ -104,11 +107,16 @@ TEST(DecisionEntries, HaveTheServoLoadIfTheirFitDoes) {
       ASSERT_NE(twin->update(signals).status, SignalStatus::degraded) << k;
     }
     estimator->reset();
+    twin->reset();
     std::size_t degraded = 0;
     for (std::size_t k = 0; k < other.steps(); ++k) {
       Signals signals = other.signals[k];
       signals.target = {};
       const Belief& belief = estimator->update(signals);
+      const Belief& of_twin = twin->update(signals);
+      if (entry.name != "decision_network") {
+        ASSERT_EQ(belief.wheel[1].p_contact, of_twin.wheel[1].p_contact) << entry.name << k;
+      }
       degraded += belief.status == SignalStatus::degraded ? 1 : 0;
       agreed += belief.wheel[0].contact == (other.contact[0][k] != 0) ? 1 : 0;
     }

@@ -1,6 +1,10 @@
 #include "experiments/results/evidence.hpp"
 
 #include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -10,7 +14,7 @@
 namespace touchdown::experiments {
 namespace {
 
-FittedModel model_of(const EvidenceModel& model) {
+FittedModel model_of(const EvidenceCurveSets& model) {
   return {.parameters = std::make_shared<recordings::ParameterModelFile>(
               recordings::ParameterModelFile{"evidence_curves", parameters_of(model), {}})};
 }
@@ -38,6 +42,29 @@ TEST(EvidenceTable, HasEveryCurveOverTheRangeOfItsRows) {
   EXPECT_EQ(rows, 10U);  // 0, 0.25, … 2 and the lower end
   EXPECT_EQ(cell(table, table.rows.back(), "channel"), "acceleration_noise");
   EXPECT_NEAR(std::stod(cell(table, table.rows.back(), "value")), std::exp(2.5), 1e-3);
+}
+
+TEST(EvidenceTable, NamesTheSetOfCurves) {
+  EvidenceModel with = test::random_curves(2);
+  with.servo_curve.resize(std::tuple_size_v<ServoLoadInputs>);
+  with.servo_seen.assign(with.servo_curve.size(), {-1.0F, 1.0F});
+  const EvidenceModel without = test::random_curves(3);
+  for (const EvidenceCurveSets& sets :
+       {EvidenceCurveSets(with, without), EvidenceCurveSets(with), EvidenceCurveSets(without)}) {
+    const Table table = evidence_columns().table(
+        evidence_points({{"bullet", {{"evidence_curves_quiet", model_of(sets)}}}}));
+    std::map<std::string, std::set<std::string>> channels;
+    for (const auto& row : table.rows) {
+      channels[cell(table, row, "targets")].insert(cell(table, row, "channel"));
+    }
+    const bool has_with = !sets.usual.servo_curve.empty();
+    EXPECT_EQ(channels.contains("with"), has_with);
+    EXPECT_EQ(channels.contains("without"), !has_with || sets.without_targets.has_value());
+    for (const auto& [targets, named] : channels) {
+      EXPECT_EQ(named.contains("servo_load"), targets == "with");
+      EXPECT_TRUE(named.contains("load")) << targets;
+    }
+  }
 }
 
 TEST(EvidenceTable, IsEmptyWithoutCurves) {
