@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Fits the shipped models, in minutes: Upkie crouched and with nearly straight legs, with ideal and with
 # real actuators, in both engines, with Upkie's sensors, on scenes drawn from all families.
-# The balanced and the quiet model are the same fit at two operating points. They use no targets of
-# joints, which most logs lack.
+# The balanced and the quiet model are the same fit at two operating points, which
+# scripts/choose_operating_points.py chose. Logs without targets of joints get the second set of curves.
 # Usage: scripts/fit_shipped_model.sh build/release/touchdown models/evidence_curves.npz
 set -euo pipefail
 program="$(realpath "$1")"
@@ -14,7 +14,8 @@ readonly seed=103
 readonly simulators=(mujoco bullet)
 readonly robots=(upkie.xml upkie_actuated.yaml upkie_straight.yaml upkie_straight_actuated.yaml)
 readonly sensors=sensors/upkie.yaml
-readonly leave_below=0.4 return_above=0.99  # of the quiet operating point
+# leave_below and return_above of both operating points
+readonly balanced_point=(0.65 0.98) quiet_point=(0.2 0.99)
 
 # Drawn scenes of each robot. Families take turns, so 15 are one of each.
 scenes_of() { # robot
@@ -39,8 +40,9 @@ for robot in "${robots[@]}"; do
     done
   done
 done
-"$program" fit "$logs"/*.mpack --estimator evidence_curves --own-legs --robot upkie -o "$output"
-"$program" export "$output" --set leave_below="$leave_below" --set return_above="$return_above" -o "$quiet"
+"$program" fit "$logs"/*.mpack --estimator evidence_curves --servo-load --own-legs --robot upkie \
+  --set leave_below="${balanced_point[0]}" --set return_above="${balanced_point[1]}" -o "$output"
+"$program" export "$output" --set leave_below="${quiet_point[0]}" --set return_above="${quiet_point[1]}" -o "$quiet"
 
 words() { printf '"%s", ' "$@" | sed 's/, $//'; }
 describe() { # model, operating point

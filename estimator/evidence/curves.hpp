@@ -38,8 +38,7 @@ struct EvidenceModel {
 struct EvidenceCurveSets {
   EvidenceCurveSets() = default;
   /// One model for all steps.
-  EvidenceCurveSets(EvidenceModel all_steps)
-      : usual(std::move(all_steps)) {}  // NOLINT(*-explicit-*)
+  EvidenceCurveSets(EvidenceModel all_steps) : usual(std::move(all_steps)) {}
   EvidenceCurveSets(EvidenceModel with_targets, EvidenceModel muted)
       : usual(std::move(with_targets)), without_targets(std::move(muted)) {}
 
