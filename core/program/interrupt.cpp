@@ -1,5 +1,6 @@
 #include "core/program/interrupt.hpp"
 
+#include <array>
 #include <csignal>
 
 namespace touchdown {
@@ -12,13 +13,22 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 void request_stop(int /*signal*/) { stop_requested = true; }
 
+constexpr std::array stop_signals = {SIGINT, SIGTERM, SIGHUP};
+
+void mask_stop_signals(int how) {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : stop_signals) sigaddset(&signals, signal);
+  ::sigprocmask(how, &signals, nullptr);
+}
+
 }  // namespace
 
 const std::atomic<bool>& stop_on_interrupt() {
   struct sigaction action = {};
   action.sa_handler = request_stop;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : stop_signals) {
     struct sigaction before = {};
     ::sigaction(signal, nullptr, &before);
     // `nohup` lets programs ignore SIGHUP. Scripts let jobs in the background ignore SIGINT, which
@@ -27,7 +37,10 @@ const std::atomic<bool>& stop_on_interrupt() {
     if (!is_unwanted) ::sigaction(signal, &action, nullptr);
   }
   ::signal(SIGXFSZ, SIG_IGN);
+  mask_stop_signals(SIG_UNBLOCK);
   return stop_requested;
 }
+
+void delay_interrupts() { mask_stop_signals(SIG_BLOCK); }
 
 }  // namespace touchdown

@@ -10,4 +10,8 @@ namespace touchdown {
 /// the request. Call it first: until then a signal kills.
 const std::atomic<bool>& stop_on_interrupt();
 
+/// Delays these signals until `stop_on_interrupt` is called again, also by a program that replaces
+/// this one. Without it, a signal would kill that program while its libraries are loaded.
+void delay_interrupts();
+
 }  // namespace touchdown
