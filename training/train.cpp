@@ -145,17 +145,19 @@ class TrainingSession {
     record.iteration = iteration;
     record.data_seconds = iteration * batch.seconds(config_.rollout.period());
     const auto start = Clock::now();
+    const StopIfAsked stop_if_asked = [&] {
+      if (request_.wants_stop()) throw Stopped();
+    };
     {
       const std::int64_t steps = std::int64_t{batch.steps} * batch.environments;
       Progress progress("training", "steps", steps * config_.optimiser.epochs);
       for (int epoch = 0; epoch < config_.optimiser.epochs; ++epoch) {
-        record.training = trainer_->train_epoch(batch);
+        record.training = trainer_->train_epoch(batch, stop_if_asked);
         progress.advance(steps);
         times_.training_steps += steps;
-        if (request_.wants_stop()) throw Stopped();
       }
     }
-    record.validation = trainer_->evaluate(validation_);
+    record.validation = trainer_->evaluate(validation_, stop_if_asked);
     times_.training += seconds_since(start);
     history_.push_back(record);
     save();

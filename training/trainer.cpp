@@ -193,19 +193,20 @@ Trainer::Trainer(const NeuralNetwork& network, const OptimiserConfig& config)
     : impl_(std::make_unique<Impl>(network, config)) {}
 Trainer::~Trainer() = default;
 
-Loss Trainer::train_epoch(const EpisodeBatch& batch) {
+Loss Trainer::train_epoch(const EpisodeBatch& batch, const StopIfAsked& stop_if_asked) {
   const std::vector<Part> parts = split(batch, impl_->config.parts);
   std::vector<Tensor> hidden;
   for (const Part& part : parts)
     hidden.push_back(impl_->networks[0]->initial_state(part.environments));
   LossSum sum;
   for (std::int64_t s = 0; s < batch.steps / batch.sequence; ++s) {
+    if (stop_if_asked) stop_if_asked();
     sum += impl_->step(parts, hidden, s, batch.environments);
   }
   return impl_->mean(sum);
 }
 
-Loss Trainer::evaluate(const EpisodeBatch& batch) const {
+Loss Trainer::evaluate(const EpisodeBatch& batch, const StopIfAsked& stop_if_asked) const {
   const std::vector<Part> parts = split(batch, impl_->config.parts);
   std::vector<LossSum> sums(parts.size());
   for_each_part(parts.size(), [&](std::size_t p) {
@@ -213,6 +214,7 @@ Loss Trainer::evaluate(const EpisodeBatch& batch) const {
     const Part& part = parts[p];
     Tensor hidden = impl_->networks[p]->initial_state(part.environments);
     for (std::int64_t s = 0; s < batch.steps / batch.sequence; ++s) {
+      if (stop_if_asked) stop_if_asked();
       const auto [outputs, next] = part.forward(*impl_->networks[p], hidden, s);
       hidden = next;
       sums[p] += loss_of(outputs, part, s).sum;

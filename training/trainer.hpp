@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -39,6 +40,9 @@ struct Loss {
 /// half of the cores by default: it takes the others for hyperthreads.
 void set_training_threads(int threads);
 
+/// Called between sequences, from several threads at once. It stops the work by an exception.
+using StopIfAsked = std::function<void()>;
+
 /// Trains a neural measurement network by truncated backpropagation through time: the recurrent
 /// state is carried through an episode, gradients through one sequence of it. There is one
 /// optimiser step per sequence of all environments. The same seed, data and `parts` give the same
@@ -52,8 +56,8 @@ class Trainer {
   Trainer& operator=(const Trainer&) = delete;
 
   /// Trains on all episodes once. Returns the losses during this epoch.
-  Loss train_epoch(const EpisodeBatch& batch);
-  Loss evaluate(const EpisodeBatch& batch) const;
+  Loss train_epoch(const EpisodeBatch& batch, const StopIfAsked& stop_if_asked = {});
+  Loss evaluate(const EpisodeBatch& batch, const StopIfAsked& stop_if_asked = {}) const;
   /// Outputs of the network: steps × environments × neural_output_count.
   std::vector<float> outputs(const EpisodeBatch& batch) const;
 

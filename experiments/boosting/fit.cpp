@@ -149,7 +149,8 @@ BoostedTrees trees_of(const Booster& booster, std::size_t depth) {
 }  // namespace
 
 template <typename Inputs>
-BoostingRows boosting_rows(std::span<const LabelledRun> runs, const BoostingConfig& config) {
+BoostingRows boosting_rows(std::span<const LabelledRun> runs, const BoostingConfig& config,
+                           const std::function<void()>& before_run) {
   std::size_t steps = 0;
   for (const LabelledRun& run : runs) {
     check_labels(run);
@@ -165,6 +166,7 @@ BoostingRows boosting_rows(std::span<const LabelledRun> runs, const BoostingConf
   Draws draws(config.seed);
   for (std::size_t pass = 0; pass < config.passes; ++pass) {
     for (const LabelledRun& run : runs) {
+      if (before_run) before_run();
       Inputs inputs(
           TreeInputsConfig{run.sample_rate, run.legs.value_or(config.legs), config.servo_load});
       Augmentation augmented(config.augmentation, draws, config.servo_load);
@@ -186,9 +188,11 @@ BoostingRows boosting_rows(std::span<const LabelledRun> runs, const BoostingConf
 }
 
 template BoostingRows boosting_rows<SignalWindow>(std::span<const LabelledRun> runs,
-                                                  const BoostingConfig& config);
+                                                  const BoostingConfig& config,
+                                                  const std::function<void()>& before_run);
 template BoostingRows boosting_rows<ChannelInputs>(std::span<const LabelledRun> runs,
-                                                   const BoostingConfig& config);
+                                                   const BoostingConfig& config,
+                                                   const std::function<void()>& before_run);
 
 BoostedTrees fit_trees(BoostingRows rows, const BoostingConfig& config,
                        const std::function<void()>& before_tree) {

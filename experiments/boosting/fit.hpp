@@ -40,10 +40,12 @@ struct BoostingRows {
   }
 };
 
-/// Draws training rows from labelled runs, with `SignalWindow` or `ChannelInputs`. Throws
-/// InputError unless there is one label per step.
+/// Draws training rows from labelled runs, with `SignalWindow` or `ChannelInputs`. `before_run` is
+/// called before each pass through a run; an exception from it ends the work. Throws InputError
+/// unless there is one label per step.
 template <typename Inputs>
-BoostingRows boosting_rows(std::span<const LabelledRun> runs, const BoostingConfig& config);
+BoostingRows boosting_rows(std::span<const LabelledRun> runs, const BoostingConfig& config,
+                           const std::function<void()>& before_run = {});
 
 /// Fits trees by XGBoost to the log loss, on one thread: the same rows give the same trees.
 /// `before_tree` is called before each tree; an exception from it ends the fit. Throws InputError

@@ -60,8 +60,8 @@ FittedModel fit_boosted_trees(const EstimatorEntry& entry, const FitRuns& runs) 
     config.depth = static_cast<std::size_t>(entry.chosen("depth"));
     config.legs = legs_of(runs);
     config.servo_load = runs.servo_load;
-    Parameters parameters = parameters_of(
-        fit_trees(boosting_rows<Inputs>(labelled, config), config, runs.before_density));
+    Parameters parameters = parameters_of(fit_trees(
+        boosting_rows<Inputs>(labelled, config, runs.before_density), config, runs.before_density));
     parameters["servo_load"] = {config.servo_load ? 1.0 : 0.0};
     return parameters;
   });

@@ -1,5 +1,6 @@
 #include "training/trainer.hpp"
 
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -62,6 +63,23 @@ TEST(Trainer, MatchesTheEigenImplementation) {
     const Eigen::Map<const Eigen::MatrixXf> expected(
         &outputs[static_cast<std::size_t>(step) * 3 * neural_output_count], neural_output_count, 3);
     ASSERT_LT((forward.step(inputs) - expected).cwiseAbs().maxCoeff(), 1e-5F) << step;
+  }
+}
+
+// An epoch of the shipped training takes many seconds: a stop must not wait for its end.
+TEST(Trainer, StopsWithinAnEpochAndAnEvaluation) {
+  const EpisodeBatch batch = test::toy_episodes(6);
+  const int sequences = batch.steps / batch.sequence;
+  for (int at = 0; at < sequences; ++at) {
+    Trainer trainer(start(batch), {});
+    std::atomic<int> asked = 0;
+    const StopIfAsked stop = [&] {
+      if (asked++ >= at) throw Stopped();
+    };
+    EXPECT_THROW(trainer.train_epoch(batch, stop), Stopped) << at;
+    EXPECT_EQ(asked, at + 1);
+    asked = 0;
+    EXPECT_THROW((void)trainer.evaluate(batch, stop), Stopped) << at;
   }
 }
 

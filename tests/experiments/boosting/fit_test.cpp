@@ -150,6 +150,28 @@ struct DrawnRun {
   [[nodiscard]] LabelledRun view() const { return {signals, {contact, contact}, 1000.0, 0}; }
 };
 
+// Drawing the rows of many runs takes longer than a user waits for Ctrl-C.
+TEST(BoostingRows, StopBeforeAnyPassThroughARun) {
+  struct Asked {};
+  const DrawnRun run(1);
+  const std::vector<LabelledRun> runs = {run.view(), run.view(), run.view()};
+  const int all = static_cast<int>(quick.passes * runs.size());
+  for (int at = 0; at <= all; ++at) {
+    int calls = 0;
+    const auto draw = [&] {
+      (void)boosting_rows<SignalWindow>(runs, quick, [&] {
+        if (calls++ == at) throw Asked();
+      });
+    };
+    if (at < all) {
+      EXPECT_THROW(draw(), Asked) << at;
+    } else {
+      EXPECT_NO_THROW(draw());
+      EXPECT_EQ(calls, all);
+    }
+  }
+}
+
 TEST(BoostedTreesEstimator, DetectsContactInUnseenRuns) {
   const DrawnRun seen(1);
   const std::vector<LabelledRun> runs = {seen.view()};
