@@ -4,6 +4,10 @@
 # Findings are in BUILD_FOLDER/found/FUZZER. Add one to the tests by minimising it with
 # `fuzz_FUZZER -minimize_crash=1` and copying it to tests/fuzz/corpus/FUZZER, which every test run replays.
 set -u
+if ! [[ ${2:-} =~ ^[1-9][0-9]*$ ]]; then
+  echo "MINUTES: expected a whole number from 1, found '${2:-}'" >&2
+  exit 2
+fi
 build=$1
 seconds=$(($2 * 60))
 shift 2

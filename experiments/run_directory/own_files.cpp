@@ -63,12 +63,13 @@ constexpr std::array names_before_records = {
 constexpr std::array result_folders = {"recordings", "models",       "tables",      "figures",
                                        "videos",     "trajectories", "checkpoints", "logs"};
 
-/// Every folder that a run creates, inner folders first.
+/// Every folder that a run creates, or a link in its place; inner folders first.
 Names all_folders(const fs::path& directory) {
   Names folders;
   std::error_code ignored;
   for (const fs::path& entry : entries_in(directory / "state")) {
-    if (fs::symlink_status(entry, ignored).type() == fs::file_type::directory) {
+    const fs::file_type type = fs::symlink_status(entry, ignored).type();
+    if (type == fs::file_type::directory || type == fs::file_type::symlink) {
       folders.push_back("state/" + entry.filename().string());
     }
   }
@@ -215,11 +216,7 @@ std::vector<fs::path> own_files(const fs::path& directory) {
 
 void require_no_links(const fs::path& directory) {
   std::error_code ignored;
-  Names folders = all_folders(directory);
-  for (const fs::path& entry : entries_in(directory / "state")) {
-    folders.push_back("state/" + entry.filename().string());
-  }
-  for (const std::string& folder : folders) {
+  for (const std::string& folder : all_folders(directory)) {
     const fs::path path = directory / folder;
     if (!fs::is_symlink(path, ignored)) continue;
     throw InputError(
