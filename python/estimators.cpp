@@ -189,16 +189,19 @@ class Estimator {
     const ExclusiveUse use(busy_);
     std::vector<Belief> beliefs(signals.steps());
     reset_state();
-    {
-      const py::gil_scoped_release unlocked;
+    long_call([&](const std::atomic<bool>& stop) {
       for (std::size_t k = 0; k < beliefs.size(); ++k) {
+        if (stop) {
+          reset_state();
+          throw Stopped("stopped; the estimator was reset");
+        }
         if (signals.has_record(k)) {
           beliefs[k] = estimator_->update(signals.at(k));
         } else if (k > 0) {
           beliefs[k] = beliefs[k - 1];
         }
       }
-    }
+    });
     steps_ = beliefs.size();
     return arrays_of(std::move(beliefs));
   }

@@ -25,6 +25,28 @@ INTERRUPTED = textwrap.dedent("""\
     """)
 
 
+# The note distinguishes a call that stopped from one that ended before Python looked at the signal.
+INTERRUPTED_RUN = textwrap.dedent("""\
+    import os, signal, threading
+    import numpy as np
+    import touchdown
+
+    run = touchdown.simulate("scenarios/hop.yaml", overrides={"end.duration": 0.5})
+    short = dict(run.items())
+    long = {name: np.concatenate([values] * 400) for name, values in short.items()}
+    long["time"] = np.arange(len(long["time"])) * run.period
+    estimator = touchdown.Estimator("nmn")
+    expected = estimator.run(short)
+    threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT)).start()
+    try:
+        estimator.run(long)
+    except KeyboardInterrupt as interrupt:
+        print(*getattr(interrupt, "__notes__", []))
+    after = estimator.run(short)
+    print(all(np.array_equal(after[name], expected[name]) for name in expected))
+    """)
+
+
 class LongCalls(InFolder):
     def interrupted(self, call, after):
         """Seconds from the call to its end, and its note, with Ctrl-C `after` seconds."""
@@ -46,6 +68,10 @@ class LongCalls(InFolder):
         seconds, note = self.interrupted(call, 1.5)
         self.assertLess(seconds, 6.0)
         self.assertRegex(note, "stopped; .* parts of the evaluation are saved in out; the same command continues")
+
+    def test_of_an_estimator_ends_by_ctrl_c_and_it_can_be_used_again(self):
+        done = subprocess.run([sys.executable, "-c", INTERRUPTED_RUN], check=True, capture_output=True, text=True)
+        self.assertEqual(done.stdout.splitlines(), ["stopped; the estimator was reset", "True"])
 
     def test_leave_handlers_and_other_threads_alone(self):
         # Another thread runs while this one simulates. A signal handler is called, and nothing stops.
