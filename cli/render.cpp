@@ -52,7 +52,7 @@ std::vector<render::FilmedRun> runs_of(const RenderFlags& flags, const CliSessio
   std::error_code ignored;
   for (const std::string& input : flags.inputs) {
     if (!std::filesystem::is_directory(input, ignored)) {
-      runs.push_back(render::filmed_recording(input, warnings));
+      runs.push_back(render::filmed_recording(input, warnings, session.stop));
       continue;
     }
     const auto lock = experiments::DirectoryLock::for_reading(input, session.command);
@@ -76,7 +76,7 @@ std::vector<render::FilmedRun> runs_of(const RenderFlags& flags, const CliSessio
   return runs;
 }
 
-void render(const RenderFlags& flags, const CliSession& session) {
+void draw(const RenderFlags& flags, const CliSession& session) {
   check_outputs(files_of(flags.inputs), {flags.output});
   if (flags.scene || flags.poster) {
     require_extension(flags.output, {".png", ".jpg"}, "a picture");
@@ -103,6 +103,14 @@ void render(const RenderFlags& flags, const CliSession& session) {
   options.progress = render::film_progress("filming", session.stop);
   const render::VideoStatistics statistics = render::render_video(sources, options, flags.output);
   print("{}: {} frames, {:.1f} frames/s\n", flags.output, statistics.frames, statistics.fps());
+}
+
+void render(const RenderFlags& flags, const CliSession& session) {
+  try {
+    draw(flags, session);
+  } catch (const Stopped&) {
+    throw Stopped("stopped; nothing was written");
+  }
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ void simulate(SimulateFlags flags, const CliSession& session) {
                                   return !*session.stop;
                                 });
   }
-  if (*session.stop) throw Stopped();
+  if (*session.stop) throw Stopped("stopped; nothing was written");
   if (sensors) report_through(*sensors, recording);
   recordings::write_recording(recording, flags.output);
   const auto all = scoring::flights(scoring::any_wheel(scoring::contact_labels(recording, {})));

@@ -53,10 +53,16 @@ py::tuple simulate(const fs::path& scenario, const std::string& simulator, std::
 py::tuple load(const fs::path& path, const std::optional<fs::path>& mapping) {
   std::vector<std::string> warnings;
   py::tuple read = with_info(long_call([&](const std::atomic<bool>& stop) {
-    if (!mapping) return recordings::read_recording(path, &warnings);
-    const recordings::MappedLog mapped(path, *mapping, [&] {
+    const auto stopped = [&] {
       if (stop) throw Stopped("stopped");
-    });
+    };
+    if (!mapping) {
+      recordings::LogReader reader(path, &stop);
+      recordings::Recording recording = recordings::read_recording(reader, &warnings);
+      stopped();
+      return recording;
+    }
+    const recordings::MappedLog mapped(path, *mapping, stopped);
     warnings = mapped.warnings();
     recordings::LogReader reader(recordings::file_source(mapped.path(), &stop), path.string());
     return recordings::read_recording(reader, &warnings);

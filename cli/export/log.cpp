@@ -64,17 +64,19 @@ std::string labels_text(const ExportedLog& files, const recordings::ConvertedLog
 /// A log with the robot to draw: the one of a recording, or the named one on flat ground. Nothing
 /// for a log without either, and for a live stream.
 std::optional<render::FilmedRun> drawable(const std::string& log, const std::string& robot,
-                                          const recordings::RecordingInfo& info) {
+                                          const recordings::RecordingInfo& info,
+                                          const CliSession& session) {
   if (log == "-") return std::nullopt;
   std::vector<std::string> warnings;  // the reader of the log prints them
   if (!robot.empty()) {
+    recordings::LogReader reader(log, session.stop);
     return render::FilmedRun{models::compile_robot_model(find_resource(robot), {}),
-                             recordings::read_recording(log, &warnings),
+                             recordings::read_recording(reader, &warnings),
                              {},
                              {}};
   }
   if (info.scenario_yaml.empty()) return std::nullopt;
-  return render::filmed_recording(log, warnings);
+  return render::filmed_recording(log, warnings, session.stop);
 }
 
 }  // namespace
@@ -111,7 +113,8 @@ void export_mcap(const std::string& log, const std::string& robot, const std::st
   check_outputs({{log, "log"}}, {output});
   recordings::LogReader reader(log, session.stop);
   std::uint64_t rows = 0;
-  const std::optional<render::FilmedRun> run = drawable(log, robot, reader.info());
+  const std::optional<render::FilmedRun> run = drawable(log, robot, reader.info(), session);
+  check_stop(session);
   write_stream_atomically(output, [&](std::ostream& stream) {
     rows = run ? render::write_mcap_with_scene(reader, stream, run->robot, run->recording)
                : recordings::write_mcap(reader, stream);

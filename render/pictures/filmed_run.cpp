@@ -133,8 +133,11 @@ std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
   return all;
 }
 
-FilmedRun filmed_recording(const fs::path& log, std::vector<std::string>& warnings) {
-  recordings::Recording recording = recordings::read_recording(log, &warnings);
+FilmedRun filmed_recording(const fs::path& log, std::vector<std::string>& warnings,
+                           const std::atomic<bool>* stop) {
+  recordings::LogReader reader(log, stop);
+  recordings::Recording recording = recordings::read_recording(reader, &warnings);
+  stop_if_asked(stop);
   models::RobotModel robot = recorded_robot(recording);
   return {std::move(robot), std::move(recording), {}, {}};
 }

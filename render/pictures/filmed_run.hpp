@@ -55,9 +55,10 @@ FilmedRun filmed(recordings::Recording recording, const experiments::Experiment&
 /// `InputError` for a broken recording, or when the directory lacks a model.
 std::vector<FilmedRun> filmed_runs(const ReportSubject& subject);
 
-/// A recording without beliefs. Non-fatal errors of the log are added to `warnings`. Errors:
-/// `InputError` when the recording does not contain its terrain.
-FilmedRun filmed_recording(const std::filesystem::path& log, std::vector<std::string>& warnings);
+/// A recording without beliefs. Non-fatal errors of the log are added to `warnings`. It stops once
+/// `stop` is true. Errors: `Stopped`; `InputError` when the recording does not contain its terrain.
+FilmedRun filmed_recording(const std::filesystem::path& log, std::vector<std::string>& warnings,
+                           const std::atomic<bool>* stop = nullptr);
 
 /// A callback for after every frame. It advances a progress bar, which lives as long as the
 /// callback, and throws `Stopped` once the user has asked to stop.

@@ -132,6 +132,45 @@ TEST(Interrupt, EndsIntervalsAndDrawsOfScenarios) {
     EXPECT_THAT(draws.errors, HasSubstr("stopped; nothing was written"));
   }
   EXPECT_FALSE(fs::exists(folder / "scenes"));
+  waits = 0;
+  const Ended outline =
+      stopped("run " + write_long_experiment(folder) + " --dry-run", [&] { return ++waits > 200; });
+  if (outline.exit_code != -SIGINT) {
+    EXPECT_EQ(outline.exit_code, 1);
+    EXPECT_THAT(outline.errors, HasSubstr("stopped; nothing was written"));
+  }
+}
+
+// Whatever the moment: while the log is read, while frames are drawn, while records are written.
+TEST(Interrupt, OfACommandWithOneOutputWritesNothing) {
+  const ScratchFolder folder;
+  write_long_experiment(folder);
+  ASSERT_EQ(touchdown_program("simulate long.yaml --set end.duration=15 -o a.mpack", folder.path())
+                .exit_code,
+            0);
+  int stopped = 0;
+  for (const std::string arguments :
+       {"simulate long.yaml -o out.mpack", "render a.mpack -o out.mp4",
+        "export a.mpack -o out.mcap", "estimate a.mpack -o out.csv",
+        "fit a.mpack -o out.npz"}) {
+    const std::string output = arguments.substr(arguments.rfind(' ') + 1);
+    for (const double after : {0.05, 0.2, 0.5}) {
+      StartedProgram program(arguments, folder.path());
+      program.let_run(after);
+      program.send(SIGTERM);
+      const Ended ended = program.end();
+      if (ended.exit_code != 1) {  // it had ended, or was still loading its libraries
+        fs::remove(folder / output);
+        continue;
+      }
+      ++stopped;
+      EXPECT_THAT(ended.errors,
+                  ContainsRegex("touchdown: stopped; no(thing| model) was written\n$"))
+          << arguments << ", after " << after << " s";
+      EXPECT_FALSE(fs::exists(folder / output)) << arguments;
+    }
+  }
+  EXPECT_GT(stopped, 0);
 }
 
 TEST(Interrupt, ReportsWhatIsSavedAndTheSameCommandContinues) {
