@@ -26,7 +26,7 @@ namespace {
 
 /// Limits of the calibration.
 constexpr std::size_t most_scenes = 16;    // simulated on the first engine
-constexpr double evaluated_seconds = 1.5;  // of one run
+constexpr double evaluated_seconds = 2.0;  // of one run, and a quarter of them
 
 /// Runs of one scene by one robot are about equally long in every engine.
 using SceneKey = std::tuple<std::string, std::string>;
@@ -154,16 +154,22 @@ bool is_tried(const std::string& estimator, const Experiment& experiment) {
          std::find(fixed.begin(), fixed.end(), estimator) == fixed.end();
 }
 
-/// The evaluation of one step of a run in all conditions of a group, without refits.
-struct StepCost {
-  double counted = 0.0;
-  double scored = 0.0;
-  double tried = 0.0;  ///< the part of `scored` that is of estimators with trials
+/// An evaluation: estimators are made once in a run, then updated step by step (s).
+struct RunCost {
+  double fixed = 0.0;
+  double per_step = 0.0;
 };
 
-StepCost step_cost(const RunRequest& request, const Plan& plan, const FitSample& fits,
-                   const Sample& sample, const ShouldContinue& should_continue) {
-  StepCost cost;
+/// The evaluation of a run in all conditions of a group, without refits.
+struct EvaluationCost {
+  RunCost counted;
+  RunCost scored;
+  RunCost tried;  ///< the part of `scored` that is of estimators with trials
+};
+
+EvaluationCost sample_evaluation(const RunRequest& request, const Plan& plan, const FitSample& fits,
+                                 const Sample& sample, const ShouldContinue& should_continue) {
+  EvaluationCost cost;
   const Experiment& experiment = request.experiment;
   const std::string& engine = experiment.simulators.front();
   const auto found = std::find_if(sample.runs.begin(), sample.runs.end(), [&](const auto& entry) {
@@ -172,7 +178,8 @@ StepCost step_cost(const RunRequest& request, const Plan& plan, const FitSample&
            !run.failed();
   });
   if (found == sample.runs.end()) return cost;
-  const RunSignals run = beginning_of(found->second.signals, evaluated_seconds);
+  const RunSignals longer = beginning_of(found->second.signals, evaluated_seconds);
+  const RunSignals shorter = beginning_of(found->second.signals, 0.25 * evaluated_seconds);
   const auto is_unfitted = [&](const Condition& condition) {
     const bool needs_fit = std::find(experiment.estimators.begin(), experiment.estimators.end(),
                                      condition.estimator) != experiment.estimators.end() &&
@@ -187,16 +194,24 @@ StepCost step_cost(const RunRequest& request, const Plan& plan, const FitSample&
     return !condition.is_fitted_in_domain() || is_unfitted(condition);
   });
   const Task task = {found->first, 0, noise_key(experiment, 0, found->second.plan.run)};
-  const auto measured = [&] {
-    return cost_of([&] {
-             (void)evaluate(small, task, run, experiment, fits.models, should_continue);
-           }) /
-           static_cast<double>(run.steps());
+  const auto seconds_of = [&](const RunSignals& run) {
+    return cost_of(
+        [&] { (void)evaluate(small, task, run, experiment, fits.models, should_continue); });
   };
-  const double all = measured();
+  const auto measured = [&] {
+    (void)seconds_of(shorter);  // what is read from disk is read before
+    const double first = seconds_of(shorter);
+    const double all = seconds_of(longer);
+    const auto steps = static_cast<double>(std::max(longer.steps(), shorter.steps() + 1));
+    const auto first_steps = static_cast<double>(shorter.steps());
+    const double per_step = std::max(0.0, (all - first) / (steps - first_steps));
+    return RunCost{std::max(0.0, first - first_steps * per_step), per_step};
+  };
+  const RunCost all = measured();
   group.counted.clear();
   cost.scored = measured();
-  cost.counted = std::max(0.0, all - cost.scored);
+  cost.counted = {std::max(0.0, all.fixed - cost.scored.fixed),
+                  std::max(0.0, all.per_step - cost.scored.per_step)};
   if (!experiment.tuning) return cost;
   std::erase_if(group.conditions, [&](const Condition& condition) {
     return !is_tried(condition.estimator, experiment);
@@ -206,7 +221,7 @@ StepCost step_cost(const RunRequest& request, const Plan& plan, const FitSample&
 }
 
 /// The evaluation of all tasks.
-double evaluation_cost(const Plan& plan, const StepCost& step, const Sample& sample) {
+double evaluation_cost(const Plan& plan, const EvaluationCost& cost, const Sample& sample) {
   const auto in_domain = [](const RunGroup& group, const std::string& engine) {
     const std::vector<Condition> tested = tested_on(group.conditions, engine);
     return static_cast<double>(std::count_if(
@@ -229,36 +244,39 @@ double evaluation_cost(const Plan& plan, const StepCost& step, const Sample& sam
                                                      : static_cast<double>(group.counted.size()) /
                                                            static_cast<double>(own.counted.size());
     const double of_own = std::max(1.0, in_domain(own, run.simulator));
-    seconds += steps_of(run, sample) *
-               (step.scored * cells * predicted / of_own + step.counted * counted_cells);
+    const double steps = steps_of(run, sample);
+    seconds += (cost.scored.fixed + steps * cost.scored.per_step * cells) * predicted / of_own +
+               (cost.counted.fixed + steps * cost.counted.per_step) * counted_cells;
   }
   return seconds;
 }
 
 /// The trials of one fit: every fold fits and evaluates all trials.
 double tuning_cost(const RunRequest& request, const Plan& plan, const std::string& fit,
-                   const FitSample& fits, const StepCost& step, const Sample& sample) {
+                   const FitSample& fits, const EvaluationCost& cost, const Sample& sample) {
   const Experiment& experiment = request.experiment;
   if (!experiment.tuning || !(fit.empty() || experiment.tuning->everywhere)) return 0.0;
   const TuningConfig& tuning = *experiment.tuning;
   const double fitted =
       training_seconds(experiment, plan, fit, sample) * (tuning.folds - 1.0) / tuning.folds;
   double fits_of_trials = 0.0;
-  for (const FitCost& cost : fits.costs) {
-    if (!is_tried(cost.estimator, experiment)) continue;
-    fits_of_trials += tuning.folds * (cost.is_tuned ? tuning.trials : 1.0) * cost.of(fitted);
+  for (const FitCost& one : fits.costs) {
+    if (!is_tried(one.estimator, experiment)) continue;
+    fits_of_trials += tuning.folds * (one.is_tuned ? tuning.trials : 1.0) * one.of(fitted);
   }
   double held_out = 0.0;  // steps
+  double runs = 0.0;
   for (const PlannedRun& run : plan.runs) {
     if (run.role == RunRole::fit && run.fit == fit && run.group == 0 &&
         run.simulator == experiment.simulators.front()) {
       held_out += steps_of(run, sample);
+      runs += 1.0;
     }
   }
   const auto cells =
       static_cast<double>(std::max<std::size_t>(1, plan.groups.front().scored.size()));
-  const double evaluated =
-      held_out * tuning.trials * step.tried * static_cast<double>(tuning.noise.size()) / cells;
+  const double steps = held_out * static_cast<double>(tuning.noise.size()) / cells;
+  const double evaluated = tuning.trials * (runs * cost.tried.fixed + steps * cost.tried.per_step);
   return static_cast<double>(experiment.simulators.size()) * (fits_of_trials + evaluated);
 }
 
@@ -314,7 +332,7 @@ CostEstimate estimate_cost(const RunRequest& request, const Plan& plan,
   CostEstimate estimate;
   const Sample sample = sampled(experiment, plan, should_continue);
   const FitSample fits = sample_fits(experiment, sample.runs, should_continue);
-  const StepCost step = step_cost(request, plan, fits, sample, should_continue);
+  const EvaluationCost cost = sample_evaluation(request, plan, fits, sample, should_continue);
 
   std::set<std::string> names = {""};
   for (const PlannedRun& run : plan.runs) {
@@ -326,13 +344,14 @@ CostEstimate estimate_cost(const RunRequest& request, const Plan& plan,
   for (const std::string& name : names) {
     const auto refits = plan.refits.find(name);
     const double repeated = refits == plan.refits.end() ? 0.0 : refits->second;
-    fit += engines * (1.0 + repeated) * fits.of(training_seconds(experiment, plan, name, sample));
-    tune += tuning_cost(request, plan, name, fits, step, sample);
+    const double seconds = training_seconds(experiment, plan, name, sample);
+    fit += engines * (fits.of(seconds) + repeated * fits.of_refit(seconds));
+    tune += tuning_cost(request, plan, name, fits, cost, sample);
   }
   estimate.stages.push_back({"simulate", simulation_cost(plan, sample)});
   if (experiment.tuning) estimate.stages.push_back({"tune", tune});
   estimate.stages.push_back({"fit", fit});
-  estimate.stages.push_back({"evaluate", evaluation_cost(plan, step, sample)});
+  estimate.stages.push_back({"evaluate", evaluation_cost(plan, cost, sample)});
   if (!plan.model_tasks.empty()) {
     estimate.stages.push_back({"model_tasks", std::numeric_limits<double>::quiet_NaN()});
   }

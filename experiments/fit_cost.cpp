@@ -39,6 +39,7 @@ FitCost cost_of_fit(const EstimatorEntry& entry, const FitRuns& data, double sec
                     FittedModel& model) {
   FitCost cost;
   cost.estimator = entry.name;
+  cost.is_upper_bound = entry.is_upper_bound;
   cost.is_tuned = !entry.is_upper_bound &&
                   std::any_of(entry.hyperparameters.begin(), entry.hyperparameters.end(),
                               [](const Hyperparameter& one) { return one.is_fitted_with; });
@@ -60,6 +61,12 @@ FitCost cost_of_fit(const EstimatorEntry& entry, const FitRuns& data, double sec
 double FitSample::of(double seconds) const {
   double sum = 0.0;
   for (const FitCost& cost : costs) sum += cost.of(seconds);
+  return sum;
+}
+
+double FitSample::of_refit(double seconds) const {
+  double sum = 0.0;
+  for (const FitCost& cost : costs) sum += cost.is_upper_bound ? 0.0 : cost.of(seconds);
   return sum;
 }
 

@@ -17,6 +17,7 @@ struct FitCost {
   double memory = 0.0;      ///< working memory of one fit (bytes)
   /// Whether a hyperparameter of tuning changes the fit.
   bool is_tuned = false;
+  bool is_upper_bound = false;
 
   [[nodiscard]] double of(double seconds) const { return fixed + per_second * seconds; }
 };
@@ -26,8 +27,9 @@ struct FitSample {
   FittedModels models;
   std::vector<FitCost> costs;
 
-  /// Processor time of all fits to so much data (s).
+  /// Processor time of all fits to so much data (s), and of its part that refits repeat.
   [[nodiscard]] double of(double seconds) const;
+  [[nodiscard]] double of_refit(double seconds) const;
   /// The most working memory of so many fits at once (bytes).
   [[nodiscard]] double memory(int at_once) const;
 };

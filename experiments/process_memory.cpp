@@ -1,6 +1,7 @@
 #include "experiments/process_memory.hpp"
 
 #include <fstream>
+#include <malloc.h>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -29,6 +30,12 @@ double peak_memory() { return status_bytes("VmHWM:"); }
 
 void reset_peak_memory() {
   std::ofstream("/proc/self/clear_refs") << "5";  // proc(5): the peak becomes what is in use
+}
+
+void release_free_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 }  // namespace touchdown::experiments

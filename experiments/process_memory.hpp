@@ -8,4 +8,7 @@ double memory_in_use();
 double peak_memory();
 void reset_peak_memory();
 
+/// Returns freed memory to the system; programs keep it otherwise (core/program/memory.hpp).
+void release_free_memory();
+
 }  // namespace touchdown::experiments

@@ -13,9 +13,11 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/fingerprint.hpp"
+#include "experiments/config/experiment_estimators.hpp"
 #include "experiments/fit_run_check.hpp"
 #include "experiments/fitting/refits.hpp"
 #include "experiments/needs.hpp"
+#include "experiments/process_memory.hpp"
 #include "experiments/results/manifest.hpp"
 #include "experiments/results/result_files.hpp"
 #include "experiments/rollouts/failures.hpp"
@@ -98,8 +100,12 @@ Fitted fit(const Experiment& experiment, const Rollouts& runs, const std::string
     }
   };
   add(0, fit_models(experiment, fitted, segments, should_continue, chosen));
+  Experiment refitted = experiment;
+  std::erase_if(refitted.estimators, [&](const std::string& estimator) {
+    return estimator_entry(experiment, estimator).is_upper_bound;
+  });
   for (int refit = 1; refit <= refits; ++refit) {
-    add(refit, fit_models(experiment, drawn_anew(fitted, experiment.seed, refit),
+    add(refit, fit_models(refitted, drawn_anew(fitted, experiment.seed, refit),
                           drawn_anew(segments, experiment.seed, refit), should_continue, chosen));
   }
   return all;
@@ -158,7 +164,10 @@ Rollouts simulate_fit(const ExperimentContext& context, const std::set<std::size
   const Experiment& experiment = context.request.experiment;
   FitRunCheck check(experiment, context.plan, wanted);
   return run_rollouts(experiment, context.plan, wanted, context.directory, missing,
-                      context.should_continue, [&](const Rollout& run) { check.add(run); });
+                      context.should_continue, [&](const Rollout& run) {
+                        check.add(run);
+                        release_free_memory();  // of earlier runs that are segments now
+                      });
 }
 
 /// Simulates the streamed test runs, and evaluates each at once; its report goes to `runs`. Returns
@@ -234,6 +243,7 @@ Fitted fit(const ExperimentContext& context, const std::set<std::size_t>& stream
         drop_signals(run);
         runs.emplace(index, std::move(run));
       }
+      release_free_memory();
       all.models.merge(one.models);
       std::move(one.trials.begin(), one.trials.end(), std::back_inserter(all.trials));
     }

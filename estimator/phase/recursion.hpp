@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include <Eigen/Core>
+
 #include "estimator/numerics/exponential.hpp"
 #include "estimator/phase/model.hpp"
 #include "estimator/phase/tables.hpp"
@@ -73,29 +75,27 @@ class PhaseRecursion {
   void predict_and_correct(Block<filters>& alpha,
                            const Block<filters>& log_likelihood) const noexcept {
     static_assert(phase_count == phase_simd_width, "the single step has padding");
-    Block<filters> predicted{};
-    for (std::size_t i = 0; i < phase_count; ++i) {
-      for (std::size_t j = 0; j < phase_count; ++j) {
-        for (std::size_t f = 0; f < filters; ++f)
-          predicted[j][f] += alpha[i][f] * transition_[i][j];
-      }
-    }
-    std::array<double, filters> largest = log_likelihood[0];
-    for (std::size_t k = 1; k < phase_count; ++k) {
-      for (std::size_t f = 0; f < filters; ++f)
-        largest[f] = std::max(largest[f], log_likelihood[k][f]);
-    }
-    std::array<double, filters> sum{};
+    // One phase at a time, so that its sums stay in registers.
+    using Values = Eigen::Array<double, static_cast<int>(filters), 1>;
+    const auto values = [](const std::array<double, filters>& of_phase) {
+      return Eigen::Map<const Values>(of_phase.data());
+    };
+    Values largest = values(log_likelihood[0]);
+    for (std::size_t k = 1; k < phase_count; ++k) largest = largest.max(values(log_likelihood[k]));
+    std::array<Values, phase_count> predicted;
+    Values sum = Values::Zero();
     for (std::size_t k = 0; k < phase_count; ++k) {
-      for (std::size_t f = 0; f < filters; ++f) {
-        predicted[k][f] *= exponential(log_likelihood[k][f] - largest[f]);
-        sum[f] += predicted[k][f];
-      }
+      Values& phase = predicted[k];
+      phase.setZero();
+      for (std::size_t i = 0; i < phase_count; ++i) phase += values(alpha[i]) * transition_[i][k];
+      Values evidence = values(log_likelihood[k]) - largest;
+      for (double& one : evidence) one = exponential(one);
+      phase *= evidence;
+      sum += phase;
     }
-    std::array<double, filters> scale;
-    for (std::size_t f = 0; f < filters; ++f) scale[f] = 1.0 / sum[f];
+    const Values scale = sum.inverse();
     for (std::size_t k = 0; k < phase_count; ++k) {
-      for (std::size_t f = 0; f < filters; ++f) alpha[k][f] = predicted[k][f] * scale[f];
+      Eigen::Map<Values>(alpha[k].data()) = predicted[k] * scale;
     }
   }
 

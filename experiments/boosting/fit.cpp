@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <xgboost/c_api.h>
 
 #include <fmt/format.h>
@@ -57,7 +58,7 @@ class RowBatches {
     const std::size_t count = std::min(most, rows_.count() - next_);
     if (count == 0) return 0;
     const std::string features =
-        fmt::format(R"({{"data": [{}, true], "shape": [{}, {}], "typestr": "<f4", "version": 3}})",
+        fmt::format(R"({{"data": [{}, true], "shape": [{}, {}], "typestr": "|u1", "version": 3}})",
                     reinterpret_cast<std::uintptr_t>(rows_.features.data() + next_ * rows_.width()),
                     count, rows_.width());
     failed_ =
@@ -75,8 +76,8 @@ class RowBatches {
   bool failed_ = false;
 };
 
-/// The rows as bins of their features, a byte each; a matrix of their values needs eight times
-/// that.
+/// The library bins the rows' bins once more, one by one: as bytes, because a matrix of values
+/// needs eight times the memory, and its quantiles of values twice that.
 Matrix matrix_of(const BoostingRows& rows, float air_weight) {
   RowBatches batches(rows, air_weight);
   DMatrixHandle handle = nullptr;
@@ -109,8 +110,8 @@ Booster booster_of(const Matrix& rows, const BoostingConfig& config) {
 }
 
 /// Copies a node and its subtree into a complete tree. The source tree may have early leaves.
-void put(const nlohmann::json& tree, std::size_t from, std::size_t to, std::size_t number,
-         BoostedTrees& trees) {
+void put(const nlohmann::json& tree, const FeatureBins& bins, std::size_t from, std::size_t to,
+         std::size_t number, BoostedTrees& trees) {
   const auto& left = tree.at("left_children");
   const auto& condition = tree.at("split_conditions");
   const std::size_t inner = trees.nodes();
@@ -121,16 +122,18 @@ void put(const nlohmann::json& tree, std::size_t from, std::size_t to, std::size
   const std::size_t node = number * inner + to;
   if (const int child = left.at(from).get<int>(); child >= 0) {
     trees.feature[node] = tree.at("split_indices").at(from).get<std::uint8_t>();
-    trees.threshold[node] = condition.at(from).get<float>();
-    put(tree, static_cast<std::size_t>(child), 2 * to + 1, number, trees);
-    put(tree, tree.at("right_children").at(from).get<std::size_t>(), 2 * to + 2, number, trees);
+    const double bin = std::ceil(std::max(1.0, condition.at(from).get<double>()));
+    trees.threshold[node] = bins.threshold(trees.feature[node], static_cast<std::size_t>(bin));
+    put(tree, bins, static_cast<std::size_t>(child), 2 * to + 1, number, trees);
+    put(tree, bins, tree.at("right_children").at(from).get<std::size_t>(), 2 * to + 2, number,
+        trees);
   } else {  // an early leaf: all leaves below have its value
-    put(tree, from, 2 * to + 1, number, trees);
-    put(tree, from, 2 * to + 2, number, trees);
+    put(tree, bins, from, 2 * to + 1, number, trees);
+    put(tree, bins, from, 2 * to + 2, number, trees);
   }
 }
 
-BoostedTrees trees_of(const Booster& booster, std::size_t depth) {
+BoostedTrees trees_of(const Booster& booster, const FeatureBins& bins, std::size_t depth) {
   bst_ulong length = 0;
   const char* text = nullptr;
   check(XGBoosterSaveModelToBuffer(booster.get(), R"({"format": "json"})", &length, &text));
@@ -141,12 +144,24 @@ BoostedTrees trees_of(const Booster& booster, std::size_t depth) {
   trees.threshold.resize(trees.feature.size());
   trees.leaf.resize(all.size() * trees.leaves());
   for (std::size_t number = 0; number < all.size(); ++number) {
-    put(all[number], 0, 0, number, trees);
+    put(all[number], bins, 0, 0, number, trees);
   }
   return trees;
 }
 
 }  // namespace
+
+BoostingRows binned(std::span<const float> features, std::vector<float> is_contact) {
+  BoostingRows rows;
+  const std::size_t width = is_contact.empty() ? 0 : features.size() / is_contact.size();
+  rows.bins = FeatureBins(features, width);
+  rows.features.reserve(features.size());
+  for (std::size_t row = 0; row < is_contact.size(); ++row) {
+    rows.bins.append(features.subspan(row * width, width), rows.features);
+  }
+  rows.is_contact = std::move(is_contact);
+  return rows;
+}
 
 template <typename Inputs>
 BoostingRows boosting_rows(std::span<const LabelledRun> runs, const BoostingConfig& config,
@@ -160,9 +175,15 @@ BoostingRows boosting_rows(std::span<const LabelledRun> runs, const BoostingConf
   const std::size_t stride =
       std::max<std::size_t>(1, 2 * steps * config.passes / std::max<std::size_t>(1, config.rows));
   BoostingRows rows;
+  std::vector<float> first;  // features before the bins are known
   const std::size_t expected = 2 * config.passes * (steps / stride + runs.size());
-  rows.features.reserve(expected * Inputs::count);
   rows.is_contact.reserve(expected);
+  const auto bin_the_first = [&] {
+    if (first.empty()) return;
+    rows = binned(first, std::move(rows.is_contact));
+    rows.features.reserve(expected * Inputs::count);
+    first = {};
+  };
   Draws draws(config.seed);
   for (std::size_t pass = 0; pass < config.passes; ++pass) {
     for (const LabelledRun& run : runs) {
@@ -178,12 +199,19 @@ BoostingRows boosting_rows(std::span<const LabelledRun> runs, const BoostingConf
         for (std::size_t side = 0; side < 2; ++side) {
           if (!step.is_valid[side]) continue;
           const auto features = inputs.features(side);
-          rows.features.insert(rows.features.end(), features.begin(), features.end());
+          if (rows.width() == 0) {
+            first.insert(first.end(), features.begin(), features.end());
+          } else {
+            rows.bins.append(features, rows.features);
+          }
           rows.is_contact.push_back(run.contact[side][k] != 0 ? 1.0F : 0.0F);
         }
       }
     }
+    constexpr std::size_t enough = 10'000;  // rows for quantiles
+    if (rows.count() >= enough) bin_the_first();
   }
+  bin_the_first();
   return rows;
 }
 
@@ -204,13 +232,13 @@ BoostedTrees fit_trees(BoostingRows rows, const BoostingConfig& config,
   }
   const auto air_weight = static_cast<float>(std::pow(air / contact, config.class_exponent));
   const Matrix matrix = matrix_of(rows, air_weight);
-  rows = {};  // the matrix has copied what it needs
+  rows.features = {};  // the matrix has copied what it needs
   const Booster booster = booster_of(matrix, config);
   for (std::size_t tree = 0; tree < config.trees; ++tree) {
     if (before_tree) before_tree();
     check(XGBoosterUpdateOneIter(booster.get(), static_cast<int>(tree), matrix.get()));
   }
-  BoostedTrees trees = trees_of(booster, config.depth);
+  BoostedTrees trees = trees_of(booster, rows.bins, config.depth);
   trees.bias = std::log(air_weight);
   return trees;
 }

@@ -9,6 +9,7 @@
 #include "estimator/decision/augmentation.hpp"
 #include "estimator/force/leg_geometry.hpp"
 #include "estimator/labelled_run.hpp"
+#include "experiments/boosting/bins.hpp"
 #include "experiments/boosting/trees.hpp"
 
 namespace touchdown::experiments {
@@ -29,20 +30,23 @@ struct BoostingConfig {
   bool servo_load = false;  ///< likewise
 };
 
-/// Training data: the features of one row after the other, and 1 for rows in contact, 0 for others.
+/// Training data: the bins of the features of one row after the other, and 1 for rows in contact, 0
+/// for others.
 struct BoostingRows {
-  std::vector<float> features;
+  FeatureBins bins;
+  std::vector<std::uint8_t> features;
   std::vector<float> is_contact;
 
   [[nodiscard]] std::size_t count() const noexcept { return is_contact.size(); }
-  [[nodiscard]] std::size_t width() const noexcept {
-    return is_contact.empty() ? 0 : features.size() / is_contact.size();
-  }
+  [[nodiscard]] std::size_t width() const noexcept { return bins.width(); }
 };
 
-/// Draws training rows from labelled runs, with `SignalWindow` or `ChannelInputs`. `before_run` is
-/// called before each pass through a run; an exception from it ends the work. Throws InputError
-/// unless there is one label per step.
+/// Rows with bins of their own: features of one row after the other, as many for each.
+BoostingRows binned(std::span<const float> features, std::vector<float> is_contact);
+
+/// Draws training rows from labelled runs, with `SignalWindow` or `ChannelInputs`. The first rows,
+/// of whole passes, decide the bins of all. `before_run` is called before each pass through a run;
+/// an exception from it ends the work. Throws InputError unless there is one label per step.
 template <typename Inputs>
 BoostingRows boosting_rows(std::span<const LabelledRun> runs, const BoostingConfig& config,
                            const std::function<void()>& before_run = {});

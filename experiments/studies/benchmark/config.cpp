@@ -32,7 +32,7 @@ static void describe(Fields& fields, BenchmarkConfig& benchmark, const Experimen
   fields("transfer", benchmark.transfer)
       .doc("Whether fits on another robot, other sensors or the other engine are scored, too.");
   fields("refits", benchmark.refits, 0, 1000)
-      .doc("Fits repeated on resampled runs, for wider intervals.");
+      .doc("Fits of ranked estimators repeated on resampled runs, for wider intervals.");
   fields("refits_everywhere", benchmark.refits_everywhere)
       .doc("Whether refits cover all robots and sensors, or the experiment's own.");
   fields("clips", benchmark.clips).doc("Whether the worst segment of every estimator is filmed.");

@@ -15,7 +15,8 @@ struct BenchmarkConfig {
   /// Whether estimators fitted on another robot, other sensors or the other engine are scored, too.
   bool transfer = false;
   /// How often every fit is repeated, each time with a bootstrap resample of the fitted runs.
-  /// Intervals then include the variation due to the choice of fitted runs.
+  /// Intervals then include the variation due to the choice of fitted runs. Reference upper bounds
+  /// are fitted once.
   int refits = 0;
   /// Whether refits cover all robots and sensors, or only the experiment's own.
   bool refits_everywhere = false;

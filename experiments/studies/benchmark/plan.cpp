@@ -62,13 +62,15 @@ void add_transfers(const Experiment& experiment, const std::vector<BenchmarkSetu
   group.scores_transfer = true;
 }
 
-/// Adds the refits of the in-domain conditions of a group, after all others.
+/// Adds the refits of the in-domain conditions of a group, after all others. Upper bounds, which
+/// are not ranked, are fitted once.
 void add_refits(const Experiment& experiment, RunGroup& group) {
   const BenchmarkConfig& benchmark = experiment.studies.at<BenchmarkConfig>();
   const std::vector<Condition> all = group.conditions;
   for (const Condition& condition : all) {
     if (!condition.is_fitted_in_domain(group.fit)) continue;
-    if (!estimator_entry(experiment, condition.estimator).fits()) continue;
+    const EstimatorEntry& entry = estimator_entry(experiment, condition.estimator);
+    if (!entry.fits() || entry.is_upper_bound) continue;
     for (int refit = 1; refit <= refits_of(benchmark, group.fit); ++refit) {
       group.conditions.push_back(condition);
       group.conditions.back().refit = refit;

@@ -19,36 +19,47 @@
 namespace touchdown::experiments {
 namespace {
 
-/// Normal features; in contact with a probability that rises with one of them.
-BoostingRows drawn_rows(std::size_t count) {
-  BoostingRows rows;
+/// Rows with the values of their features.
+struct DrawnRows {
+  std::vector<float> features;
+  std::vector<float> is_contact;
+
+  [[nodiscard]] BoostingRows binned() const { return experiments::binned(features, is_contact); }
+  [[nodiscard]] WindowFeatures row(std::size_t i) const {
+    WindowFeatures row{};
+    std::copy_n(features.begin() + static_cast<std::ptrdiff_t>(i * window_features),
+                window_features, row.begin());
+    return row;
+  }
+};
+
+/// Normal features, rounded to multiples of `step` if it is not 0; in contact with a probability
+/// that rises with one of them.
+DrawnRows drawn_rows(std::size_t count, float step = 0.0F) {
+  DrawnRows rows;
   const std::vector<double> values = test::normals(count * window_features, 0.0, 1.0, 1);
   const std::vector<double> label_noise = test::normals(count, 0.0, 0.5, 2);
   rows.features.assign(values.begin(), values.end());
+  for (float& value : rows.features) {
+    if (step > 0.0F) value = step * std::round(value / step);
+  }
   for (std::size_t i = 0; i < count; ++i) {
-    rows.is_contact.push_back(values[i * window_features + 7] + label_noise[i] > -0.8 ? 1.0F
-                                                                                      : 0.0F);
+    const auto feature = static_cast<double>(rows.features[i * window_features + 7]);
+    rows.is_contact.push_back(feature + label_noise[i] > -0.8 ? 1.0F : 0.0F);
   }
   return rows;
-}
-
-WindowFeatures row(const BoostingRows& rows, std::size_t i) {
-  WindowFeatures features{};
-  std::copy_n(rows.features.begin() + static_cast<std::ptrdiff_t>(i * window_features),
-              window_features, features.begin());
-  return features;
 }
 
 const BoostingConfig quick = {.trees = 12, .depth = 3};
 
 /// The logits that the library itself predicts for the same rows.
-std::vector<float> margins_by_the_library(const BoostingRows& rows, float air_weight) {
+std::vector<float> margins_by_the_library(const DrawnRows& rows, float air_weight) {
   DMatrixHandle matrix = nullptr;
-  XGDMatrixCreateFromMat(rows.features.data(), rows.count(), window_features,
+  XGDMatrixCreateFromMat(rows.features.data(), rows.is_contact.size(), window_features,
                          std::numeric_limits<float>::quiet_NaN(), &matrix);
-  XGDMatrixSetFloatInfo(matrix, "label", rows.is_contact.data(), rows.count());
-  std::vector<float> weights(rows.count(), 1.0F);
-  for (std::size_t i = 0; i < rows.count(); ++i) {
+  XGDMatrixSetFloatInfo(matrix, "label", rows.is_contact.data(), rows.is_contact.size());
+  std::vector<float> weights(rows.is_contact.size(), 1.0F);
+  for (std::size_t i = 0; i < rows.is_contact.size(); ++i) {
     if (rows.is_contact[i] == 0.0F) weights[i] = air_weight;
   }
   XGDMatrixSetFloatInfo(matrix, "weight", weights.data(), weights.size());
@@ -74,24 +85,52 @@ std::vector<float> margins_by_the_library(const BoostingRows& rows, float air_we
   return margins;
 }
 
-TEST(BoostingFit, EqualsThePredictionOfTheLibrary) {
-  const BoostingRows rows = drawn_rows(3000);
-  const BoostedTrees trees = fit_trees(rows, quick);
-  EXPECT_EQ(trees.trees(), 12U);
+float air_weight_of(const DrawnRows& rows) {
   const auto contact =
       static_cast<double>(std::count(rows.is_contact.begin(), rows.is_contact.end(), 1.0F));
-  const auto air_weight =
-      static_cast<float>(std::sqrt(contact / (static_cast<double>(rows.count()) - contact)));
-  const std::vector<float> margins = margins_by_the_library(rows, air_weight);
-  ASSERT_EQ(margins.size(), rows.count());
-  for (std::size_t i = 0; i < rows.count(); ++i) {
-    EXPECT_NEAR(trees.logit(row(rows, i)), margins[i] + std::log(air_weight), 1e-5);
+  return static_cast<float>(
+      std::sqrt(contact / (static_cast<double>(rows.is_contact.size()) - contact)));
+}
+
+TEST(BoostingFit, EqualsThePredictionOfTheLibraryWhereEveryValueHasABin) {
+  for (const float step : {0.04F, 0.1F, 0.5F, 3.0F}) {  // fewer than 256 values of each feature
+    const DrawnRows rows = drawn_rows(3000, step);
+    const BoostedTrees trees = fit_trees(rows.binned(), quick);
+    EXPECT_EQ(trees.trees(), 12U);
+    const float air_weight = air_weight_of(rows);
+    const std::vector<float> margins = margins_by_the_library(rows, air_weight);
+    ASSERT_EQ(margins.size(), rows.is_contact.size());
+    for (std::size_t i = 0; i < margins.size(); ++i) {
+      ASSERT_NEAR(trees.logit(rows.row(i)), margins[i] + std::log(air_weight), 1e-5) << step;
+    }
   }
 }
 
+/// The mean log loss of the rows.
+template <typename Logit>
+double log_loss(const DrawnRows& rows, const Logit& logit) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < rows.is_contact.size(); ++i) {
+    const double z = logit(i);
+    sum += std::log1p(std::exp(rows.is_contact[i] > 0.0F ? -z : z));
+  }
+  return sum / static_cast<double>(rows.is_contact.size());
+}
+
+TEST(BoostingFit, IsAsGoodAsTheLibraryWithBinsOfAnyValues) {
+  const DrawnRows rows = drawn_rows(6000);
+  const BoostedTrees trees = fit_trees(rows.binned(), quick);
+  const float air_weight = air_weight_of(rows);
+  const std::vector<float> margins = margins_by_the_library(rows, air_weight);
+  const double own =
+      log_loss(rows, [&](std::size_t i) { return static_cast<double>(trees.logit(rows.row(i))); });
+  const double library = log_loss(
+      rows, [&](std::size_t i) { return static_cast<double>(margins[i] + std::log(air_weight)); });
+  EXPECT_NEAR(own, library, 0.01 * library);
+}
+
 TEST(BoostingFit, LearnsWhichFeatureIsInformative) {
-  const BoostingRows rows = drawn_rows(6000);
-  const BoostedTrees trees = fit_trees(rows, quick);
+  const BoostedTrees trees = fit_trees(drawn_rows(6000).binned(), quick);
   WindowFeatures features{};
   features[7] = 1.5F;
   EXPECT_GT(trees.logit(features), 1.0F);
@@ -100,7 +139,7 @@ TEST(BoostingFit, LearnsWhichFeatureIsInformative) {
 }
 
 TEST(BoostingFit, GivesTheSameTreesOnAllThreads) {
-  const BoostingRows rows = drawn_rows(2000);
+  const BoostingRows rows = drawn_rows(2000).binned();
   const BoostedTrees alone = fit_trees(rows, quick);
   std::array<BoostedTrees, 3> beside;
   std::vector<std::thread> threads;
@@ -116,7 +155,7 @@ TEST(BoostingFit, GivesTheSameTreesOnAllThreads) {
 }
 
 TEST(BoostingFit, RefusesASingleClass) {
-  BoostingRows rows = drawn_rows(100);
+  BoostingRows rows = drawn_rows(100).binned();
   std::fill(rows.is_contact.begin(), rows.is_contact.end(), 1.0F);
   EXPECT_THROW(fit_trees(rows, quick), InputError);
   EXPECT_THROW(fit_trees({}, quick), InputError);
@@ -124,7 +163,7 @@ TEST(BoostingFit, RefusesASingleClass) {
 
 TEST(BoostingFit, StopsOnRequest) {
   struct Asked {};
-  EXPECT_THROW(fit_trees(drawn_rows(500), quick, [] { throw Asked(); }), Asked);
+  EXPECT_THROW(fit_trees(drawn_rows(500).binned(), quick, [] { throw Asked(); }), Asked);
 }
 
 /// A robot with load on its knees in every other second.

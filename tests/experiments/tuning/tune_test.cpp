@@ -29,7 +29,7 @@ std::vector<RunSignals> fitted_runs(int count) {
 Experiment tuned_experiment(const std::vector<std::string>& estimators, int trials) {
   Experiment experiment = synthetic_experiment(estimators);
   experiment.fit = {.scenarios = {"synthetic"}, .runs = 4, .perturbed = true};
-  experiment.tuning = TuningConfig{.trials = trials, .folds = 2};
+  experiment.tuning = TuningConfig{.trials = trials, .folds = 2, .fixed = {}};
   return experiment;
 }
 

@@ -249,6 +249,38 @@ TEST(ABenchmark, HasTheSameTablesWhetherItKeepsSignalsInMemoryOrNot) {
   }
 }
 
+TEST(ABenchmark, RefitsInAShardOfOneEngineAreThoseOfTheWholeRun) {
+  const ScratchFolder folder;
+  Experiment experiment = with(folder, "{refits: 2}");
+  experiment.simulators = {"mujoco", "bullet"};
+  (void)run_experiment(experiment, {.out = folder / "whole", .command = "test"});
+  for (int shard = 1; shard <= 4; ++shard) {  // two of each engine
+    (void)run_shard(experiment, {shard, 4}, {.out = folder / "parts", .command = "test"});
+  }
+  (void)merge_run(folder / "parts", {.command = "test"});
+  const std::string expected = table(folder / "whole", "benchmark.csv");
+  EXPECT_THAT(expected, HasSubstr("bullet"));
+  EXPECT_EQ(table(folder / "parts", "benchmark.csv"), expected);
+}
+
+TEST(ABenchmark, FitsUpperBoundsOnce) {
+  const ScratchFolder folder;
+  for (const char* benchmark :
+       {"{refits: 2}", "{refits: 3, refits_everywhere: true, robots: [models/upkie_heavy.yaml]}"}) {
+    Experiment experiment = with(folder, benchmark);
+    experiment.estimators = {"measurement_only", "boosted_channels", "boosted_signals"};
+    std::map<std::string, int> refits;
+    for (const RunGroup& group : whole_plan(request_of(experiment)).groups) {
+      for (const Condition& condition : group.conditions) {
+        refits[condition.estimator] += condition.refit > 0 ? 1 : 0;
+      }
+    }
+    EXPECT_GT(refits.at("measurement_only"), 0) << benchmark;
+    EXPECT_EQ(refits.at("boosted_channels"), 0) << benchmark;
+    EXPECT_EQ(refits.at("boosted_signals"), 0) << benchmark;
+  }
+}
+
 TEST(ABenchmark, ContinuesAndMergesWithoutSignalsInMemory) {
   const ScratchFolder folder;
   const Experiment experiment = with(folder, "{robots: [models/upkie_heavy.yaml]}");
