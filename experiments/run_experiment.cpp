@@ -99,14 +99,19 @@ Fitted fit(const Experiment& experiment, const Rollouts& runs, const std::string
       all.models[model_key(simulator, name, refit)] = std::move(by_estimator);
     }
   };
-  add(0, fit_models(experiment, fitted, segments, should_continue, chosen));
+  // Fits call this between their computations, and leave hundreds of megabytes in freed pieces.
+  const ShouldContinue and_release = [&] {
+    release_free_memory();
+    return !should_continue || should_continue();
+  };
+  add(0, fit_models(experiment, fitted, segments, and_release, chosen));
   Experiment refitted = experiment;
   std::erase_if(refitted.estimators, [&](const std::string& estimator) {
     return estimator_entry(experiment, estimator).is_upper_bound;
   });
   for (int refit = 1; refit <= refits; ++refit) {
     add(refit, fit_models(refitted, drawn_anew(fitted, experiment.seed, refit),
-                          drawn_anew(segments, experiment.seed, refit), should_continue, chosen));
+                          drawn_anew(segments, experiment.seed, refit), and_release, chosen));
   }
   return all;
 }
@@ -150,6 +155,27 @@ FittedModels fit_training_sets(const Experiment& experiment, const ExperimentCon
   return models;
 }
 
+/// Simulates runs and holds them. Those for training segments hold only their segments. Errors:
+/// those of `FitRunCheck`.
+Rollouts hold_rollouts(const ExperimentContext& context, const std::set<std::size_t>& wanted,
+                       MissingRun missing) {
+  const Experiment& experiment = context.request.experiment;
+  Rollouts runs;
+  for (const std::size_t index : wanted) {
+    runs.emplace(index, Rollout{context.plan.runs[index], {}, {}});
+  }
+  FitRunCheck check(experiment, context.plan, wanted);
+  SegmentCutter segments(experiment.training_segments, runs);
+  for_each_rollout(experiment, context.plan, wanted, context.directory, missing,
+                   context.should_continue, [&](std::size_t index, Rollout run) {
+                     check.add(run);
+                     runs.at(index) = std::move(run);
+                     segments.add(index);
+                     release_free_memory();  // of what is cut off
+                   });
+  return runs;
+}
+
 /// Simulates the streamed runs of one fit on one engine.
 Rollouts simulate_fit(const ExperimentContext& context, const std::set<std::size_t>& streamed,
                       const std::string& name, const std::string& simulator, MissingRun missing) {
@@ -160,14 +186,7 @@ Rollouts simulate_fit(const ExperimentContext& context, const std::set<std::size
       wanted.insert(index);
     }
   }
-  if (wanted.empty()) return {};
-  const Experiment& experiment = context.request.experiment;
-  FitRunCheck check(experiment, context.plan, wanted);
-  return run_rollouts(experiment, context.plan, wanted, context.directory, missing,
-                      context.should_continue, [&](const Rollout& run) {
-                        check.add(run);
-                        release_free_memory();  // of earlier runs that are segments now
-                      });
+  return wanted.empty() ? Rollouts() : hold_rollouts(context, wanted, missing);
 }
 
 /// Simulates the streamed test runs, and evaluates each at once; its report goes to `runs`. Returns
@@ -285,9 +304,7 @@ Computed compute(ExperimentContext& context, const TaskRange& tasks, MissingRun 
         if (is_later) streamed.insert(*index);
         index = is_later ? needed.erase(index) : std::next(index);
       }
-      FitRunCheck check(experiment, context.plan, needed);
-      return run_rollouts(experiment, context.plan, needed, context.directory, missing,
-                          context.should_continue, [&](const Rollout& run) { check.add(run); });
+      return hold_rollouts(context, needed, missing);
     });
     done.fitted = timed(context, "fit", [&] { return fit(context, streamed, missing, done.runs); });
     done.tasks = timed(context, "evaluate", [&] {

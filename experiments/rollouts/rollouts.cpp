@@ -13,7 +13,6 @@
 #include "core/fingerprint.hpp"
 #include "core/progress.hpp"
 #include "experiments/plan/sensors.hpp"
-#include "experiments/rollouts/training_segments.hpp"
 #include "experiments/run_directory/saved_state.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "scenarios/compiled_scenes.hpp"
@@ -192,22 +191,6 @@ void for_each_rollout(const Experiment& experiment, const Plan& plan,
     progress.advance();
     if (!should_continue()) throw Stopped();
   });
-}
-
-Rollouts run_rollouts(const Experiment& experiment, const Plan& plan,
-                      const std::set<std::size_t>& needed, const RunDirectory& directory,
-                      MissingRun missing, const ShouldContinue& should_continue,
-                      const std::function<void(const Rollout& run)>& check) {
-  Rollouts runs;
-  for (const std::size_t index : needed) runs.emplace(index, Rollout{plan.runs[index], {}, {}});
-  SegmentCutter segments(experiment.training_segments, runs);
-  for_each_rollout(experiment, plan, needed, directory, missing, should_continue,
-                   [&](std::size_t index, Rollout run) {
-                     check(run);
-                     runs.at(index) = std::move(run);
-                     segments.add(index);
-                   });
-  return runs;
 }
 
 bool is_recorded(const PlannedRun& run, const RunDirectory& directory) {

@@ -257,7 +257,7 @@ TEST(ABenchmark, RefitsInAShardOfOneEngineAreThoseOfTheWholeRun) {
   for (int shard = 1; shard <= 4; ++shard) {  // two of each engine
     (void)run_shard(experiment, {shard, 4}, {.out = folder / "parts", .command = "test"});
   }
-  (void)merge_run(folder / "parts", {.command = "test"});
+  (void)merge_run(folder / "parts", {.out = {}, .command = "test"});
   const std::string expected = table(folder / "whole", "benchmark.csv");
   EXPECT_THAT(expected, HasSubstr("bullet"));
   EXPECT_EQ(table(folder / "parts", "benchmark.csv"), expected);

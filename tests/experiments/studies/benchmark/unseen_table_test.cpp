@@ -41,7 +41,7 @@ Experiment experiment_with(const std::string& estimators, const std::string& tab
       "unseen.yaml"));
 }
 
-const scoring::BootstrapConfig intervals = {.resamples = 200};
+const scoring::BootstrapConfig few_resamples = {.resamples = 200};
 
 TEST(UnseenTable, HasTheMeansOfUnseenScenesOfTheFirstRobot) {
   const noise::NoiseCell noisy{1.0, 5.0};
@@ -60,7 +60,7 @@ TEST(UnseenTable, HasTheMeansOfUnseenScenesOfTheFirstRobot) {
   BenchmarkRow heavy = row("kerb", "unseen", "robust", 0.2, 8);
   heavy.robot = "upkie_heavy";
   rows.push_back(heavy);
-  const auto unseen = standings_of_unseen(rows, intervals);
+  const auto unseen = standings_of_unseen(rows, few_resamples);
   const std::string header =
       "| estimator | no added noise | 1 N·m, 5 m/s² | extra switches a minute |\n"
       "|---|---|---|---|\n";
@@ -72,24 +72,26 @@ TEST(UnseenTable, HasTheMeansOfUnseenScenesOfTheFirstRobot) {
 }
 
 TEST(UnseenTable, HasADashForAnEstimatorThatWasNotScored) {
-  const auto unseen = standings_of_unseen({row("kerb", "unseen", "robust", 0.75, 3)}, intervals);
+  const auto unseen =
+      standings_of_unseen({row("kerb", "unseen", "robust", 0.75, 3)}, few_resamples);
   EXPECT_THAT(unseen_markdown(unseen, experiment_with("robust, phase", "phase")),
               HasSubstr("| `phase` | – | – |\n"));
 }
 
 TEST(UnseenTable, IsEmptyWithoutUnseenScenes) {
-  const auto unseen = standings_of_unseen({row("stairs", "test", "robust", 0.9, 3)}, intervals);
+  const auto unseen = standings_of_unseen({row("stairs", "test", "robust", 0.9, 3)}, few_resamples);
   EXPECT_TRUE(unseen.empty());
   EXPECT_EQ(unseen_markdown(unseen, experiment_with("robust", "")), "");
 }
 
 TEST(UnseenTable, NamesOnlyEstimatorsOfTheExperiment) {
-  for (const auto& [name, near] :
-       {std::pair{"robustt", "robust"}, {"hm", "hmm"}, {"Robust", "robust"}}) {
-    EXPECT_THAT(
-        [&, wrong = std::string(name)] { experiment_with("robust, hmm", "robust, " + wrong); },
-        ThrowsMessage<InputError>(HasSubstr("did you mean '" + std::string(near) + "'")))
-        << name;
+  for (const auto& [wrong, near] :
+       {std::pair{"robustt", "robust"}, {"hm", "hmm"}, {"rbust", "robust"}}) {
+    const std::string table = "robust, " + std::string(wrong);
+    const auto parse = [&table] { experiment_with("robust, hmm", table); };
+    EXPECT_THAT(parse,
+                ThrowsMessage<InputError>(HasSubstr("did you mean '" + std::string(near) + "'")))
+        << wrong;
   }
 }
 
