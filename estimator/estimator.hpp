@@ -17,8 +17,6 @@
 #include "estimator/evidence/fit.hpp"
 #include "estimator/force/force_kinematics.hpp"
 #include "estimator/force/force_kinematics_fit.hpp"
-#include "estimator/force/load_logistic.hpp"
-#include "estimator/force/load_logistic_fit.hpp"
 #include "estimator/force/support_force.hpp"
 #include "estimator/free_fall.hpp"
 #include "estimator/models/compiled.hpp"

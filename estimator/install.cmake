@@ -15,8 +15,7 @@ set(public
   decision/network decision/training
   evidence/curves evidence/filter evidence/fit
   evidence/training
-  force/force_kinematics force/force_kinematics_fit force/leg_geometry force/load_logistic
-  force/load_logistic_fit force/logistic_regression force/support_force
+  force/force_kinematics force/force_kinematics_fit force/leg_geometry force/support_force
   models/arrays models/compiled models/make_estimator models/metadata
   neural/estimator neural/input neural/network
   phase/config phase/filter phase/fit phase/labels phase/model phase/phase)

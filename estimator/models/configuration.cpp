@@ -190,16 +190,6 @@ void visit_members(Visit& visit, Config& config) {
 }
 
 template <typename Visit, typename Config>
-requires std::same_as<std::remove_const_t<Config>, LoadLogisticConfig>
-void visit_members(Visit& visit, Config& config) {
-  visit_geometry(visit, config.geometry);
-  visit("low_pass", config.low_pass);
-  visit("largest_force", config.largest_force);
-  visit("threshold", config.threshold);
-  visit_guard(visit, config.guard);
-}
-
-template <typename Visit, typename Config>
 requires std::same_as<std::remove_const_t<Config>, ForceKinematicsConfig>
 void visit_members(Visit& visit, Config& config) {
   visit_geometry(visit, config.geometry);
@@ -266,7 +256,6 @@ void read(Config& config, const ConfigurationText& text) {
 ConfigurationText text_of(const BayesFilterConfig& config) { return written(config); }
 ConfigurationText text_of(const PhaseFilterConfig& config) { return written(config); }
 ConfigurationText text_of(const NeuralEstimatorConfig& config) { return written(config); }
-ConfigurationText text_of(const LoadLogisticConfig& config) { return written(config); }
 ConfigurationText text_of(const ForceKinematicsConfig& config) { return written(config); }
 ConfigurationText text_of(const DecisionConfig& config) { return written(config); }
 ConfigurationText text_of(const LegGeometry& geometry) { return written(geometry); }
@@ -274,7 +263,6 @@ ConfigurationText text_of(const LegGeometry& geometry) { return written(geometry
 void configure(BayesFilterConfig& config, const ConfigurationText& text) { read(config, text); }
 void configure(PhaseFilterConfig& config, const ConfigurationText& text) { read(config, text); }
 void configure(NeuralEstimatorConfig& config, const ConfigurationText& text) { read(config, text); }
-void configure(LoadLogisticConfig& config, const ConfigurationText& text) { read(config, text); }
 void configure(ForceKinematicsConfig& config, const ConfigurationText& text) { read(config, text); }
 void configure(DecisionConfig& config, const ConfigurationText& text) { read(config, text); }
 

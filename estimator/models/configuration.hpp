@@ -3,7 +3,6 @@
 #include "estimator/bayes/config.hpp"
 #include "estimator/decision/config.hpp"
 #include "estimator/force/force_kinematics.hpp"
-#include "estimator/force/load_logistic.hpp"
 #include "estimator/models/metadata.hpp"
 #include "estimator/neural/estimator.hpp"
 #include "estimator/phase/config.hpp"
@@ -15,7 +14,6 @@ namespace touchdown {
 ConfigurationText text_of(const BayesFilterConfig& config);
 ConfigurationText text_of(const PhaseFilterConfig& config);
 ConfigurationText text_of(const NeuralEstimatorConfig& config);
-ConfigurationText text_of(const LoadLogisticConfig& config);
 ConfigurationText text_of(const ForceKinematicsConfig& config);
 ConfigurationText text_of(const DecisionConfig& config);
 /// The robot's part of a configuration. Estimators that use kinematics have all of it or a part.
@@ -26,7 +24,6 @@ ConfigurationText text_of(const LegGeometry& geometry);
 void configure(BayesFilterConfig& config, const ConfigurationText& text);
 void configure(PhaseFilterConfig& config, const ConfigurationText& text);
 void configure(NeuralEstimatorConfig& config, const ConfigurationText& text);
-void configure(LoadLogisticConfig& config, const ConfigurationText& text);
 void configure(ForceKinematicsConfig& config, const ConfigurationText& text);
 void configure(DecisionConfig& config, const ConfigurationText& text);
 

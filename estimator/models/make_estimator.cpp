@@ -142,7 +142,6 @@ const std::vector<Recipe>& recipes() {
         of_phases("hmm"),
         of_phases("hmm_without_memory"),
         of_neural_network(),
-        of_parameters<LoadLogistic, LoadLogisticConfig, logistic_curve_of>("load_logistic"),
         of_parameters<ForceKinematics, ForceKinematicsConfig, force_kinematics_model_of>(
             "force_kinematics"),
         of_decisions<DecisionNetwork, decision_model_of>("decision_network", "decision_network",

@@ -176,14 +176,6 @@ double parameter(const Parameters& parameters, std::string_view name) {
   return parameter(parameters, name, 1)[0];
 }
 
-Parameters parameters_of(const LogisticCurve& curve) {
-  return {{"slope", {curve.slope}}, {"intercept", {curve.intercept}}};
-}
-
-LogisticCurve logistic_curve_of(const Parameters& parameters) {
-  return {.slope = parameter(parameters, "slope"), .intercept = parameter(parameters, "intercept")};
-}
-
 Parameters parameters_of(const ForceKinematicsModel& model) {
   Parameters parameters;
   for (const auto& [name, of] : state_parameters) {

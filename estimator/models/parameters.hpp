@@ -10,7 +10,6 @@
 #include "estimator/decision/network.hpp"
 #include "estimator/evidence/curves.hpp"
 #include "estimator/force/force_kinematics.hpp"
-#include "estimator/force/logistic_regression.hpp"
 #include "estimator/models/arrays.hpp"
 
 namespace touchdown {
@@ -38,13 +37,11 @@ double parameter(const Parameters& parameters, std::string_view name);
 
 /// Converts models to parameters and back. Errors: `InputError` for parameters that are missing or
 /// of another size.
-Parameters parameters_of(const LogisticCurve& curve);
 Parameters parameters_of(const ForceKinematicsModel& model);
 Parameters parameters_of(const DecisionModel& model);
 /// `curves_<channel>` by time scale, then by knot (nats); `seen_<channel>`, the lower and upper end
 /// of each input's range. Those of steps without targets begin with `without_targets_`.
 Parameters parameters_of(const EvidenceCurveSets& sets);
-LogisticCurve logistic_curve_of(const Parameters& parameters);
 ForceKinematicsModel force_kinematics_model_of(const Parameters& parameters);
 /// Converts doubles back to the floats that they came from.
 DecisionModel decision_model_of(const Parameters& parameters);

@@ -12,8 +12,8 @@ fitted = touchdown.simulate("scenarios/stairs.yaml", seed=1, run=0)
 run = touchdown.simulate("scenarios/stairs.yaml", seed=1, run=1)
 print(run, run["torque"].shape, f"{1 - run['contact'].mean():.1%} without contact")
 
-# %% Two fitted estimators: a logistic regression on loads, and the robust form of the paper's filter.
-for name in ("load_logistic", "robust"):
+# %% Two fitted estimators: a filter of loads and motions, and the robust form of the paper's filter.
+for name in ("force_kinematics", "robust"):
     model = touchdown.fit(fitted, name)
     estimator = touchdown.Estimator(model=model)
     beliefs = estimator.run(run)

@@ -1,7 +1,6 @@
 #include "experiments/estimators/forces.hpp"
 
 #include "estimator/force/force_kinematics_fit.hpp"
-#include "estimator/force/load_logistic_fit.hpp"
 #include "estimator/force/support_force.hpp"
 #include "experiments/estimators/parameter_fitting.hpp"
 
@@ -14,19 +13,6 @@ using EstimatorPointer = std::unique_ptr<ContactEstimator>;
 /// The sensors that a wheel's load is computed from.
 constexpr Sensors load_sensors = {
     .hip_torque = true, .knee_torque = true, .acceleration = true, .joint_position = true};
-
-FittedModel fit_logistic_curve(const EstimatorEntry& entry, const FitRuns& runs) {
-  return fit_parameters(entry, runs, [&](std::span<const LabelledRun> labelled) {
-    return parameters_of(fit_load_logistic(
-        labelled, {.geometry = legs_of(runs), .low_pass = entry.chosen("low_pass")}));
-  });
-}
-
-EstimatorPointer make_load_logistic(const EstimatorEntry& entry, const EstimatorSetup& setup) {
-  return std::make_unique<LoadLogistic>(
-      logistic_curve_of(setup.model->parameters->parameters),
-      configured(LoadLogisticConfig{.sample_rate = setup.sample_rate}, entry, setup));
-}
 
 FittedModel fit_wheel_states(const EstimatorEntry& entry, const FitRuns& runs) {
   return fit_parameters(entry, runs, [&](std::span<const LabelledRun> labelled) {
@@ -65,19 +51,6 @@ EstimatorEntry support_force_entry() {
           }};
 }
 
-EstimatorEntry load_logistic_entry() {
-  return {.name = "load_logistic",
-          .title = "Load, logistic",
-          .summary = "Maps each wheel's load by a logistic curve (Camurri et al. 2017, on wheels)",
-          .reason = "data: 2 s of labels; the usual method on legged robots",
-          .sensors = load_sensors,
-          .knows = {.geometry = true},
-          .fit = fit_logistic_curve,
-          .hyperparameters = {between("threshold", LoadLogisticConfig{}.threshold, 0.1, 0.95),
-                              fitted_with(around("low_pass", LoadLogisticConfig{}.low_pass, 5.0))},
-          .make = make_load_logistic};
-}
-
 EstimatorEntry force_kinematics_entry() {
   Sensors sensors = load_sensors;
   sensors.joint_velocity = true;
@@ -88,7 +61,7 @@ EstimatorEntry force_kinematics_entry() {
           "Filters each wheel's load and axle motion by a hidden Markov model (Hwangbo et al. "
           "2016, "
           "on wheels)",
-      .reason = "history: the usual filter on legged robots, five numbers a state",
+      .reason = "data: 2 s of labels; the usual filter on legged robots",
       .sensors = sensors,
       .knows = {.geometry = true},
       .fit = fit_wheel_states,

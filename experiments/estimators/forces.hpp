@@ -8,7 +8,6 @@ namespace touchdown::experiments {
 EstimatorEntry support_force_entry();
 
 /// Published estimators for legged robots, applied to wheels.
-EstimatorEntry load_logistic_entry();
 EstimatorEntry force_kinematics_entry();
 
 }  // namespace touchdown::experiments

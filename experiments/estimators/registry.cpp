@@ -44,7 +44,6 @@ std::span<const EstimatorEntry> estimator_entries() {
       upkie_observer_entry(),
       free_fall_entry(),
       support_force_entry(),
-      load_logistic_entry(),
       force_kinematics_entry(),
       decision_network_entry(),
       evidence_curves_entry(),

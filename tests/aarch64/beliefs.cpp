@@ -117,7 +117,6 @@ void print_all_beliefs() {
   print_beliefs("free_fall", FreeFall(), signals);
   print_beliefs("support_force", SupportForce(), signals);
   const std::vector<LabelledRun> labels = {labelled(run)};
-  print_beliefs("load_logistic", LoadLogistic(fit_load_logistic(labels)), signals);
   print_beliefs("force_kinematics", ForceKinematics(fit_force_kinematics(labels)), signals);
   print_beliefs("decision_network", DecisionNetwork(test::random_model(2)), signals);
   print_beliefs("evidence_curves", EvidenceCurves(test::random_curves(2)), signals);

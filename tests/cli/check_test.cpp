@@ -207,7 +207,7 @@ TEST(FittedLogs, RefusesLogsOfTwoRates) {
     }
     part.info.control_period_us = 1000 * every;
     recordings::write_recording(part, folder / "b.mpack");
-    for (const char* name : {"robust", "load_logistic"}) {
+    for (const char* name : {"robust", "force_kinematics"}) {
       const Ended ended = touchdown_program(
           fmt::format("fit --contact a.mpack --no-contact b.mpack -o m.npz --estimator {}", name),
           folder.path());
@@ -225,14 +225,14 @@ TEST(FittedLogs, SkipsTheBeginningOfTheLogAloneAndNotThatOfEachSegment) {
                "start,end,contact\n0.3495,0.5495,1\n0.6195,0.7795,0\n0.9995,1.4995,1\n"
                "1.6195,1.7795,0\n2.6195,2.7795,0\n");
   const Ended fitted = touchdown_program(
-      "fit robot.mpack --labels robot.csv -o m.npz --estimator load_logistic", folder.path());
+      "fit robot.mpack --labels robot.csv -o m.npz --estimator force_kinematics", folder.path());
   EXPECT_EQ(fitted.exit_code, 0) << fitted.errors;
   EXPECT_THAT(fitted.output, HasSubstr("no contact   960 samples"));
   EXPECT_THAT(fitted.output, HasSubstr("1.180 s of 1 log"));
   // The message counts what was left out.
   folder.write("early.csv", "start,end,contact\n0.0,0.1995,0\n0.6195,0.7795,1\n");
   const Ended refused = touchdown_program(
-      "fit robot.mpack --labels early.csv -o m.npz --estimator load_logistic", folder.path());
+      "fit robot.mpack --labels early.csv -o m.npz --estimator force_kinematics", folder.path());
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.errors, HasSubstr("200 such steps lie in the first 0.3 s of their logs"));
 }

@@ -294,20 +294,22 @@ TEST_F(Estimate, DistinguishesAPhaseModelFromAGrid) {
 
 TEST_F(Estimate, RecognizesTheEstimatorOfAParameterModel) {
   log("a.mpack", test::synthetic_log(3.0));
-  ASSERT_EQ(
-      touchdown_program("fit a.mpack -o l.npz --estimator load_logistic", folder_.path()).exit_code,
-      0);
-  EXPECT_THAT(estimate("a.mpack --model l.npz"), HasSubstr("Load, logistic"));
-  EXPECT_THAT(estimate("a.mpack --model l.npz --estimator load_logistic"), HasSubstr("truth"));
-  for (const std::string other : {"robust", "phase", "force_kinematics"}) {
+  ASSERT_EQ(touchdown_program("fit a.mpack -o l.npz --estimator force_kinematics", folder_.path())
+                .exit_code,
+            0);
+  EXPECT_THAT(estimate("a.mpack --model l.npz"), HasSubstr("Force and kinematics"));
+  EXPECT_THAT(estimate("a.mpack --model l.npz --estimator force_kinematics"), HasSubstr("truth"));
+  for (const std::string other : {"robust", "phase", "decision_network"}) {
     EXPECT_THAT(complaint_about("a.mpack --model l.npz --estimator " + other),
-                AllOf(HasSubstr("l.npz: is a model of 'load_logistic', which '" + other),
-                      HasSubstr("did you mean --estimator load_logistic?")));
+                AllOf(HasSubstr("l.npz: is a model of 'force_kinematics', which '" + other),
+                      HasSubstr("did you mean --estimator force_kinematics?")));
   }
-  EXPECT_THAT(complaint_about("a.mpack --model m.npz --estimator load_logistic"),
+  EXPECT_THAT(complaint_about("a.mpack --model m.npz --estimator force_kinematics"),
               HasSubstr("m.npz: is a model of torques' densities"));
-  recordings::write_parameter_model({"load_logistic", {{"slope", {1.0}}}, {}}, folder_ / "l.npz");
-  EXPECT_THAT(complaint_about("a.mpack --model l.npz"), HasSubstr("l.npz: parameter 'intercept'"));
+  recordings::write_parameter_model({"force_kinematics", {{"force_mean", {1.0, 2.0}}}, {}},
+                                    folder_ / "l.npz");
+  EXPECT_THAT(complaint_about("a.mpack --model l.npz"),
+              HasSubstr("l.npz: parameter 'force_deviation'"));
   recordings::write_parameter_model({"lode", {{"slope", {1.0}}}, {}}, folder_ / "l.npz");
   EXPECT_THAT(complaint_about("a.mpack --model l.npz"), HasSubstr("unknown estimator 'lode'"));
 }

@@ -84,7 +84,7 @@ TEST_F(Fit, ToCorrectLabelsEqualsTheFitToTheTruth) {
   log("with_truth.mpack", test::synthetic_log(3.0));
   log("robot.mpack", test::synthetic_log(3.0, 1000, false));
   folder_.write("robot.csv", test::synthetic_labels(0, 3));
-  for (const std::string name : {"robust", "phase", "load_logistic"}) {
+  for (const std::string name : {"robust", "phase", "force_kinematics"}) {
     EXPECT_EQ(fit("robot.mpack --labels robot.csv -o m.npz --estimator " + name),
               fit("with_truth.mpack -o m.npz --estimator " + name))
         << "as many samples, the same bandwidths";
@@ -161,8 +161,8 @@ TEST_F(Fit, OfParametersEqualsTheFitOfExperiments) {
   log("a.mpack", test::synthetic_log(3.0));
   const experiments::RunSignals run = experiments::signals_of(
       recordings::read_recording(folder_ / "a.mpack"), {}, {}, scoring::SampleUnit::run);
-  for (const std::string name : {"load_logistic", "force_kinematics", "decision_network",
-                                 "evidence_curves", "evidence_curves_quiet"}) {
+  for (const std::string name :
+       {"force_kinematics", "decision_network", "evidence_curves", "evidence_curves_quiet"}) {
     EXPECT_THAT(fit("a.mpack -o m.npz --estimator " + name), HasSubstr("2.700 s of 1 log"));
     const experiments::EstimatorEntry& entry = experiments::estimator_entry(name);
     const recordings::ParameterModelFile written =
@@ -176,16 +176,16 @@ TEST_F(Fit, OfParametersEqualsTheFitOfExperiments) {
 TEST_F(Fit, OfParametersUsesLogsOfOneClassAsDeclared) {
   log("both.mpack", test::synthetic_log(2.0));
   log("rolling.mpack", test::one_class_log(2.0, true));
-  EXPECT_THAT(fit("both.mpack --contact rolling.mpack -o m.npz --estimator load_logistic"),
+  EXPECT_THAT(fit("both.mpack --contact rolling.mpack -o m.npz --estimator force_kinematics"),
               HasSubstr("2 logs"));
   fs::remove(folder_ / "m.npz");
-  EXPECT_THAT(complaint_about("--contact rolling.mpack -o m.npz --estimator load_logistic"),
+  EXPECT_THAT(complaint_about("--contact rolling.mpack -o m.npz --estimator force_kinematics"),
               HasSubstr("no step of the logs is without contact"));
   log("robot.mpack", test::robot_log(1.0));
-  EXPECT_THAT(complaint_about("robot.mpack -o m.npz --estimator load_logistic"),
+  EXPECT_THAT(complaint_about("robot.mpack -o m.npz --estimator force_kinematics"),
               HasSubstr("no ground truth"));
-  EXPECT_THAT(complaint_about("both.mpack -o m.npz --estimator load_logistic --grid 9 9"),
-              HasSubstr("not for 'load_logistic'"));
+  EXPECT_THAT(complaint_about("both.mpack -o m.npz --estimator force_kinematics --grid 9 9"),
+              HasSubstr("not for 'force_kinematics'"));
 }
 
 TEST_F(Fit, RefusesLabelsThatTheLogsOwnTruthContradicts) {
@@ -198,7 +198,7 @@ TEST_F(Fit, RefusesLabelsThatTheLogsOwnTruthContradicts) {
   };
   log("rolling.mpack", with_truth(test::one_class_log(2.0, true), 26.0));
   log("hanging.mpack", with_truth(test::one_class_log(2.0, false), 0.0));
-  for (const std::string estimator : {"robust", "load_logistic"}) {
+  for (const std::string estimator : {"robust", "force_kinematics"}) {
     EXPECT_THAT(complaint_about("--contact hanging.mpack --no-contact rolling.mpack -o m.npz "
                                 "--estimator " +
                                 estimator),
@@ -241,7 +241,8 @@ TEST_F(Fit, RefusesRunsOfReservedSeeds) {
   log("a.mpack", reserved);
   EXPECT_THAT(complaint_about("a.mpack -o m.npz"), HasSubstr("reserved"));
   EXPECT_THAT(complaint_about("a.mpack -o m.npz --estimator phase"), HasSubstr("reserved"));
-  EXPECT_THAT(complaint_about("a.mpack -o m.npz --estimator load_logistic"), HasSubstr("reserved"));
+  EXPECT_THAT(complaint_about("a.mpack -o m.npz --estimator force_kinematics"),
+              HasSubstr("reserved"));
   EXPECT_THAT(complaint_about("--contact a.mpack -o m.npz"), HasSubstr("reserved"));
 }
 
@@ -263,7 +264,7 @@ TEST_F(Fit, NeedsBothClassesAndTheirLabels) {
 
 TEST_F(Fit, ReadsALogFromStandardInput) {
   log("a.mpack", test::synthetic_log(3.0));
-  for (const std::string name : {"robust", "paper", "phase", "load_logistic"}) {
+  for (const std::string name : {"robust", "paper", "phase", "force_kinematics"}) {
     fit("a.mpack -o file.npz --estimator " + name);
     fit("- -o input.npz --estimator " + name + " < a.mpack");
     EXPECT_TRUE(read_file(folder_ / "file.npz") == read_file(folder_ / "input.npz")) << name;

@@ -93,7 +93,7 @@ TEST_F(Metadata, OfASimulatedLogNamesItsRobot) {
 
 TEST_F(Metadata, OfARobotsFileHasItsLegs) {
   const std::string robot = "--robot models/upkie_long_legs.yaml";
-  run("fit a.mpack -o long.npz --estimator load_logistic " + robot);
+  run("fit a.mpack -o long.npz --estimator force_kinematics " + robot);
   const ModelMetadata metadata = load_metadata(folder_ / "long.npz");
   EXPECT_EQ(metadata.robot, "upkie_long_legs");
   EXPECT_EQ(metadata.configuration.at("geometry.upper_length"), "0.2352") << "1.4 times 0.168 m";
@@ -126,6 +126,8 @@ TEST_F(Metadata, OfFormerNamesIsReplacedByThePresentOnes) {
               HasSubstr("unknown estimator 'touchdown': it is 'evidence_curves' now"));
   EXPECT_THAT(complaint_about("fit a.mpack -o x.npz --estimator evidence_pairs"),
               HasSubstr("it is 'evidence_curves' now"));
+  EXPECT_THAT(complaint_about("fit a.mpack -o x.npz --estimator load_logistic"),
+              HasSubstr("it is 'force_kinematics' now"));
 }
 
 TEST_F(Metadata, OfAModelExportedForAnotherRobotHasItsLegs) {

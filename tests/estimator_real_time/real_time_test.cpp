@@ -15,7 +15,6 @@
 #include "estimator/decision/filter.hpp"
 #include "estimator/evidence/filter.hpp"
 #include "estimator/force/force_kinematics.hpp"
-#include "estimator/force/load_logistic.hpp"
 #include "estimator/force/support_force.hpp"
 #include "estimator/free_fall.hpp"
 #include "estimator/phase/filter.hpp"
@@ -143,12 +142,10 @@ TEST_F(RealTime, EstimatorsFromForcesAllocateNothing) {
   stream[300].leg[1].knee.velocity = std::nan("");
   stream[400].time = 1e9;
   SupportForce support_force;
-  LoadLogistic load_logistic({.slope = 0.5, .intercept = -5.0});
   ForceKinematics force_kinematics({.air = {}, .contact = {.force_mean = 26.0}});
   DecisionNetwork decision_network(test::random_model(1));
   EvidenceCurves evidence_curves(test::random_curves(1));
   for (ContactEstimator* const estimator : {static_cast<ContactEstimator*>(&support_force),
-                                            static_cast<ContactEstimator*>(&load_logistic),
                                             static_cast<ContactEstimator*>(&force_kinematics),
                                             static_cast<ContactEstimator*>(&decision_network),
                                             static_cast<ContactEstimator*>(&evidence_curves)}) {

@@ -19,7 +19,7 @@ namespace {
 Experiment small(const ScratchFolder& folder, const std::string& more = "") {
   const std::string scene = folder.write("step.yaml", small_step_scene).string();
   return experiment_from_yaml(YamlDocument::parse(
-      "name: small\nestimators: [robust, load_logistic, free_fall]\n"
+      "name: small\nestimators: [robust, force_kinematics, free_fall]\n"
       "fit: {scenarios: [" +
           scene + "], runs: 2, perturbed: true" +
           (more.find("tuning") == std::string::npos ? "" : ", tuning: {trials: 3}") +

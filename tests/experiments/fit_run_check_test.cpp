@@ -113,10 +113,10 @@ void check_failing(const std::vector<std::string>& estimators, bool segment) {
 TEST(FitRunCheck, NamesTheFirstFailureIfEveryRunFails) {
   EXPECT_THAT(
       [] {
-        check_failing({"robust", "free_fall", "load_logistic"}, false);
+        check_failing({"robust", "free_fall", "force_kinematics"}, false);
       },
       ThrowsMessage<InputError>(
-          "fit on bullet: robust, load_logistic: no run of fit.scenarios stayed upright: "
+          "fit on bullet: robust, force_kinematics: no run of fit.scenarios stayed upright: "
           "run_2 ended badly, and 2 others"));
   // Those that are fitted to segments have other runs.
   EXPECT_THAT(

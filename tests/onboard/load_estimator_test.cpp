@@ -90,7 +90,7 @@ TEST_F(LoadEstimator, LoadsTheMetadata) {
 }
 
 TEST_F(LoadEstimator, RefusesMetadataUnderTheirFormerName) {
-  for (const std::string name : {"robust", "phase", "load_logistic"}) {
+  for (const std::string name : {"robust", "phase", "force_kinematics"}) {
     ModelArrays arrays = test::fitted_model(name);
     auto metadata = arrays.extract(std::string(metadata_array));
     metadata.key() = former_metadata_array;

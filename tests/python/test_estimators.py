@@ -36,7 +36,7 @@ class Fit(InFolder):
     def test_writes_the_program_s_bytes(self):
         run = hop()
         run.save("hop.mpack")
-        for estimator in ("robust", "load_logistic"):
+        for estimator in ("robust", "force_kinematics"):
             program("fit", "hop.mpack", "--estimator", estimator, "-o", "program.npz")
             for source in (run, "hop.mpack"):
                 model = touchdown.fit(source, estimator)
@@ -171,7 +171,7 @@ class Run(InFolder):
         run = hop()
         falling = {name: np.asfortranarray(run[name]) for name in NAMES}
         # These estimators use every joint: torques, and a leg's geometry.
-        for model in (touchdown.fit(run, "robust"), touchdown.fit(run, "load_logistic"), touchdown.fit(run, "decision_network")):
+        for model in (touchdown.fit(run, "robust"), touchdown.fit(run, "force_kinematics"), touchdown.fit(run, "decision_network")):
             estimator = touchdown.Estimator(model=model)
             expected = estimator.run(run)["p_contact"]
             np.testing.assert_array_equal(estimator.run(falling)["p_contact"], expected, err_msg=model.estimator)

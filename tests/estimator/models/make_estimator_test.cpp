@@ -84,7 +84,7 @@ TEST(MakeEstimator, AcceptsAModelWithoutMetadataIfTheCallerNamesTheRest) {
             "has no metadata, being older or from another program: name the estimator that it was "
             "fitted for, and its sample_rate (Hz)");
   EXPECT_THAT(complaint_about(grid, {.sample_rate = 1000.0}), HasSubstr("name the estimator"));
-  EXPECT_THAT(complaint_about(test::fitted_arrays("load_logistic")),
+  EXPECT_THAT(complaint_about(test::fitted_arrays("force_kinematics")),
               HasSubstr("name its sample_rate (Hz)"));
   EXPECT_THAT(complaint_about(test::fitted_arrays("phase"), {.estimator = "robust"}),
               HasSubstr("was fitted for 'phase'"));
@@ -96,17 +96,17 @@ TEST(MakeEstimator, AcceptsAModelWithoutMetadataIfTheCallerNamesTheRest) {
 }
 
 TEST(MakeEstimator, RefusesChangedNumbers) {
-  ModelArrays arrays = test::fitted_model("load_logistic");
-  arrays["slope"].data[0] += 1e-9;
+  ModelArrays arrays = test::fitted_model("force_kinematics");
+  arrays["force_mean"].data[0] += 1e-9;
   EXPECT_THAT(complaint_about(arrays), HasSubstr("its numbers are not those that were fitted"));
-  arrays = test::fitted_model("load_logistic");
+  arrays = test::fitted_model("force_kinematics");
   arrays["new"] = {{1}, {0.0}};
   EXPECT_THAT(complaint_about(arrays), HasSubstr("not those that were fitted"));
 }
 
 TEST(MakeEstimator, RefusesInvalidMetadata) {
   const auto with = [](const std::string& from, const std::string& to) {
-    ModelArrays arrays = test::fitted_model("load_logistic");
+    ModelArrays arrays = test::fitted_model("force_kinematics");
     const std::string name(metadata_array);
     std::string text = text_of_array(arrays.at(name), name);
     text.replace(text.find(from), from.size(), to);
@@ -120,16 +120,16 @@ TEST(MakeEstimator, RefusesInvalidMetadata) {
   EXPECT_THAT(with("sample_rate: 1000", "sample_rate: fast"), HasSubstr("is not understood"));
   EXPECT_THAT(with("sample_rate: 1000", "sample_rate: -1"), HasSubstr("positive sample_rate"));
   EXPECT_THAT(with("robot: upkie", "robot: other"), HasSubstr("fingerprint"));
-  ModelArrays arrays = test::fitted_arrays("load_logistic");
-  add_metadata(arrays, {"load_logistic", 1000.0, "", {{"speed", "1"}}, ""});
+  ModelArrays arrays = test::fitted_arrays("force_kinematics");
+  add_metadata(arrays, {"force_kinematics", 1000.0, "", {{"speed", "1"}}, ""});
   EXPECT_THAT(complaint_about(arrays), HasSubstr("configuration.speed: is not known"));
-  add_metadata(arrays, {"load_logistic", 1000.0, "", {{"threshold", "high"}}, ""});
+  add_metadata(arrays, {"force_kinematics", 1000.0, "", {{"threshold", "high"}}, ""});
   EXPECT_THAT(complaint_about(arrays),
               HasSubstr("configuration.threshold: 'high' is no value for it"));
 }
 
 TEST(MakeEstimator, RefusesMetadataUnderTheirFormerName) {
-  for (const std::string name : {"robust", "phase", "nmn", "load_logistic", "evidence_curves"}) {
+  for (const std::string name : {"robust", "phase", "nmn", "force_kinematics", "evidence_curves"}) {
     ModelArrays arrays = test::fitted_model(name);
     auto metadata = arrays.extract(std::string(metadata_array));
     metadata.key() = former_metadata_array;
@@ -143,7 +143,7 @@ TEST(MakeEstimator, RefusesMetadataUnderTheirFormerName) {
 }
 
 TEST(MakeEstimator, RefusesARobotNameOfSeveralLines) {
-  EXPECT_THAT(complaint([] { test::fitted_model("load_logistic", "a\nunits: kgf"); }),
+  EXPECT_THAT(complaint([] { test::fitted_model("force_kinematics", "a\nunits: kgf"); }),
               HasSubstr("expected a name of one line"));
 }
 
@@ -176,7 +176,7 @@ TEST(MakeEstimator, CallersConfigurationReplacesThatOfTheMetadata) {
 }
 
 TEST(MakeEstimator, UsesTheLegsOfAnotherRobot) {
-  const ModelArrays arrays = test::fitted_model("load_logistic");
+  const ModelArrays arrays = test::fitted_model("force_kinematics");
   LegGeometry longer;
   longer.upper_length = 0.3;
   std::vector<Signals> stream = test::drops(200);
@@ -226,8 +226,8 @@ TEST(Configuration, ReadsOlderFilesOfDecisionNetworks) {
   EXPECT_EQ(text_of(read).at("wheel_inertia"), "0.125");
   EXPECT_EQ(read.geometry.robot_mass, LegGeometry{}.robot_mass) << "which they do not contain";
   // Configurations of other estimators contain neither the wheel's inertia nor the robot's mass.
-  EXPECT_FALSE(text_of(LoadLogisticConfig{}).contains("geometry.wheel_inertia"));
-  EXPECT_FALSE(text_of(LoadLogisticConfig{}).contains("robot_mass"));
+  EXPECT_FALSE(text_of(ForceKinematicsConfig{}).contains("geometry.wheel_inertia"));
+  EXPECT_FALSE(text_of(ForceKinematicsConfig{}).contains("robot_mass"));
 }
 
 TEST(Configuration, KeepsTheWindowsLengthAtAnotherRate) {
@@ -240,8 +240,8 @@ TEST(Configuration, KeepsTheWindowsLengthAtAnotherRate) {
 }
 
 TEST(CompiledModel, BelievesTheSameToTheBit) {
-  for (const std::string name : {"robust", "phase", "nmn", "load_logistic", "force_kinematics",
-                                 "decision_network", "evidence_curves", "evidence_curves_quiet"}) {
+  for (const std::string name : {"robust", "phase", "nmn", "force_kinematics", "decision_network",
+                                 "evidence_curves", "evidence_curves_quiet"}) {
     const ModelArrays arrays = test::fitted_model(name);
     std::vector<std::vector<float>> floats;
     std::vector<std::string> texts;
@@ -374,14 +374,19 @@ TEST(EvidenceCurves, HaveTwoOperatingPointsOfOneModel) {
 }
 
 TEST(MakeEstimator, NamesThePresentEstimatorOfAnEarlierOne) {
-  for (const char* const former : {"touchdown", "evidence_pairs"}) {
-    ModelArrays arrays = test::fitted_arrays("evidence_curves");
+  const std::vector<std::pair<const char*, const char*>> names = {
+      {"touchdown", "evidence_curves"},
+      {"evidence_pairs", "evidence_curves"},
+      {"load_logistic", "force_kinematics"}};
+  for (const auto& [former, present] : names) {
+    ModelArrays arrays = test::fitted_arrays(present);
     arrays[std::string(estimator_array)] = array_of_text(former);
     add_metadata(arrays, {former, 1000.0, "", {}, ""});
-    EXPECT_THAT(complaint_about(arrays),
-                AllOf(HasSubstr(former), HasSubstr("'evidence_curves' now: fit it again")));
-    EXPECT_THAT(complaint_about(test::fitted_model("evidence_curves"), {.estimator = former}),
-                HasSubstr("'evidence_curves' now"));
+    EXPECT_THAT(
+        complaint_about(arrays),
+        AllOf(HasSubstr(former), HasSubstr("'" + std::string(present) + "' now: fit it again")));
+    EXPECT_THAT(complaint_about(test::fitted_model(present), {.estimator = former}),
+                HasSubstr("'" + std::string(present) + "' now"));
   }
 }
 

@@ -42,7 +42,7 @@ std::string complaint(const ModelArrays& arrays, const ModelUse& use) {
 
 TEST(ModelFor, AnotherRobotStoresItsLegs) {
   for (const char* name :
-       {"evidence_curves_quiet", "decision_network", "evidence_curves", "load_logistic"}) {
+       {"evidence_curves_quiet", "decision_network", "evidence_curves", "force_kinematics"}) {
     SCOPED_TRACE(name);
     const ModelArrays upkies = test::fitted_model(name);
     const ModelArrays own = model_for(upkies, {.robot = "stilts", .geometry = long_legs});

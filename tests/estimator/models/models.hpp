@@ -26,12 +26,11 @@ inline ModelArrays fitted_arrays(const std::string& name) {
   };
   if (name == "phase" || name.starts_with("hmm")) return arrays_of(small_phase_model());
   if (name == "nmn") return arrays_of(random_network(16, 16, 8));
-  if (name == "load_logistic") {
-    return of_parameters(parameters_of(LogisticCurve{.slope = 0.7, .intercept = -6.1}));
-  }
   if (name == "force_kinematics") {
+    // Wide deviations, so that no belief rounds to one.
     return of_parameters(parameters_of(ForceKinematicsModel{
-        .air = {.force_mean = 0.3}, .contact = {.force_mean = 26.0, .leaving_rate = 0.7}}));
+        .air = {.force_mean = 0.3, .force_deviation = 20.0},
+        .contact = {.force_mean = 26.0, .force_deviation = 20.0, .leaving_rate = 0.7}}));
   }
   if (name == "decision_network") return of_parameters(parameters_of(random_model(3)));
   if (name.starts_with("evidence_curves")) return of_parameters(parameters_of(random_curves(3)));

@@ -117,7 +117,7 @@ TEST(EvidenceEntries, ShareAFitAndDifferInTheirOperatingPoint) {
 TEST(EvidenceIn, IsEmptyForOtherModels) {
   EXPECT_FALSE(evidence_in({}));
   EXPECT_FALSE(evidence_in({.parameters = std::make_shared<recordings::ParameterModelFile>(
-                                recordings::ParameterModelFile{"load_logistic", {}, {}})}));
+                                recordings::ParameterModelFile{"force_kinematics", {}, {}})}));
 }
 
 }  // namespace

@@ -63,11 +63,11 @@ TEST(FittedModel, IsNeverFittedToReservedSeeds) {
 }
 
 TEST(FittedModel, OfParametersNamesItsEstimatorAndProvenance) {
-  const FittedModels models = fit_models(synthetic_experiment({"robust", "load_logistic"}),
+  const FittedModels models = fit_models(synthetic_experiment({"robust", "force_kinematics"}),
                                          pointers_to({synthetic_run(first_fit_run)}));
-  const FittedModel& fitted = models.at("mujoco").at("load_logistic");
+  const FittedModel& fitted = models.at("mujoco").at("force_kinematics");
   EXPECT_FALSE(fitted.measurement || fitted.phase);
-  EXPECT_EQ(fitted.parameters->estimator, "load_logistic");
+  EXPECT_EQ(fitted.parameters->estimator, "force_kinematics");
   EXPECT_EQ(fitted.parameters->provenance.at("seed:run"), "1:1000000");
   EXPECT_EQ(fitted.parameters->provenance.at("seconds"), "3.700");
 }
@@ -79,11 +79,11 @@ TEST(FittedModel, IsSharedByEstimatorsWithTheSameFit) {
   EXPECT_TRUE(shares("robust", "measurement_only"));
   EXPECT_FALSE(shares("robust", "paper"));
   EXPECT_FALSE(shares("robust", "phase"));
-  EXPECT_FALSE(shares("load_logistic", "force_kinematics"));
+  EXPECT_FALSE(shares("force_kinematics", "decision_network"));
   EXPECT_FALSE(shares("free_fall", "free_fall"));
-  EstimatorEntry variant = estimator_entry("load_logistic");
+  EstimatorEntry variant = estimator_entry("force_kinematics");
   variant.name = "variant";
-  EXPECT_TRUE(share_model(variant, estimator_entry("load_logistic")));
+  EXPECT_TRUE(share_model(variant, estimator_entry("force_kinematics")));
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ TEST(RandomSequences, DoNotReachAFit) {
   for (const std::size_t k : {1000U, 2000U, 3000U}) {
     missing.signals[k].leg[0].hip.position = missing.signals[k].leg[1].knee.velocity = std::nan("");
   }
-  for (const std::string name : {"force_kinematics", "load_logistic", "decision_network"}) {
+  for (const std::string name : {"force_kinematics", "decision_network"}) {
     const auto parameters = [&](const RunSignals& run) {
       return fit_models(synthetic_experiment({name}), {&run}).at("mujoco").at(name).parameters;
     };

@@ -48,6 +48,7 @@ TEST(Registry, NamesThePresentEstimatorOfAnEarlierName) {
       {"touchdown", "evidence_curves"},
       {"touchdown_shipped", "shipped"},
       {"evidence_pairs", "evidence_curves"},
+      {"load_logistic", "force_kinematics"},
       {"gradient_boosting", "boosted_signals"}};
   for (const auto& [former, present] : names) {
     try {

@@ -79,8 +79,8 @@ TEST(Tune, CorrectsABadDefault) {
 }
 
 TEST(Tune, GivesEveryTunableEstimatorTheSameNumberOfTrials) {
-  const Experiment experiment = tuned_experiment(
-      {"robust", "phase", "load_logistic", "force_kinematics", "free_fall", "oracle"}, 3);
+  const Experiment experiment =
+      tuned_experiment({"robust", "phase", "force_kinematics", "free_fall", "oracle"}, 3);
   std::map<std::string, int> count, chosen;
   for (const Trial& trial : tune(experiment, "", pointers_to(fitted_runs(4)), {}, {})) {
     EXPECT_EQ(trial.number, count[trial.estimator]++);
@@ -88,17 +88,15 @@ TEST(Tune, GivesEveryTunableEstimatorTheSameNumberOfTrials) {
     EXPECT_GT(trial.score, 0.3) << trial.estimator;
     EXPECT_LE(trial.score, 1.0) << trial.estimator;
   }
-  EXPECT_EQ(count, (std::map<std::string, int>{{"force_kinematics", 3},
-                                               {"free_fall", 3},
-                                               {"load_logistic", 3},
-                                               {"phase", 3},
-                                               {"robust", 3}}));
+  EXPECT_EQ(count, (std::map<std::string, int>{
+                       {"force_kinematics", 3}, {"free_fall", 3}, {"phase", 3}, {"robust", 3}}));
   for (const auto& [estimator, times] : chosen) EXPECT_EQ(times, 1) << estimator;
 }
 
 TEST(Tune, ChoosesIndependentlyOfTheNumberOfThreads) {
   const std::vector<RunSignals> runs = fitted_runs(4);
-  const Experiment experiment = tuned_experiment({"robust", "load_logistic", "support_force"}, 4);
+  const Experiment experiment =
+      tuned_experiment({"robust", "force_kinematics", "support_force"}, 4);
   const auto with = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     std::vector<std::pair<double, bool>> all;
@@ -167,9 +165,10 @@ TEST(Tune, ChoosesTheFirstOfEqualTrials) {
 TEST(Tune, NamesTheFoldWithTooLittleData) {
   std::vector<RunSignals> runs = fitted_runs(2);
   for (auto& wheel : runs[1].contact) std::fill(wheel.begin(), wheel.end(), std::uint8_t{1});
-  EXPECT_THAT([&] { tune(tuned_experiment({"load_logistic"}, 2), "", pointers_to(runs), {}, {}); },
-              ThrowsMessage<InputError>(
-                  HasSubstr("fit.tuning: load_logistic on mujoco, without fold 1 of 2: ")));
+  EXPECT_THAT(
+      [&] { tune(tuned_experiment({"force_kinematics"}, 2), "", pointers_to(runs), {}, {}); },
+      ThrowsMessage<InputError>(
+          HasSubstr("fit.tuning: force_kinematics on mujoco, without fold 1 of 2: ")));
   EXPECT_THROW(
       tune(tuned_experiment({"robust"}, 2), "", pointers_to(runs), {}, [] { return false; }),
       Stopped);
@@ -178,7 +177,7 @@ TEST(Tune, NamesTheFoldWithTooLittleData) {
 /// Robots read the values from the metadata.
 TEST(Tune, StoresChosenValuesInTheMetadata) {
   const std::vector<RunSignals> runs = fitted_runs(2);
-  const Experiment experiment = tuned_experiment({"load_logistic", "phase", "paper"}, 1);
+  const Experiment experiment = tuned_experiment({"force_kinematics", "phase", "paper"}, 1);
   const auto metadata = [&](const std::string& estimator,
                             const HyperparameterValues& hyperparameters) {
     const TunedHyperparameters chosen = {{"mujoco", {{estimator, hyperparameters}}}};
@@ -188,9 +187,9 @@ TEST(Tune, StoresChosenValuesInTheMetadata) {
         .metadata;
   };
   const auto usual = fit_models(experiment, pointers_to(runs)).at("mujoco");
-  const auto tuned = metadata("load_logistic", {{"threshold", 0.25}});
+  const auto tuned = metadata("force_kinematics", {{"threshold", 0.25}});
   EXPECT_EQ(tuned->configuration.at("threshold"), "0.25");
-  EXPECT_EQ(usual.at("load_logistic").metadata->configuration.at("threshold"), "0.5");
+  EXPECT_EQ(usual.at("force_kinematics").metadata->configuration.at("threshold"), "0.5");
   EXPECT_EQ(metadata("paper", {{"transition.switch.offset", 3.5}})
                 ->configuration.at("transition.switch.offset"),
             "3.5");
@@ -202,25 +201,25 @@ TEST(Tune, StoresChosenValuesInTheMetadata) {
 
 TEST(Tune, SetsTheHyperparametersOfLogEstimators) {
   const ScratchFolder folder;
-  const TunedHyperparameters chosen = {{"mujoco", {{"load_logistic", {{"threshold", 0.25}}}}}};
-  const FittedModels models = fit_models(tuned_experiment({"load_logistic"}, 1),
+  const TunedHyperparameters chosen = {{"mujoco", {{"force_kinematics", {{"threshold", 0.25}}}}}};
+  const FittedModels models = fit_models(tuned_experiment({"force_kinematics"}, 1),
                                          pointers_to(fitted_runs(2)), {}, {}, chosen);
   const std::filesystem::path file = folder / "model.npz";
-  write_fitted_model(models.at("mujoco").at("load_logistic"), file);
+  write_fitted_model(models.at("mujoco").at("force_kinematics"), file);
   EXPECT_EQ(log_estimator({.model = file}).entry.chosen("threshold"), 0.25);
-  EXPECT_EQ(estimator_entry("load_logistic").chosen("threshold"), 0.5);
+  EXPECT_EQ(estimator_entry("force_kinematics").chosen("threshold"), 0.5);
 }
 
 TEST(Tune, LeavesFixedEstimatorsAndUpperBoundsAlone) {
   const std::vector<RunSignals> runs = fitted_runs(4);
   Experiment experiment = tuned_experiment(
-      {"free_fall", "support_force", "load_logistic", "boosted_channels", "boosted_signals"}, 2);
+      {"free_fall", "support_force", "force_kinematics", "boosted_channels", "boosted_signals"}, 2);
   experiment.tuning->fixed = {"support_force"};
   std::set<std::string> tried;
   for (const Trial& trial : tune(experiment, "", pointers_to(runs), {}, {})) {
     tried.insert(trial.estimator);
   }
-  EXPECT_EQ(tried, (std::set<std::string>{"free_fall", "load_logistic"}));
+  EXPECT_EQ(tried, (std::set<std::string>{"free_fall", "force_kinematics"}));
 }
 
 }  // namespace

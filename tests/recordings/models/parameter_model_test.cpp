@@ -32,7 +32,7 @@ class ParameterModelFileTest : public ::testing::Test {
 };
 
 TEST_F(ParameterModelFileTest, ReadsBackWhatWasWritten) {
-  const ParameterModelFile written = {"load_logistic",
+  const ParameterModelFile written = {"force_kinematics",
                                       {{"slope", {0.1 + 0.2}}, {"mean", {1e-300, -2.0}}},
                                       {{"seconds", "3.5"}, {"seed:run", "1:0, 1:1"}}};
   write_parameter_model(written, path());

@@ -1,21 +1,26 @@
 #pragma once
 
-// load_logistic.npz, written by `touchdown export`: fitted for 'load_logistic' at 1000 Hz to the
-// robot 'upkie', fingerprint d1b191497ff374b0.
-// touchdown::make_estimator(touchdown::compiled::model) makes the estimator.
+// force_kinematics.npz, written by `touchdown export`: for 'force_kinematics' at 1000 Hz on the robot 'upkie',
+// fingerprint 69c1eb1406a13bc6. touchdown::make_estimator(touchdown::compiled::model) makes the estimator.
 
 // clang-format off
 #include <touchdown/estimator.hpp>
 
 namespace touchdown::compiled {
 
+inline constexpr double model_axle_deviation[] = {
+0.9916138194115276,0.21831087445105093,};
 inline constexpr char model_estimator[] =
-"load_logistic";
-inline constexpr double model_intercept[] = {
--4.0038664058454465,};
+"force_kinematics";
+inline constexpr double model_force_deviation[] = {
+2.475912391035236,5.607221067065733,};
+inline constexpr double model_force_mean[] = {
+0.5940386604345701,25.851048111878967,};
+inline constexpr double model_leaving_rate[] = {
+5.252790544977406,0.6881720430105919,};
 inline constexpr char model_metadata[] =
 "format: 1\n"
-"estimator: load_logistic\n"
+"estimator: force_kinematics\n"
 "sample_rate: 1000\n"
 "robot: upkie\n"
 "units: SI\n"
@@ -31,27 +36,28 @@ inline constexpr char model_metadata[] =
 "configuration.guard.largest_torque: 10000\n"
 "configuration.guard.maximum_gap: 0.02\n"
 "configuration.guard.relaxation: 0.1\n"
-"configuration.largest_force: 200\n"
-"configuration.low_pass: 0.01\n"
+"configuration.largest_force: 60\n"
+"configuration.leak: 0.3\n"
+"configuration.low_pass: 0.007\n"
 "configuration.threshold: 0.5\n"
-"fingerprint: d1b191497ff374b0\n"
+"fingerprint: 69c1eb1406a13bc6\n"
 "";
 inline constexpr char model_provenance[] =
-"estimator: load_logistic\n"
+"estimator: force_kinematics\n"
 "scenarios: stairs\n"
-"seconds: 13.470\n"
-"seed:run: 1:1\n"
+"seconds: 13.148\n"
+"seed:run: 1:0\n"
 "simulators: mujoco\n"
 "";
-inline constexpr double model_slope[] = {
-0.542866830437614,};
 
 inline constexpr CompiledArray model[] = {
-    {"estimator", 13, 0, nullptr, nullptr, model_estimator},
-    {"intercept", 1, 0, model_intercept, nullptr, nullptr},
-    {"metadata", 699, 0, nullptr, nullptr, model_metadata},
-    {"provenance", 92, 0, nullptr, nullptr, model_provenance},
-    {"slope", 1, 0, model_slope, nullptr, nullptr},
+    {"axle_deviation", 2, 0, model_axle_deviation, nullptr, nullptr},
+    {"estimator", 16, 0, nullptr, nullptr, model_estimator},
+    {"force_deviation", 2, 0, model_force_deviation, nullptr, nullptr},
+    {"force_mean", 2, 0, model_force_mean, nullptr, nullptr},
+    {"leaving_rate", 2, 0, model_leaving_rate, nullptr, nullptr},
+    {"metadata", 726, 0, nullptr, nullptr, model_metadata},
+    {"provenance", 95, 0, nullptr, nullptr, model_provenance},
 };
 
 }  // namespace touchdown::compiled

@@ -83,15 +83,15 @@ std::vector<std::string> own_success(const ExperimentResult& result, const std::
 
 TEST_F(LearningCurve, OfAllRunsHasTheScoresOfTheExperimentsOwnFits) {
   const ExperimentResult result =
-      run(experiment("estimators: [robust, free_fall, load_logistic, phase]\n"
+      run(experiment("estimators: [robust, free_fall, force_kinematics, phase]\n"
                      "learning_curve: {sizes: [4]}\n"));
   const Table all = table();
   // Three of the four are fitted; two noise settings.
   EXPECT_EQ(column(all, "estimator"),
-            (std::vector<std::string>{"robust", "robust", "load_logistic", "load_logistic", "phase",
-                                      "phase"}));
+            (std::vector<std::string>{"robust", "robust", "force_kinematics", "force_kinematics",
+                                      "phase", "phase"}));
   std::vector<std::string> expected;
-  for (const char* estimator : {"robust", "load_logistic", "phase"}) {
+  for (const char* estimator : {"robust", "force_kinematics", "phase"}) {
     for (std::string& success : own_success(result, estimator)) expected.push_back(success);
   }
   EXPECT_EQ(column(all, "success"), expected);
@@ -137,8 +137,9 @@ TEST_F(LearningCurve, NamesTheSecondsWithoutTheUnusedBeginningOfARun) {
 }
 
 TEST_F(LearningCurve, DrawsOtherTrainingSetsOfTheSameSize) {
-  run(experiment("estimators: [load_logistic]\nlearning_curve: {sizes: [1], draws: 4}\n"), "four");
-  run(experiment("estimators: [load_logistic]\nlearning_curve: {sizes: [1]}\n"), "one");
+  run(experiment("estimators: [force_kinematics]\nlearning_curve: {sizes: [1], draws: 4}\n"),
+      "four");
+  run(experiment("estimators: [force_kinematics]\nlearning_curve: {sizes: [1]}\n"), "one");
   const Table four = table("four"), one = table("one");
   ASSERT_EQ(four.rows.size(), 2U);
   EXPECT_EQ(cell(four, four.rows[0], "draws"), "4");
@@ -180,9 +181,9 @@ TEST_F(LearningCurve, SimulatesNothingTwiceAndHasTasksOfItsOwn) {
 
 TEST_F(LearningCurve, IsTheSameInShardsAndLeavesOtherTablesAndModelsAlone) {
   const std::string section = "learning_curve: {sizes: [1, 3], draws: 2}\n";
-  const Experiment with = experiment("estimators: [robust, load_logistic]\n" + section);
+  const Experiment with = experiment("estimators: [robust, force_kinematics]\n" + section);
   run(with, "whole");
-  run(experiment("estimators: [robust, load_logistic]\n"), "without");
+  run(experiment("estimators: [robust, force_kinematics]\n"), "without");
   RunOptions options;
   options.out = folder / "shards";
   for (const int number : {3, 1, 2}) run_shard(with, Shard{number, 3}, options);
