@@ -137,7 +137,7 @@ FilmedRun filmed_recording(const fs::path& log, std::vector<std::string>& warnin
                            const std::atomic<bool>* stop) {
   recordings::LogReader reader(log, stop);
   recordings::Recording recording = recordings::read_recording(reader, &warnings);
-  stop_if_asked(stop);
+  if (stop != nullptr && *stop) throw Stopped("stopped; nothing was written");
   models::RobotModel robot = recorded_robot(recording);
   return {std::move(robot), std::move(recording), {}, {}};
 }
