@@ -1,7 +1,8 @@
 #pragma once
 
-// force_kinematics.npz, written by `touchdown export`: for 'force_kinematics' at 1000 Hz on the robot 'upkie',
-// fingerprint 69c1eb1406a13bc6. touchdown::make_estimator(touchdown::compiled::model) makes the estimator.
+// force_kinematics.npz, written by `touchdown export`: for 'force_kinematics' at 1000 Hz on the
+// robot 'upkie', fingerprint 69c1eb1406a13bc6.
+// touchdown::make_estimator(touchdown::compiled::model) makes the estimator.
 
 // clang-format off
 #include <touchdown/estimator.hpp>
