@@ -98,7 +98,7 @@ int main() {
     const double time = step / rate;
     const touchdown::Belief& belief = filter.update(robot.read(time));
 
-    if (belief.status != touchdown::SignalStatus::good) {
+    if (!touchdown::is_used(belief.status)) {
       std::printf("%.3f s: signals not good, status %d\n", time, static_cast<int>(belief.status));
     }
     if (belief.wheel[0].contact != contact) {

@@ -142,11 +142,13 @@ std::filesystem::path find_model(const std::filesystem::path& path) {
 LogEstimator log_estimator(LogEstimatorRequest request) {
   const bool is_shipped = request.name.empty() || request.name.starts_with("shipped");
   if (is_shipped && request.model.empty()) {
-    const char* const file = shipped_file(request.name);
+    const EstimatorEntry& shipped =
+        estimator_entry(request.name.empty() ? "shipped" : request.name);
+    const char* const file = shipped_file(shipped.name);
     request.name.clear();  // the model's own
     request.model = file;
     LogEstimator estimator = log_estimator(std::move(request));
-    estimator.entry.title += fmt::format(" as shipped ({})", file);
+    estimator.entry.title = fmt::format("{} ({})", shipped.title, file);
     return estimator;
   }
   if (!request.name.empty()) check_needs(estimator_entry(request.name), request.model);

@@ -130,6 +130,7 @@ void LogSummary::add(double time, const Belief& belief) {
     ++unusable_[static_cast<std::size_t>(belief.unusable)];
   }
   ++status_[static_cast<std::size_t>(belief.status)];
+  if (steps_ == 0) first_is_degraded_ = belief.status == SignalStatus::degraded;
   if (steps_++ < skipped_) return;
   if (is_used(belief.status)) {
     add_valid(time, belief);
@@ -170,28 +171,39 @@ std::string LogSummary::events_text(std::size_t w) const {
 }
 
 std::string LogSummary::signals_text(std::size_t findings) const {
-  const std::string implausible = findings == 0
-                                      ? ""
-                                      : fmt::format("not plausible: {} finding{}, printed above",
-                                                    findings, findings == 1 ? "" : "s");
-  if (status_[0] == steps_) return findings == 0 ? "all good" : implausible;
   std::vector<std::string> parts;
-  for (const SignalStatus status :
-       {SignalStatus::invalid, SignalStatus::gap, SignalStatus::frozen, SignalStatus::degraded}) {
-    const std::int64_t count = status_[static_cast<std::size_t>(status)];
-    if (count > 0) parts.push_back(fmt::format("{} {}", count, to_text(status)));
-  }
-  std::string text = fmt::format("{} of {} steps", fmt::join(parts, ", "), steps_);
+  if (valid_steps() < steps_) parts.push_back(invalid_text());
   const auto most = std::max_element(unusable_.begin(), unusable_.end());
   if (*most > 0) {
     const auto signal = static_cast<SignalIndex>(most - unusable_.begin());
     const auto kinds = std::count_if(unusable_.begin(), unusable_.end(),
                                      [](std::int64_t steps) { return steps > 0; });
-    text += fmt::format("; unusable: {}{}", to_text(signal),
-                        kinds == 1 ? "" : fmt::format(" and {} others", kinds - 1));
+    parts.push_back(fmt::format("unusable: {}{}", to_text(signal),
+                                kinds == 1 ? "" : fmt::format(" and {} others", kinds - 1)));
   }
-  if (findings > 0) text += "; " + implausible;
-  return text;
+  if (findings > 0) {
+    parts.push_back(fmt::format("not plausible: {} finding{}, printed above", findings,
+                                findings == 1 ? "" : "s"));
+  }
+  if (parts.empty()) parts.emplace_back("all good");
+  const std::int64_t degraded = status_[static_cast<std::size_t>(SignalStatus::degraded)];
+  if (degraded > 0 && degraded == steps_) {
+    parts.emplace_back("no targets of joints");
+  } else if (degraded > (first_is_degraded_ ? 1 : 0)) {
+    parts.push_back(fmt::format("no targets of joints at {} of {} steps", degraded, steps_));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+/// "3 invalid, 1 gap of 700 steps".
+std::string LogSummary::invalid_text() const {
+  std::vector<std::string> parts;
+  for (const SignalStatus status :
+       {SignalStatus::invalid, SignalStatus::gap, SignalStatus::frozen}) {
+    const std::int64_t count = status_[static_cast<std::size_t>(status)];
+    if (count > 0) parts.push_back(fmt::format("{} {}", count, to_text(status)));
+  }
+  return fmt::format("{} of {} steps", fmt::join(parts, ", "), steps_);
 }
 
 std::string LogSummary::text(const std::optional<scoring::RobotScore>& score, double start,

@@ -91,6 +91,7 @@ class LogSummary {
   std::string contact_text() const;
   std::string events_text(std::size_t wheel) const;
   std::string signals_text(std::size_t findings) const;
+  std::string invalid_text() const;
 
   Clock clock_;
   /// Steps with an invalid status, by their first unusable signal.
@@ -99,7 +100,8 @@ class LogSummary {
   std::int64_t steps_ = 0;
   std::array<std::int64_t, scoring::view_count> contact_{};
   std::array<std::int64_t, 5> status_{};
-  std::int64_t counted_ = 0;  ///< valid steps after the skipped ones
+  bool first_is_degraded_ = false;  ///< the first record has no command before it
+  std::int64_t counted_ = 0;        ///< valid steps after the skipped ones
   std::int64_t invalid_in_a_row_ = 0;
   std::int64_t longest_bridged_;  ///< steps
   std::array<std::unique_ptr<WheelEvents>, 2> wheels_;

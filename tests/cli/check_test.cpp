@@ -80,7 +80,7 @@ TEST_F(RobotsLog, IsEstimatedWithTheShippedModelByDefault) {
   EXPECT_EQ(estimated.exit_code, 0);
   EXPECT_THAT(
       estimated.output.substr(0, estimated.output.find('\n')),
-      AllOf(HasSubstr("7001 steps, 7.001 s at 1000 Hz"), HasSubstr("Evidence curves as shipped"),
+      AllOf(HasSubstr("7001 steps, 7.001 s at 1000 Hz"), HasSubstr("Evidence curves, shipped"),
             HasSubstr("models/evidence_curves.npz")));
   EXPECT_EQ(estimated.output, run("estimate robot.mpack --estimator shipped").output);
   for (const int every : {2, 4, 5}) {
