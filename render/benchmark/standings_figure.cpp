@@ -135,7 +135,7 @@ Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& s
                              double level, const std::filesystem::path& stem) {
   std::vector<Panel> panels;
   std::string noise;
-  double lowest = 1.0;
+  double lowest = 0.99;  // an axis from 1 to 1 cannot be drawn
   for (const Standing& standing : scores.standings) {
     if (standing.setting != setting) continue;
     if (panels.empty() || noise != standing.noise) panels.emplace_back();

@@ -109,6 +109,7 @@ std::vector<Figure> draw_heatmaps(const experiments::ExperimentResult& result,
   std::vector<Figure> figures;
   for (const std::string& simulator : experiment.simulators) {
     stop_if_asked(stop);
+    if (experiments::test_runs(result, simulator).scored == 0) continue;
     const std::string where =
         fmt::format("{}, {}", experiment.name, simulators::simulator_title(simulator));
     Heatmap heatmap;

@@ -149,7 +149,7 @@ std::vector<Figure> draw_score_figures(const experiments::ExperimentResult& resu
       figures.push_back(draw_evidence_figure(evidence, stem(estimator.c_str())));
     }
     const std::vector<ScorePanel> panels = score_panels(result, simulator);
-    if (panels.empty()) continue;
+    if (panels.empty() || experiments::test_runs(result, simulator).scored == 0) continue;
     const std::string scored = experiments::scored_text(result, simulator);
     figures.push_back(draw_reliability_figure(
         {"Calibration of contact probabilities: " + where, panels,

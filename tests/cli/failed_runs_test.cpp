@@ -104,6 +104,30 @@ TEST_F(FailedRuns, OfAWholeEngineMakeNoTableOfIt) {
                     Not(HasSubstr("nan")), Not(HasSubstr("bullet: 0"))));
 }
 
+// gnuplot refuses a figure without a point.
+TEST_F(FailedRuns, OfAWholeEngineLeaveReportAndFiguresOfTheOther) {
+  for (const std::string scene : {"sinks_in_bullet", "sinks_in_mujoco"}) {
+    run_experiment(folder_, "good", scene + ".yaml",
+                   "operating_points: {}\nbenchmark: {refits: 0, clips: false}");
+    const Ended ended = touchdown_program(
+        "run x.yaml --out out --no-video --overwrite --set "
+        "noise.torque=[0.0,1.0]",
+        folder_.path());
+    EXPECT_EQ(ended.exit_code, 0) << ended.errors;
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "out/report.html"));
+    const bool is_bullet = scene == "sinks_in_bullet";
+    for (const char* figure : {"reliability", "latency", "error"}) {
+      for (const char* engine : {"bullet", "mujoco"}) {
+        const bool fails = is_bullet == (std::string(engine) == "bullet");
+        EXPECT_EQ(
+            std::filesystem::exists(folder_ / fmt::format("out/figures/{}_{}.png", figure, engine)),
+            !fails)
+            << scene << ": " << figure << ", " << engine;
+      }
+    }
+  }
+}
+
 TEST_F(FailedRuns, OfEverySceneEndTheRunWithTheFirstReason) {
   for (const char* scene : {"pushed_over", "tips", "sinks"}) {
     const Ended ended = run_experiment(folder_, "good", fmt::format("{}.yaml", scene));
