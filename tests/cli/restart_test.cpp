@@ -151,8 +151,7 @@ TEST(Interrupt, OfACommandWithOneOutputWritesNothing) {
   int stopped = 0;
   for (const std::string arguments :
        {"simulate long.yaml -o out.mpack", "render a.mpack -o out.mp4",
-        "export a.mpack -o out.mcap", "estimate a.mpack -o out.csv",
-        "fit a.mpack -o out.npz"}) {
+        "export a.mpack -o out.mcap", "estimate a.mpack -o out.csv", "fit a.mpack -o out.npz"}) {
     const std::string output = arguments.substr(arguments.rfind(' ') + 1);
     for (const double after : {0.05, 0.2, 0.5}) {
       StartedProgram program(arguments, folder.path());
