@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "core/error.hpp"
 #include "experiments/config/experiment_estimators.hpp"
@@ -51,9 +52,24 @@ FitCost cost_of_fit(const EstimatorEntry& entry, const FitRuns& data, double sec
     cost.per_second = measured / seconds;
     return cost;
   }
-  cost.per_second = entry.fit_passes * update_seconds(entry, model, *data.whole.front());
-  cost.fixed = std::max(0.0, measured - cost.per_second * seconds);
+  cost.passes = entry.fit_passes;
+  cost.fixed = measured;
+  cost.per_second = update_seconds(entry, model, *data.whole.front());
   return cost;
+}
+
+/// Completes the costs of fits with passes over the data. A pass computes inputs without their
+/// evaluation, so the cheapest estimator of this kind gives its cost.
+void spread_passes(std::vector<FitCost>& costs, double seconds) {
+  double cheapest = std::numeric_limits<double>::infinity();
+  for (const FitCost& cost : costs) {
+    if (cost.passes > 0) cheapest = std::min(cheapest, cost.per_second);
+  }
+  for (FitCost& cost : costs) {
+    if (cost.passes == 0) continue;
+    cost.per_second = cost.passes * cheapest;
+    cost.fixed = std::max(0.0, cost.fixed - cost.per_second * seconds);
+  }
 }
 
 }  // namespace
@@ -137,6 +153,7 @@ FitSample sample_fits(const Experiment& experiment, const Rollouts& runs,
     model.metadata = new_metadata(name, data, {});
     models[name] = std::move(model);
   }
+  spread_passes(found.costs, seconds);
   return found;
 }
 

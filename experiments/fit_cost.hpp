@@ -15,6 +15,7 @@ struct FitCost {
   double fixed = 0.0;       ///< processor time (s)
   double per_second = 0.0;  ///< processor time per second of data
   double memory = 0.0;      ///< working memory of one fit (bytes)
+  int passes = 0;           ///< over the data, of a fit that draws a fixed number of rows
   /// Whether a hyperparameter of tuning changes the fit.
   bool is_tuned = false;
   bool is_upper_bound = false;
