@@ -52,22 +52,14 @@ enum class MissingRun : int { simulate, refuse };
 /// Called repeatedly during long computations; false stops them with `Stopped`.
 using ShouldContinue = std::function<bool()>;
 
-/// Simulates planned runs in parallel and writes the recordings to keep. Runs for training segments
-/// hold only their segments (experiments/rollouts/training_segments.hpp). It reads complete
-/// recordings that this build made of the same scenario, seed and run. A run that keeps no
-/// recording is always simulated, for either value of `missing`. A run that cannot be simulated is
-/// a failed run and does not stop the others. Errors: `InputError` for an invalid scene; `Error`
-/// for a missing recording with `MissingRun::refuse`; `Stopped`; those of `check`, which gets each
-/// rollout as soon as it is there, from several threads at once.
-Rollouts run_rollouts(const Experiment& experiment, const Plan& plan,
-                      const std::set<std::size_t>& needed, const RunDirectory& directory,
-                      MissingRun missing, const ShouldContinue& should_continue,
-                      const std::function<void(const Rollout& run)>& check);
-
 /// Receives each rollout with its run's index in the plan, from several threads at once.
 using UseRollout = std::function<void(std::size_t index, Rollout run)>;
 
-/// The same without keeping all rollouts in memory. Errors: also those of `use`.
+/// Simulates planned runs in parallel and writes the recordings to keep. It reads complete
+/// recordings that this build made of the same scenario, seed and run. A run that keeps no
+/// recording is always simulated, for either value of `missing`. A run that cannot be simulated is
+/// a failed run and does not stop the others. Errors: `InputError` for an invalid scene; `Error`
+/// for a missing recording with `MissingRun::refuse`; `Stopped`; those of `use`.
 void for_each_rollout(const Experiment& experiment, const Plan& plan,
                       const std::set<std::size_t>& needed, const RunDirectory& directory,
                       MissingRun missing, const ShouldContinue& should_continue,
