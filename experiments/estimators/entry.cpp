@@ -79,7 +79,7 @@ std::string given_text(const EstimatorEntry& entry, bool servo_load) {
   std::vector<std::string> given;
   if (entry.knows.geometry) given.emplace_back("geometry");
   if (entry.knows.mass) given.emplace_back("mass");
-  if (entry.knows.targets && servo_load) given.emplace_back("targets");
+  if (entry.knows.targets && (servo_load || entry.fit == nullptr)) given.emplace_back("targets");
   if (given.empty()) given.emplace_back("signals");
   const char* const model = entry.fits()                ? "; fitted"
                             : !entry.trained_by.empty() ? "; fitted elsewhere"

@@ -151,7 +151,7 @@ void check_names(const HyperparameterValues& values, const EstimatorEntry& entry
 EstimatorRunner runner_of(const EstimatorEntry& entry, const EstimatorSetup& setup);
 
 /// What the estimator is given: "geometry, mass, targets; fitted". `servo_load`: whether fits use
-/// targets. "signals" if it is given nothing else.
+/// targets; shipped models do in any case. "signals" if it is given nothing else.
 std::string given_text(const EstimatorEntry& entry, bool servo_load);
 
 /// Whether both estimators use the same fit.

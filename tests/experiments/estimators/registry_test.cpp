@@ -39,7 +39,10 @@ TEST(Registry, StatesWhatEstimatorsAreGiven) {
   EXPECT_EQ(given("support_force", true), "geometry");
   EXPECT_EQ(given("free_fall", true), "signals");
   EXPECT_EQ(given("robust", true), "signals; fitted");
-  EXPECT_EQ(given("shipped", true), "geometry, mass, targets; fitted elsewhere");
+  for (const bool servo_load : {false, true}) {  // it has curves with targets and without
+    EXPECT_EQ(given("shipped", servo_load), "geometry, mass, targets; fitted elsewhere");
+    EXPECT_EQ(given("shipped_quiet", servo_load), given("shipped", servo_load));
+  }
   EXPECT_EQ(given("nmn", true), "signals; fitted elsewhere");
 }
 

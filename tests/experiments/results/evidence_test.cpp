@@ -4,7 +4,6 @@
 #include <map>
 #include <set>
 #include <string>
-#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -45,9 +44,7 @@ TEST(EvidenceTable, HasEveryCurveOverTheRangeOfItsRows) {
 }
 
 TEST(EvidenceTable, NamesTheSetOfCurves) {
-  EvidenceModel with = test::random_curves(2);
-  with.servo_curve.resize(std::tuple_size_v<ServoLoadInputs>);
-  with.servo_seen.assign(with.servo_curve.size(), {-1.0F, 1.0F});
+  const EvidenceModel with = test::random_curve_sets(2).usual;
   const EvidenceModel without = test::random_curves(3);
   for (const EvidenceCurveSets& sets :
        {EvidenceCurveSets(with, without), EvidenceCurveSets(with), EvidenceCurveSets(without)}) {
