@@ -44,6 +44,9 @@ EvidenceModel with_servo_load(EvidenceModel model) {
   return model;
 }
 
+/// As the shipped models have.
+EvidenceCurveSets both_sets() { return {with_servo_load(wavy_curves()), wavy_curves()}; }
+
 /// Computes nothing: what its update takes is the check of signals and belief.
 class NoEstimator : public ContactEstimator {
  public:
@@ -80,13 +83,13 @@ void update_network_with_servo_load(benchmark::State& state) {
 BENCHMARK(update_network_with_servo_load)->Name("update/decision_network_servo_load");
 
 void update_curves_with_servo_load(benchmark::State& state) {
-  EvidenceCurves estimator(with_servo_load(wavy_curves()));
+  EvidenceCurves estimator(both_sets());
   bench::time_updates(state, estimator);
 }
 BENCHMARK(update_curves_with_servo_load)->Name("update/evidence_curves_servo_load");
 
 void latency_evidence(benchmark::State& state) {
-  EvidenceCurves estimator(with_servo_load(wavy_curves()));
+  EvidenceCurves estimator(both_sets());
   bench::time_every_update(state, estimator);
 }
 BENCHMARK(latency_evidence)->Name("latency/evidence_curves")->Iterations(250);

@@ -144,7 +144,14 @@ TEST_F(RealTime, EstimatorsFromForcesAllocateNothing) {
   SupportForce support_force;
   ForceKinematics force_kinematics({.air = {}, .contact = {.force_mean = 26.0}});
   DecisionNetwork decision_network(test::random_model(1));
-  EvidenceCurves evidence_curves(test::random_curves(1));
+  for (std::size_t k = 500; k < 1500; ++k) {  // targets come and go
+    for (std::size_t side = 0; side < 2; ++side) {
+      const LegSignals& leg = stream[k].leg[side];
+      stream[k].target[side].hip = {leg.hip.position, 0.0, 0.1, 40.0, 2.0};
+      stream[k].target[side].knee = {leg.knee.position, 0.0, 0.1, 40.0, 2.0};
+    }
+  }
+  EvidenceCurves evidence_curves(test::random_curve_sets(1));
   for (ContactEstimator* const estimator : {static_cast<ContactEstimator*>(&support_force),
                                             static_cast<ContactEstimator*>(&force_kinematics),
                                             static_cast<ContactEstimator*>(&decision_network),
