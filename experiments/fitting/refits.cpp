@@ -12,8 +12,8 @@ namespace {
 
 using EngineAndScene = std::pair<std::string, std::string>;
 
-/// The runs of every scene. An engine whose scenes have one run each has one pool, with an empty
-/// scene's name.
+/// The runs of every scene. If every scene of an engine has one run, the engine has a pool of all,
+/// with an empty name of a scene.
 std::map<EngineAndScene, RunPointers> pools_of(const RunPointers& runs) {
   std::map<EngineAndScene, RunPointers> pools;
   std::map<std::string, RunPointers> of_engine;
