@@ -47,9 +47,16 @@ DecisionRows decision_rows(std::span<const LabelledRun> runs, const DecisionConf
   }
   // A pass takes a row of each wheel every so many steps.
   const std::size_t stride = std::max<std::size_t>(1, 2 * steps * fit.passes / fit.rows);
-  std::vector<DecisionInputs> inputs;
-  std::vector<ServoLoadInputs> servo;
-  std::vector<float> is_contact;
+  std::size_t most = 0;
+  for (const LabelledRun& run : runs) most += 2 * fit.passes * (steps_of(run) / stride + 1);
+  // Sized once and shortened at the end: pages that are not written take no memory.
+  DecisionRows rows;
+  rows.inputs.resize(static_cast<int>(decision_inputs), static_cast<Eigen::Index>(most));
+  if (config.servo_load) {
+    rows.servo.resize(static_cast<int>(std::tuple_size_v<ServoLoadInputs>), rows.inputs.cols());
+  }
+  rows.is_contact.resize(rows.inputs.cols());
+  Eigen::Index count = 0;
   Draws draws(fit.seed);
   for (std::size_t pass = 0; pass < fit.passes; ++pass) {
     for (const LabelledRun& run : runs) {
@@ -70,25 +77,20 @@ DecisionRows decision_rows(std::span<const LabelledRun> runs, const DecisionConf
         features.compute_inputs();
         for (std::size_t side = 0; side < 2; ++side) {
           if (!step.is_valid[side]) continue;
-          inputs.push_back(features.inputs(side));
-          if (config.servo_load) servo.push_back(features.servo_load(side));
-          is_contact.push_back(run.contact[side][k] != 0 ? 1.0F : 0.0F);
+          const DecisionInputs inputs = features.inputs(side);
+          std::copy(inputs.begin(), inputs.end(), rows.inputs.col(count).data());
+          if (config.servo_load) {
+            const ServoLoadInputs servo = features.servo_load(side);
+            std::copy(servo.begin(), servo.end(), rows.servo.col(count).data());
+          }
+          rows.is_contact[count++] = run.contact[side][k] != 0 ? 1.0F : 0.0F;
         }
       }
     }
   }
-  DecisionRows rows;
-  const auto count = static_cast<Eigen::Index>(inputs.size());
-  rows.inputs.resize(static_cast<int>(decision_inputs), count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const DecisionInputs& row = inputs[static_cast<std::size_t>(i)];
-    std::copy(row.begin(), row.end(), rows.inputs.col(i).data());
-  }
-  if (config.servo_load) {
-    rows.servo = Eigen::Map<const Eigen::MatrixXf>(
-        servo.data()->data(), static_cast<int>(std::tuple_size_v<ServoLoadInputs>), count);
-  }
-  rows.is_contact = Eigen::Map<const Eigen::RowVectorXf>(is_contact.data(), count);
+  rows.inputs.conservativeResize(Eigen::NoChange, count);
+  if (config.servo_load) rows.servo.conservativeResize(Eigen::NoChange, count);
+  rows.is_contact.conservativeResize(count);
   rows.weight.resize(count);
   const std::array<double, 2> weights = class_weights(rows, fit.class_exponent);
   for (Eigen::Index i = 0; i < count; ++i) {
