@@ -33,11 +33,11 @@ INTERRUPTED_RUN = textwrap.dedent("""\
 
     run = touchdown.simulate("scenarios/hop.yaml", overrides={"end.duration": 0.5})
     short = dict(run.items())
-    long = {name: np.concatenate([values] * 400) for name, values in short.items()}
+    long = {name: np.concatenate([values] * 1500) for name, values in short.items()}
     long["time"] = np.arange(len(long["time"])) * run.period
     estimator = touchdown.Estimator("nmn")
     expected = estimator.run(short)
-    threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT)).start()
+    threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT)).start()
     try:
         estimator.run(long)
     except KeyboardInterrupt as interrupt:
