@@ -14,9 +14,7 @@ const EvidenceCurveSets& checked(const EvidenceCurveSets& sets) {
 }  // namespace
 
 EvidenceCurves::EvidenceCurves(const EvidenceCurveSets& sets, const DecisionConfig& config)
-    : sets_(checked(sets)),
-      usual_(sets.usual),
-      decision_(config, !sets.usual.servo_curve.empty()) {
+    : sets_(checked(sets)), usual_(sets.usual), decision_(config, !sets.usual.servo_curve.empty()) {
   if (sets.without_targets) without_targets_.emplace(*sets.without_targets);
 }
 

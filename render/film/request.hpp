@@ -43,7 +43,8 @@ struct VideoSource {
 std::vector<std::uint8_t> wheels_in_contact(const recordings::Recording& recording,
                                             const scoring::LabelConfig& labels);
 
-/// Flights of both wheels of a simulated run that are long enough to be seen; none of a robot's log.
+/// Flights of both wheels of a simulated run that are long enough to be seen; none of a robot's
+/// log.
 std::vector<scoring::Flight> visible_flights(const recordings::Recording& recording,
                                              scoring::LabelConfig labels);
 
