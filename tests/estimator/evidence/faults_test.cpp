@@ -14,29 +14,32 @@
 namespace touchdown {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double unusable = std::numeric_limits<double>::quiet_NaN();
 
 void remove_signals(LegSignals& leg) {
-  for (JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) *joint = {nan, nan, nan};
+  for (JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel})
+    *joint = {unusable, unusable, unusable};
 }
 
 /// Changes the signals of a faulty step; `before`: the last healthy step.
 using Fault = std::function<void(Signals& signals, const Signals& before)>;
 
 const Fault left_leg_drops_out = [](Signals& s, const Signals&) { remove_signals(s.leg[0]); };
-const Fault left_torque_drops_out = [](Signals& s, const Signals&) { s.leg[0].knee.torque = nan; };
+const Fault left_torque_drops_out = [](Signals& s, const Signals&) {
+  s.leg[0].knee.torque = unusable;
+};
 const Fault both_legs_drop_out = [](Signals& s, const Signals&) {
   for (LegSignals& leg : s.leg) remove_signals(leg);
 };
 const Fault imu_drops_out = [](Signals& s, const Signals&) {
-  s.vertical_acceleration = nan;
-  s.linear_acceleration.setConstant(nan);
-  s.angular_velocity.setConstant(nan);
+  s.vertical_acceleration = unusable;
+  s.linear_acceleration.setConstant(unusable);
+  s.angular_velocity.setConstant(unusable);
 };
 const Fault record_is_empty = [](Signals& s, const Signals& before) {
   imu_drops_out(s, before);
   both_legs_drop_out(s, before);
-  s.time = nan;
+  s.time = unusable;
 };
 const Fault left_leg_freezes = [](Signals& s, const Signals& before) { s.leg[0] = before.leg[0]; };
 const Fault gyro_freezes = [](Signals& s, const Signals& before) {
@@ -46,8 +49,8 @@ const Fault accelerometer_freezes = [](Signals& s, const Signals& before) {
   s.vertical_acceleration = before.vertical_acceleration;
 };
 
-constexpr std::array<bool, 2> left = {true, false};
-constexpr std::array<bool, 2> both = {true, true};
+constexpr std::array<bool, 2> left_leg = {true, false};
+constexpr std::array<bool, 2> both_legs = {true, true};
 
 /// Whether a wheel's belief is the undisturbed one of step k. During a takeoff or a landing the
 /// undisturbed belief changes within some milliseconds, and may do so `shift` earlier or later.
@@ -140,20 +143,20 @@ class Faults : public ::testing::Test {
 };
 
 TEST_F(Faults, OfOneLegThatDropsOutAreOverWithin200Milliseconds) {
-  expect_recovery(left_leg_drops_out, 100, SignalStatus::invalid, 0, left);
-  expect_recovery(left_torque_drops_out, 100, SignalStatus::invalid, 0, left);
+  expect_recovery(left_leg_drops_out, 100, SignalStatus::invalid, 0, left_leg);
+  expect_recovery(left_torque_drops_out, 100, SignalStatus::invalid, 0, left_leg);
 }
 
 TEST_F(Faults, OfBothLegsThatDropOutAreOverWithin200Milliseconds) {
-  expect_recovery(both_legs_drop_out, 100, SignalStatus::invalid, 0, both);
+  expect_recovery(both_legs_drop_out, 100, SignalStatus::invalid, 0, both_legs);
 }
 
 TEST_F(Faults, OfAnImuThatDropsOutAreOverWithin200Milliseconds) {
-  expect_recovery(imu_drops_out, 100, SignalStatus::invalid, 0, both);
+  expect_recovery(imu_drops_out, 100, SignalStatus::invalid, 0, both_legs);
 }
 
 TEST_F(Faults, OfRecordsThatAreEmptyAreOverWithin200Milliseconds) {
-  expect_recovery(record_is_empty, 100, SignalStatus::invalid, 0, both);
+  expect_recovery(record_is_empty, 100, SignalStatus::invalid, 0, both_legs);
 }
 
 /// A gap counts as a gap even if it ends while the accelerometer is missing.
@@ -166,7 +169,7 @@ TEST_F(Faults, OfRecordsThatAreMissingAreOverWithin200Milliseconds) {
     Belief belief;
     for (std::size_t k = begin + 100; k < begin + 500; ++k) {
       Signals s = run_.signals[k];
-      if (k < begin + 105) s.vertical_acceleration = nan;
+      if (k < begin + 105) s.vertical_acceleration = unusable;
       belief = estimator.update(s);
       if (k < begin + 100 + recovered) continue;
       for (std::size_t w = 0; w < 2; ++w) {
@@ -177,15 +180,15 @@ TEST_F(Faults, OfRecordsThatAreMissingAreOverWithin200Milliseconds) {
 }
 
 TEST_F(Faults, OfALegThatFreezesAreOverWithin200Milliseconds) {
-  expect_recovery(left_leg_freezes, 700, SignalStatus::frozen, 499, left);
+  expect_recovery(left_leg_freezes, 700, SignalStatus::frozen, 499, left_leg);
 }
 
 TEST_F(Faults, OfAGyroThatFreezesAreOverWithin200Milliseconds) {
-  expect_recovery(gyro_freezes, 700, SignalStatus::frozen, 499, both);
+  expect_recovery(gyro_freezes, 700, SignalStatus::frozen, 499, both_legs);
 }
 
 TEST_F(Faults, OfAnAccelerometerThatFreezesAreOverWithin200Milliseconds) {
-  expect_recovery(accelerometer_freezes, 700, SignalStatus::frozen, 499, both);
+  expect_recovery(accelerometer_freezes, 700, SignalStatus::frozen, 499, both_legs);
 }
 
 TEST_F(Faults, DoNotIncludeHeldSamplesOrAMissingGyro) {
