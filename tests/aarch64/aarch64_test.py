@@ -84,7 +84,7 @@ def main():
 
     there = beliefs(run(*qemu, build / 'estimator_beliefs'))
     here = beliefs(run(program))
-    assert there.keys() == here.keys() and len(here) == 13, (there.keys(), here.keys())
+    assert there.keys() == here.keys() and len(here) == 12, (there.keys(), here.keys())
     apart = []
     for name, expected in here.items():
         found = there[name]
