@@ -25,9 +25,9 @@ SQUAT = [*KERB, '--set=test.scenarios=[scenarios/squat.yaml]', '--set=detail.at=
          '--set=detail.after=0.8', '--set=posterior.enabled=false']
 
 # The fit of this experiment; the picture needs no more than one test run.
-CURVES = ['experiments/transparency.yaml', '--set=estimators=[evidence_curves]', '--set=simulators=[mujoco]',
-          '--set=fit.servo_load=true', '--set=test.scenarios=[scenarios/stairs.yaml]', '--set=test.runs=1',
-          '--set=noise.torque=[0]', '--set=noise.accelerometer=[0]', '--set=highlights=[{torque: 0, accelerometer: 0}]']
+CURVES = ['experiments/drawn_scenes.yaml', '--set=estimators=[evidence_curves]', '--set=simulators=[mujoco]',
+          '--set=benchmark.robots=[]', '--set=test.scenarios=[scenarios/stairs.yaml]', '--set=noise.torque=[0]',
+          '--set=noise.accelerometer=[0]', '--set=highlights=[{torque: 0, accelerometer: 0}]']
 
 # image: (arguments of `touchdown run`, file in the run directory)
 OF_RUNS = {
