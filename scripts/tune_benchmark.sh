@@ -10,8 +10,7 @@ program=$(realpath "${1:?the program touchdown}")
 cd "$(dirname "$0")/.."
 run=${2:-$(mktemp -d)/tuning}
 "$program" run experiments/benchmark_full.yaml --out "$run" --no-pictures \
-  --set 'estimators=[robust,measurement_only,paper,phase,hmm,evidence_curves,decision_network,force_kinematics,support_force,free_fall,upkie_observer,nmn,nmn_retrained]' \
-  --set fit.tuning.fixed=[] \
+  --set 'estimators=[robust,measurement_only,paper,phase,hmm,evidence_curves,evidence_curves_quiet,decision_network,force_kinematics,support_force,free_fall,upkie_observer,nmn,nmn_retrained]' \
   --set 'benchmark={}' \
   --set 'test.scenarios=[scenarios/kerb.yaml]' --set test.runs=1
 {

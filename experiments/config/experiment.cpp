@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,53 +9,14 @@
 #include "core/fields.hpp"
 #include "core/file_names.hpp"
 #include "core/resources.hpp"
+#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/config/hyperparameter_keys.hpp"
+#include "experiments/config/picture_keys.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "scenarios/generation/named.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::experiments {
-
-namespace {
-
-/// Keys of names from the experiment's own list.
-constexpr const char* own_estimators = "list of the experiment's estimators";
-constexpr const char* test_run_index = "0 to test.runs - 1";
-
-/// Limits of figures: more would not be readable.
-constexpr std::size_t most_settings = 3;
-constexpr std::size_t most_estimators = 6;
-
-void describe_choice(Fields& fields, DropChoice& choice, const Experiment& experiment) {
-  fields("run", choice.run, 0, experiment.test.runs - 1)
-      .range(test_run_index)
-      .doc("Index of the test run.");
-  fields.choose("wheels", {"both", "left", "right"}, choice.wheels)
-      .doc("Which flights count as drops: of both wheels at once, or of one.");
-  fields("drop", choice.drop, 0, 1000).doc("Index of the drop in the run.");
-  fields.optional("at", choice.at, 0.0, 1e6)
-      .doc("s", "Time since the start of the run, instead of a drop.");
-  fields("seed", choice.seed, 0, experiment.noise.seeds - 1)
-      .range("0 to noise.seeds - 1")
-      .doc("Index of the noise draw.");
-  fields("before", choice.before, 0.0, 10.0).doc("s", "Shown before takeoff or `at`.");
-  fields("after", choice.after, 0.01, 10.0).doc("s", "Shown after takeoff or `at`.");
-}
-
-/// As many estimators as are readable, the paper's and the phase filter first.
-std::vector<std::string> shown_by_default(const std::vector<std::string>& estimators) {
-  std::vector<std::string> shown;
-  const auto show = [&](const std::string& name) {
-    const bool is_new = std::find(shown.begin(), shown.end(), name) == shown.end();
-    if (is_new && shown.size() < most_estimators) shown.push_back(name);
-  };
-  for (const char* name : {"robust", "measurement_only", "reference", "phase"}) {
-    if (std::find(estimators.begin(), estimators.end(), name) != estimators.end()) show(name);
-  }
-  for (const std::string& name : estimators) show(name);
-  return shown;
-}
-
-}  // namespace
 
 /// Names of scenarios, of which the drawn ones must be known.
 static KeyNotes describe_names(Fields& fields, std::string_view key,
@@ -120,86 +80,17 @@ static void describe(Fields& fields, TuningConfig& tuning, const Experiment& exp
     fields.list("noise", tuning.noise).doc("Noise settings of the trials.");
   }
   fields.check(!tuning.noise.empty(), "noise", "expected at least one noise setting");
+  fields.know("fixed");
   if (fields.present("fixed", !tuning.fixed.empty())) {
-    fields("fixed", tuning.fixed)
+    own_estimators(fields, "fixed", experiment, tuning.fixed)
+        .fallback("none")
         .doc("Estimators that keep their defaults, such as a second operating point.");
-  }
-  for (std::size_t i = 0; i < tuning.fixed.size(); ++i) {
-    const std::vector<std::string>& known = experiment.estimators;
-    fields.check_item(std::find(known.begin(), known.end(), tuning.fixed[i]) != known.end(),
-                      "fixed", i,
-                      fmt::format("expected an estimator of the experiment, found '{}'{}",
-                                  tuning.fixed[i], did_you_mean(tuning.fixed[i], known)));
   }
   const std::size_t runs =
       fit.scenarios.size() * (fit.perturbed ? static_cast<std::size_t>(fit.runs) : 1);
   fields.finish();
   fields.check(static_cast<std::size_t>(tuning.folds) <= runs, "folds",
                fmt::format("expected at most the number of different fitted runs, {}", runs));
-}
-
-static void describe(Fields& fields, VideoConfig& video, const Experiment& experiment) {
-  fields("enabled", video.enabled).doc("Whether a run is plotted and filmed.");
-  fields("run", video.run, 0, experiment.test.runs - 1)
-      .range(test_run_index)
-      .doc("Index of the test run.");
-  if (fields.reading()) video.estimators = experiment.estimators;
-  fields.names("estimators", experiment.estimators, video.estimators)
-      .type(own_estimators)
-      .fallback("all of them")
-      .doc("Estimators with probabilities shown.");
-  fields.renamed("torque_noise", "noise.torque");
-  fields.renamed("accelerometer_noise", "noise.accelerometer");
-  fields.know("noise");
-  if (fields.reading() && !fields.documenting()) video.noise = experiment.highlights.front();
-  if (fields.present("noise", true)) {
-    fields.section("noise", video.noise)
-        .fallback("the first highlight")
-        .doc("Noise setting of the film.");
-  }
-  video.noise = noise::as_on_grid(video.noise, experiment.noise);
-}
-
-static void describe(Fields& fields, DetailConfig& detail, const Experiment& experiment) {
-  fields.list("noise", detail.noise).doc("Noise settings, one column of panels each; at most 3.");
-  fields.check(!detail.noise.empty() && detail.noise.size() <= most_settings, "noise",
-               fmt::format("expected 1 to {} noise settings", most_settings));
-  if (fields.reading()) detail.estimators = shown_by_default(experiment.estimators);
-  fields.names("estimators", experiment.estimators, detail.estimators)
-      .type(own_estimators)
-      .fallback("up to 6, robust first")
-      .doc("Estimators with probabilities shown, at most 6.");
-  fields.check(detail.estimators.size() <= most_estimators, "estimators",
-               fmt::format("expected at most {} names", most_estimators));
-  for (noise::NoiseCell& cell : detail.noise) {
-    cell = noise::as_on_grid(cell, experiment.noise);
-  }
-}
-
-static void describe(Fields& fields, PosteriorConfig& posterior, const Experiment& experiment) {
-  if (fields.present("noise", true)) {
-    fields.section("noise", posterior.noise).doc("Noise setting of the figure.");
-  }
-  posterior.noise = noise::as_on_grid(posterior.noise, experiment.noise);
-}
-
-/// A section that enables a figure if it is present, unless it has `enabled: false`.
-template <typename Config>
-static KeyNotes describe_switched(Fields& parent, std::string_view key,
-                                  std::optional<Config>& config, const Experiment& experiment) {
-  if (!parent.present(key, config.has_value())) {
-    parent.know(key);
-    return {};
-  }
-  bool enabled = true;
-  if (parent.reading()) config.emplace();
-  const KeyNotes notes = parent.within(key, [&](Fields& fields) {
-    if (fields.reading()) fields("enabled", enabled).doc("Whether the figure is drawn.");
-    describe_choice(fields, config->choice, experiment);
-    describe(fields, *config, experiment);
-  });
-  if (!enabled) config.reset();
-  return notes.fallback("none");
 }
 
 static void describe_fit(Fields& fit, Experiment& experiment) {
@@ -224,80 +115,6 @@ static void describe_fit(Fields& fit, Experiment& experiment) {
   fit.optional("seed", experiment.fit_seed)
       .fallback("the experiment's")
       .doc("Seed of the fitted runs.");
-}
-
-using HyperparametersByEstimator = std::map<std::string, HyperparameterValues>;
-
-/// The section of each estimator.
-static void describe_estimators(Fields& all, HyperparametersByEstimator& values,
-                                const Experiment& experiment) {
-  for (const std::string& name : all.documenting() ? estimator_names() : experiment.estimators) {
-    all.know(name);
-    if (!all.present(name, values.contains(name))) continue;
-    if (all.documenting() && estimator_entry(name).hyperparameters.empty()) continue;
-    HyperparameterValues& hyperparameters = values[name];
-    const auto describe_own = [&](Fields& own) {
-      for (const Hyperparameter& one :
-           estimator_entry(name, experiment.external_estimators).hyperparameters) {
-        own.know(one.name);
-        if (!own.present(one.name, hyperparameters.contains(one.name))) continue;
-        own(one.name, hyperparameters[one.name])
-            .fallback(value_text(YAML::Node(one.value)))
-            .doc(fmt::format("Tuning draws it from {:g} to {:g}.", one.lowest, one.highest));
-      }
-    };
-    all.within(name, describe_own).doc("Hyperparameters of this estimator.");
-  }
-}
-
-/// Reads the values that a tuning chose and wrote, by engine. Those of other engines and estimators
-/// than the experiment's are left out.
-static void read_hyperparameters(const std::string& file, Experiment& experiment) {
-  Fields fields(YamlDocument::load(find_resource(file)));
-  fields.know("manifest");
-  for (const std::string& engine : simulators::simulator_names()) {
-    fields.know(engine);
-    const auto& own = experiment.simulators;
-    if (std::find(own.begin(), own.end(), engine) == own.end()) continue;
-    if (!fields.present(engine, false)) continue;
-    fields.within(engine, [&](Fields& of_engine) {
-      for (const std::string& name : estimator_names()) of_engine.know(name);
-      describe_estimators(of_engine, experiment.engine_hyperparameters[engine], experiment);
-    });
-  }
-  fields.finish();
-}
-
-/// By estimator, then name, as tuning chooses them; also by engine.
-static void describe_hyperparameters(Fields& fields, Experiment& experiment) {
-  constexpr const char* key = "hyperparameters";
-  fields.renamed("constants", key);
-  fields.know(key);
-  auto& of_engines = experiment.engine_hyperparameters;
-  if (!fields.present(key, !experiment.hyperparameters.empty() || !of_engines.empty())) return;
-  const auto describe_all = [&](Fields& all) {
-    std::string file;
-    all.know("tuned");
-    if (all.present("tuned", false) || all.documenting()) {
-      all("tuned", file)
-          .fallback("none")
-          .doc("Values by engine that `fit.tuning` chose: `tables/hyperparameters.yaml` of a run.");
-      if (!all.documenting()) all.check("tuned", [&] { read_hyperparameters(file, experiment); });
-    }
-    for (const std::string& engine : experiment.simulators) {
-      all.know(engine);
-      const bool is_given = of_engines.contains(engine);
-      if (all.documenting() || !all.present(engine, is_given)) continue;
-      all.within(engine, [&](Fields& of_engine) {
-        describe_estimators(of_engine, of_engines[engine], experiment);
-      });
-    }
-    describe_estimators(all, experiment.hyperparameters, experiment);
-  };
-  fields.within(key, describe_all)
-      .fallback("none")
-      .doc("Values instead of the estimators' defaults, also by engine; not beside `fit.tuning`.");
-  fields.check(!experiment.tuning, key, "expected no fit.tuning beside it, which chooses them");
 }
 
 /// The study that alone has an estimator with this name, or null.
@@ -411,15 +228,7 @@ static void describe(Fields& fields, Experiment& experiment) {
   fields.section("intervals", experiment.intervals).doc("Bootstrap intervals.");
   fields.section("video", experiment.video, experiment)
       .doc("The run that is plotted and filmed for every engine.");
-  describe_switched(fields, "detail", experiment.detail, experiment)
-      .doc("A figure of signals and estimates during one drop.");
-  describe_switched(fields, "posterior", experiment.posterior, experiment)
-      .doc("A figure of the phase filter's probabilities during one drop.");
-  const auto& names = experiment.estimators;
-  fields.check(
-      !experiment.posterior || std::find(names.begin(), names.end(), "phase") != names.end(),
-      "posterior",
-      "expected 'phase' among the experiment's estimators, or posterior.enabled: false");
+  describe_drop_figures(fields, experiment);
   fields.choose("recordings", {"all", "pictured", "none"}, experiment.recordings)
       .doc("Recordings that the run directory keeps.");
   fields("paper_tables", experiment.paper_tables)

@@ -12,4 +12,10 @@ const EstimatorEntry& estimator_entry(const Experiment& experiment, std::string_
   return estimator_entry(name, experiment.external_estimators);
 }
 
+KeyNotes own_estimators(Fields& fields, std::string_view key, const Experiment& experiment,
+                        std::vector<std::string>& names) {
+  return fields.names(key, experiment.estimators, names)
+      .type("list of the experiment's estimators");
+}
+
 }  // namespace touchdown::experiments

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/file_names.hpp"
-#include "core/yaml.hpp"
+#include "experiments/config/experiment_estimators.hpp"
 #include "experiments/config/optional_section.hpp"
 
 namespace touchdown::experiments {
@@ -36,15 +36,11 @@ static void describe(Fields& fields, BenchmarkConfig& benchmark, const Experimen
   fields("refits_everywhere", benchmark.refits_everywhere)
       .doc("Whether refits cover all robots and sensors, or the experiment's own.");
   fields("clips", benchmark.clips).doc("Whether the worst segment of every estimator is filmed.");
-  fields("table", benchmark.table)
-      .doc("Estimators of `benchmark_unseen.md`; without the key all that are ranked.");
-  for (std::size_t i = 0; i < benchmark.table.size(); ++i) {
-    const std::vector<std::string>& known = experiment.estimators;
-    fields.check_item(std::find(known.begin(), known.end(), benchmark.table[i]) != known.end(),
-                      "table", i,
-                      fmt::format("expected an estimator of the experiment, found '{}'{}",
-                                  benchmark.table[i], did_you_mean(benchmark.table[i], known)));
-  }
+  fields.know("table");
+  if (!fields.present("table", !benchmark.table.empty())) return;
+  own_estimators(fields, "table", experiment, benchmark.table)
+      .fallback("all that are ranked")
+      .doc("Estimators of `benchmark_unseen.md`.");
 }
 
 StudySection benchmark_section() {

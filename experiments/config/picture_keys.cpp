@@ -1,0 +1,129 @@
+#include "experiments/config/picture_keys.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "experiments/config/experiment_estimators.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+constexpr const char* test_run_index = "0 to test.runs - 1";
+
+/// Limits of figures: more would not be readable.
+constexpr std::size_t most_settings = 3;
+constexpr std::size_t most_estimators = 6;
+
+void describe_choice(Fields& fields, DropChoice& choice, const Experiment& experiment) {
+  fields("run", choice.run, 0, experiment.test.runs - 1)
+      .range(test_run_index)
+      .doc("Index of the test run.");
+  fields.choose("wheels", {"both", "left", "right"}, choice.wheels)
+      .doc("Which flights count as drops: of both wheels at once, or of one.");
+  fields("drop", choice.drop, 0, 1000).doc("Index of the drop in the run.");
+  fields.optional("at", choice.at, 0.0, 1e6)
+      .doc("s", "Time since the start of the run, instead of a drop.");
+  fields("seed", choice.seed, 0, experiment.noise.seeds - 1)
+      .range("0 to noise.seeds - 1")
+      .doc("Index of the noise draw.");
+  fields("before", choice.before, 0.0, 10.0).doc("s", "Shown before takeoff or `at`.");
+  fields("after", choice.after, 0.01, 10.0).doc("s", "Shown after takeoff or `at`.");
+}
+
+/// As many estimators as are readable, the paper's and the phase filter first.
+std::vector<std::string> shown_by_default(const std::vector<std::string>& estimators) {
+  std::vector<std::string> shown;
+  const auto show = [&](const std::string& name) {
+    const bool is_new = std::find(shown.begin(), shown.end(), name) == shown.end();
+    if (is_new && shown.size() < most_estimators) shown.push_back(name);
+  };
+  for (const char* name : {"robust", "measurement_only", "reference", "phase"}) {
+    if (std::find(estimators.begin(), estimators.end(), name) != estimators.end()) show(name);
+  }
+  for (const std::string& name : estimators) show(name);
+  return shown;
+}
+
+void describe(Fields& fields, DetailConfig& detail, const Experiment& experiment) {
+  fields.list("noise", detail.noise).doc("Noise settings, one column of panels each; at most 3.");
+  fields.check(!detail.noise.empty() && detail.noise.size() <= most_settings, "noise",
+               fmt::format("expected 1 to {} noise settings", most_settings));
+  if (fields.reading()) detail.estimators = shown_by_default(experiment.estimators);
+  own_estimators(fields, "estimators", experiment, detail.estimators)
+      .fallback("up to 6, robust first")
+      .doc("Estimators with probabilities shown, at most 6.");
+  fields.check(detail.estimators.size() <= most_estimators, "estimators",
+               fmt::format("expected at most {} names", most_estimators));
+  for (noise::NoiseCell& cell : detail.noise) {
+    cell = noise::as_on_grid(cell, experiment.noise);
+  }
+}
+
+void describe(Fields& fields, PosteriorConfig& posterior, const Experiment& experiment) {
+  if (fields.present("noise", true)) {
+    fields.section("noise", posterior.noise).doc("Noise setting of the figure.");
+  }
+  posterior.noise = noise::as_on_grid(posterior.noise, experiment.noise);
+}
+
+/// A section that enables a figure if it is present, unless it has `enabled: false`.
+template <typename Config>
+KeyNotes describe_switched(Fields& parent, std::string_view key, std::optional<Config>& config,
+                           const Experiment& experiment) {
+  if (!parent.present(key, config.has_value())) {
+    parent.know(key);
+    return {};
+  }
+  bool enabled = true;
+  if (parent.reading()) config.emplace();
+  const KeyNotes notes = parent.within(key, [&](Fields& fields) {
+    if (fields.reading()) fields("enabled", enabled).doc("Whether the figure is drawn.");
+    describe_choice(fields, config->choice, experiment);
+    describe(fields, *config, experiment);
+  });
+  if (!enabled) config.reset();
+  return notes.fallback("none");
+}
+
+}  // namespace
+
+void describe(Fields& fields, VideoConfig& video, const Experiment& experiment) {
+  fields("enabled", video.enabled).doc("Whether a run is plotted and filmed.");
+  fields("run", video.run, 0, experiment.test.runs - 1)
+      .range(test_run_index)
+      .doc("Index of the test run.");
+  if (fields.reading()) video.estimators = experiment.estimators;
+  own_estimators(fields, "estimators", experiment, video.estimators)
+      .fallback("all of them")
+      .doc("Estimators with probabilities shown.");
+  fields.renamed("torque_noise", "noise.torque");
+  fields.renamed("accelerometer_noise", "noise.accelerometer");
+  fields.know("noise");
+  if (fields.reading() && !fields.documenting()) video.noise = experiment.highlights.front();
+  if (fields.present("noise", true)) {
+    fields.section("noise", video.noise)
+        .fallback("the first highlight")
+        .doc("Noise setting of the film.");
+  }
+  video.noise = noise::as_on_grid(video.noise, experiment.noise);
+}
+
+void describe_drop_figures(Fields& fields, Experiment& experiment) {
+  describe_switched(fields, "detail", experiment.detail, experiment)
+      .doc("A figure of signals and estimates during one drop.");
+  describe_switched(fields, "posterior", experiment.posterior, experiment)
+      .doc("A figure of the phase filter's probabilities during one drop.");
+  const auto& names = experiment.estimators;
+  fields.check(
+      !experiment.posterior || std::find(names.begin(), names.end(), "phase") != names.end(),
+      "posterior",
+      "expected 'phase' among the experiment's estimators, or posterior.enabled: false");
+}
+
+}  // namespace touchdown::experiments
