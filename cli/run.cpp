@@ -13,6 +13,7 @@
 #include "core/program/streams.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"
+#include "experiments/rollouts/failures.hpp"
 #include "experiments/run_experiment.hpp"
 #include "experiments/studies/experiment_file.hpp"
 
@@ -33,9 +34,7 @@ struct RunFlags {
 void run_one_shard(const experiments::Experiment& experiment, const experiments::Shard& shard,
                    const experiments::RunOptions& options) {
   const experiments::ShardReport report = experiments::run_shard(experiment, shard, options);
-  for (const experiments::Rollout& run : report.failed_runs) {
-    print("Not used: {} ({})\n", run.plan.file, run.report.ending);
-  }
+  print("{}", experiments::unused_runs_text(report.failed_runs));
   print("shard {}: {} parts, {} computed now\n", experiments::to_text(shard), report.tasks,
         report.computed);
   print("when all {} are done: touchdown merge {}\n", shard.count,

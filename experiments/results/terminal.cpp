@@ -8,6 +8,7 @@
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/results/paper.hpp"
+#include "experiments/rollouts/failures.hpp"
 
 namespace touchdown::experiments {
 
@@ -85,11 +86,7 @@ std::string summary_text(const ExperimentResult& result) {
   }
   for (const std::string& study : result.studies) text += '\n' + study;
   text += fmt::format("\n{}\n", conditions_text(experiment));
-  for (const Rollout& run : result.runs) {
-    if (!run.failed()) continue;
-    text += fmt::format("Not used: {} ({})\n", run.plan.file, run.report.ending);
-  }
-  return text;
+  return text + unused_runs_text(result.runs);
 }
 
 std::string closing_text(const ExperimentResult& result) {

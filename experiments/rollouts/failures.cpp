@@ -1,5 +1,7 @@
 #include "experiments/rollouts/failures.hpp"
 
+#include <set>
+
 #include <fmt/format.h>
 
 namespace touchdown::experiments {
@@ -11,6 +13,16 @@ std::string failures_text(const std::map<std::string, std::string>& ending_by_fi
   const std::string more =
       others == 0 ? "" : fmt::format(", and {} other{}", others, others == 1 ? "" : "s");
   return fmt::format("{} {}{}", file, ending, more);
+}
+
+std::string unused_runs_text(const std::vector<Rollout>& runs) {
+  std::string text;
+  std::set<std::string> named;
+  for (const Rollout& run : runs) {
+    if (!run.failed() || !named.insert(run.plan.file).second) continue;
+    text += fmt::format("Not used: {} ({})\n", run.plan.file, run.report.ending);
+  }
+  return text;
 }
 
 }  // namespace touchdown::experiments
