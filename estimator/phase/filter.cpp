@@ -2,11 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace touchdown {
 
-PhaseFilter::PhaseFilter(const PhaseModel& model, const PhaseFilterConfig& config)
-    : config_(config), prepared_(model, config), guard_(config.guard, config.sample_rate) {
+namespace {
+
+std::shared_ptr<const PhaseModel> shared_model(PhaseModel&& model) {
+  check_phase_model(model);
+  return std::make_shared<const PhaseModel>(std::move(model));
+}
+
+}  // namespace
+
+PhaseFilter::PhaseFilter(PhaseModel model, const PhaseFilterConfig& config)
+    : PhaseFilter(shared_model(std::move(model)), config) {}
+
+PhaseFilter::PhaseFilter(std::shared_ptr<const PhaseModel> model, const PhaseFilterConfig& config)
+    : config_(config),
+      prepared_(std::move(model), config),
+      guard_(config.guard, config.sample_rate) {
   reset();
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "estimator/contact_estimator.hpp"
 #include "estimator/phase/config.hpp"
 #include "estimator/phase/model.hpp"
@@ -21,7 +23,10 @@ class PhaseFilter : public ContactEstimator {
  public:
   /// Throws InputError for an invalid model or configuration, and for a sample rate that is not the
   /// model's divided by a whole number.
-  explicit PhaseFilter(const PhaseModel& model, const PhaseFilterConfig& config = {});
+  explicit PhaseFilter(PhaseModel model, const PhaseFilterConfig& config = {});
+  /// The same with a model that `check_phase_model` accepts; many filters can share it.
+  explicit PhaseFilter(std::shared_ptr<const PhaseModel> model,
+                       const PhaseFilterConfig& config = {});
 
   void reset() noexcept override;
 

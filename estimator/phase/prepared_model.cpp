@@ -1,14 +1,14 @@
 #include "estimator/phase/prepared_model.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace touchdown {
 namespace {
 
-const PhaseModel& checked(const PhaseModel& model, const PhaseFilterConfig& config) {
+const PhaseFilterConfig& checked(const PhaseFilterConfig& config) {
   check_phase_filter_config(config);
-  check_phase_model(model);
-  return model;
+  return config;
 }
 
 /// A noise estimate up to the largest noise of the densities.
@@ -32,19 +32,21 @@ std::vector<PhaseNoiseLevel> placed(const PhaseNoiseLevels& densities,
 
 }  // namespace
 
-PreparedPhaseModel::PreparedPhaseModel(const PhaseModel& model, const PhaseFilterConfig& config)
-    : recursion(checked(model, config), phase_stride(model.sample_rate, config.sample_rate)),
-      torque(model.torque, phase_exponent(config.torque_exponent,
-                                          phase_stride(model.sample_rate, config.sample_rate))),
-      acceleration(model.acceleration,
+PreparedPhaseModel::PreparedPhaseModel(std::shared_ptr<const PhaseModel> shared,
+                                       const PhaseFilterConfig& config)
+    : model(std::move(shared)),
+      recursion(*model, phase_stride(model->sample_rate, checked(config).sample_rate)),
+      torque(model->torque, phase_exponent(config.torque_exponent,
+                                           phase_stride(model->sample_rate, config.sample_rate))),
+      acceleration(model->acceleration,
                    phase_exponent(config.acceleration_exponent,
-                                  phase_stride(model.sample_rate, config.sample_rate))),
+                                  phase_stride(model->sample_rate, config.sample_rate))),
       knee_noise(
-          noise_from<2>(config.noise_floor.knee_torque, model.torque.back().noise.knee, config)),
+          noise_from<2>(config.noise_floor.knee_torque, model->torque.back().noise.knee, config)),
       wheel_noise(
-          noise_from<2>(config.noise_floor.wheel_torque, model.torque.back().noise.wheel, config)),
+          noise_from<2>(config.noise_floor.wheel_torque, model->torque.back().noise.wheel, config)),
       acceleration_noise(
-          noise_from<1>(config.noise_floor.acceleration, model.acceleration.back().noise, config)),
+          noise_from<1>(config.noise_floor.acceleration, model->acceleration.back().noise, config)),
       knee_levels(
           placed(torque.noise_levels(), knee_noise, config.noise, &PhaseNoise::knee_torque)),
       wheel_levels(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "estimator/numerics/noise_estimate.hpp"
@@ -12,12 +13,14 @@ namespace touchdown {
 
 /// A model in the form that filters run, one or many side by side. It holds transitions and
 /// likelihoods at the filter's rate, fresh noise estimates, and the position of each of their
-/// levels among the levels of the densities (one entry if the noise is known).
+/// levels among the levels of the densities (one entry if the noise is known). Copies, and all
+/// others that were prepared from the same model, share its densities.
 struct PreparedPhaseModel {
-  /// Throws InputError for an invalid model or configuration, and for a sample rate that is not the
-  /// model's divided by a whole number.
-  PreparedPhaseModel(const PhaseModel& model, const PhaseFilterConfig& config);
+  /// `shared` must be a model that `check_phase_model` accepts. Throws InputError for an invalid
+  /// configuration, and for a sample rate that is not the model's divided by a whole number.
+  PreparedPhaseModel(std::shared_ptr<const PhaseModel> shared, const PhaseFilterConfig& config);
 
+  std::shared_ptr<const PhaseModel> model;
   PhaseRecursion recursion;
   PhaseTorqueTables torque;
   PhaseAccelerationTables acceleration;

@@ -41,8 +41,8 @@ PhaseNoiseLevel PhaseNoiseLevels::place(double sigma) const {
                                     std::log(bandwidths[level + 1] / bandwidths[level]))};
 }
 
-PhaseTorqueTables::PhaseTorqueTables(std::span<const PhaseTorqueDensity> densities,
-                                     double exponent) {
+PhaseTorqueTables::PhaseTorqueTables(std::span<const PhaseTorqueDensity> densities, double exponent)
+    : exponent_(static_cast<float>(exponent)) {
   std::vector<double> bandwidths;
   for (const PhaseTorqueDensity& density : densities.first(torque_level_count(densities))) {
     bandwidths.push_back(density.bandwidth.wheel);
@@ -51,7 +51,7 @@ PhaseTorqueTables::PhaseTorqueTables(std::span<const PhaseTorqueDensity> densiti
   for (const PhaseTorqueDensity& density : densities) {
     tables_.push_back({AxisLookup(density.knee), AxisLookup(density.wheel),
                        phase_simd_width * static_cast<std::size_t>(density.knee.count),
-                       padded(density.log_density, torque_density_count, exponent)});
+                       density.log_density.data()});
   }
 }
 
@@ -61,7 +61,7 @@ PhaseRow PhaseTorqueTables::operator()(double knee, double wheel, const PhaseNoi
   const auto add_level = [&](const Table& table, float weight) {
     const AxisPosition k = table.knee.place(knee);
     const AxisPosition w = table.wheel.place(wheel);
-    const float* const low = table.cells.data() + static_cast<std::size_t>(w.index) * table.row +
+    const float* const low = table.cells + static_cast<std::size_t>(w.index) * table.row +
                              static_cast<std::size_t>(k.index) * phase_simd_width;
     const float* const high = low + table.row;
     const auto knee_weight = static_cast<float>(k.weight);
@@ -80,6 +80,7 @@ PhaseRow PhaseTorqueTables::operator()(double knee, double wheel, const PhaseNoi
   add_level(corner[0], 1.0F - larger);
   if (larger > smaller) add_level(corner[side], larger - smaller);
   if (smaller > 0.0F) add_level(corner[levels + 1], smaller);
+  for (float& log_likelihood : sum) log_likelihood *= exponent_;
   return sum;
 }
 

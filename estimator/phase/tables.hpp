@@ -31,10 +31,11 @@ struct PhaseNoiseLevels {
   [[nodiscard]] PhaseNoiseLevel place(double sigma) const;
 };
 
-/// Lookup tables of the torque densities, raised to an exponent. A row holds all phases. Lookups
+/// Lookups in the torque densities, raised to an exponent. A row holds all phases. Lookups
 /// are bilinear in (knee, wheel) and linear between noise levels, all in the logarithm. Four pairs
 /// of levels surround a pair of noises. The plane through three of them interpolates: both ends of
-/// the diagonal and the corner on the pair's side. Outside the grid the nearest edge counts.
+/// the diagonal and the corner on the pair's side. Outside the grid the nearest edge counts. The
+/// densities, tens of megabytes, are not copied: they must outlive the tables.
 class PhaseTorqueTables {
  public:
   PhaseTorqueTables(std::span<const PhaseTorqueDensity> densities, double exponent);
@@ -51,13 +52,16 @@ class PhaseTorqueTables {
     AxisLookup knee;
     AxisLookup wheel;
     std::size_t row = 0;
-    std::vector<float> cells;
+    const float* cells = nullptr;
   };
+  static_assert(torque_density_count == phase_simd_width, "rows are those of the densities");
+
   std::vector<Table> tables_;
+  float exponent_;
   PhaseNoiseLevels noise_levels_;
 };
 
-/// Lookup tables of the acceleration densities, likewise.
+/// Lookup tables of the acceleration densities, likewise, but padded copies of them.
 class PhaseAccelerationTables {
  public:
   PhaseAccelerationTables(std::span<const PhaseAccelerationDensity> densities, double exponent);

@@ -1,6 +1,7 @@
 #include "experiments/batch/phase.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace touchdown::experiments {
 
@@ -17,10 +18,11 @@ PhaseRow of_both_legs(const PhaseRow& left, const PhaseRow& right) noexcept {
 
 }  // namespace
 
-BatchedPhaseFilter::BatchedPhaseFilter(const PhaseModel& model, const PhaseFilterConfig& config,
+BatchedPhaseFilter::BatchedPhaseFilter(std::shared_ptr<const PhaseModel> model,
+                                       const PhaseFilterConfig& config,
                                        std::span<const BatchNoise> levels)
     : config_(config),
-      prepared_(model, config),
+      prepared_(std::move(model), config),
       torque_(levels, torque_part),
       acceleration_(levels, &BatchNoise::acceleration),
       knee_noise_(prepared_.knee_noise, config.noise_warm_up * config.sample_rate,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -21,7 +22,7 @@ namespace touchdown::experiments {
 class BatchedPhaseFilter {
  public:
   /// Throws InputError as `PhaseFilter`, and for no levels or bad ones.
-  BatchedPhaseFilter(const PhaseModel& model, const PhaseFilterConfig& config,
+  BatchedPhaseFilter(std::shared_ptr<const PhaseModel> model, const PhaseFilterConfig& config,
                      std::span<const BatchNoise> levels);
 
   /// Processes one step of clean signals. Each element scales the draws by its own sigmas.

@@ -88,7 +88,7 @@ DropPosterior drop_posterior(const Experiment& experiment, const PosteriorConfig
   const EstimatorEntry entry = entry_of(experiment, condition, models);
   const EstimatorSetup setup = setup_of(experiment, condition, models, run);
   PhaseFilter filter = phase_filter(entry, setup);
-  const PreparedPhaseModel prepared(setup.model->phase->model, filter.config());
+  const PreparedPhaseModel prepared(phase_model(setup), filter.config());
   const NoiseRun noise = noise_run(run, noise_key(experiment, config.choice.seed, run.info.run));
   const noise::SensorNoise levels = config.noise.levels();
   const std::vector<Phase> truth = true_phases(run, entry.phase->fit.labels);

@@ -104,7 +104,7 @@ std::optional<BatchedEstimator> measurement_only_batch(const EstimatorEntry& ent
 std::optional<BatchedEstimator> phase_batch(const EstimatorEntry& entry,
                                             const EstimatorSetup& setup, Levels levels) {
   const auto batch = std::make_shared<BatchedPhaseFilter>(
-      setup.model->phase->model, at_rate(*entry.phase, setup.sample_rate), batch_noise(levels));
+      phase_model(setup), at_rate(*entry.phase, setup.sample_rate), batch_noise(levels));
   // The batch applies the filter's two thresholds itself, so values are 0 or 1.
   return BatchedEstimator{update_of(batch), [batch](Side side) { return batch->contact(side); },
                           0.5};
@@ -225,8 +225,12 @@ EstimatorEntry hmm_entry() {
   return entry;
 }
 
+std::shared_ptr<const PhaseModel> phase_model(const EstimatorSetup& setup) {
+  return {setup.model->phase, &setup.model->phase->model};
+}
+
 PhaseFilter phase_filter(const EstimatorEntry& entry, const EstimatorSetup& setup) {
-  return PhaseFilter(setup.model->phase->model, at_rate(*entry.phase, setup.sample_rate));
+  return PhaseFilter(phase_model(setup), at_rate(*entry.phase, setup.sample_rate));
 }
 
 EstimatorEntry neural_entry() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ EstimatorEntry phase_entry();
 
 /// The phase filter without phases, with its inputs, bandwidths and hysteresis.
 EstimatorEntry hmm_entry();
+
+/// The fitted phase model; filters share it.
+std::shared_ptr<const PhaseModel> phase_model(const EstimatorSetup& setup);
 
 /// The phase filter itself, for callers that need the probabilities of phases.
 PhaseFilter phase_filter(const EstimatorEntry& entry, const EstimatorSetup& setup);

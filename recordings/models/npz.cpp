@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <new>
+#include <utility>
 #include <zip.h>
 
 #include <fmt/format.h>
@@ -68,7 +69,7 @@ void add_member(zip_t& archive, const std::string& name, const std::string& byte
 
 }  // namespace
 
-std::string to_npz(const NpzArrays& arrays, const std::string& name, Deflated deflated) {
+std::string to_npz(NpzArrays arrays, const std::string& name, Deflated deflated) {
   // In memory: otherwise libzip would make a temporary file of unknown name, which could be left
   // behind.
   const Source memory(zip_source_buffer_create(nullptr, 0, 0, nullptr));
@@ -78,8 +79,9 @@ std::string to_npz(const NpzArrays& arrays, const std::string& name, Deflated de
   Zip archive(zip_open_from_source(memory.get(), ZIP_CREATE | ZIP_TRUNCATE, nullptr));
   if (!archive) throw std::bad_alloc();
   zip_source_keep(memory.get());  // closing the archive releases its own reference
-  for (const auto& [member, array] : arrays) {
+  for (auto& [member, array] : arrays) {
     contents.push_back(to_npy(array));
+    array = {};  // large models are in memory once
     add_member(*archive, member + std::string(extension), contents.back(), deflated);
   }
   if (zip_close(archive.get()) != 0) complain(*archive, name, "cannot be written");
@@ -87,8 +89,8 @@ std::string to_npz(const NpzArrays& arrays, const std::string& name, Deflated de
   return content_of(*memory);
 }
 
-void write_npz(const NpzArrays& arrays, const std::filesystem::path& path) {
-  write_atomically(path, to_npz(arrays, path.string(), Deflated::large));
+void write_npz(NpzArrays arrays, const std::filesystem::path& path) {
+  write_atomically(path, to_npz(std::move(arrays), path.string(), Deflated::large));
 }
 
 }  // namespace touchdown::recordings

@@ -21,9 +21,9 @@ enum class Deflated { large, all };
 
 /// The content of a `.npz` file. The same arrays give the same bytes. `name` is used in messages.
 /// Errors: `Error`.
-std::string to_npz(const NpzArrays& arrays, const std::string& name, Deflated deflated);
+std::string to_npz(NpzArrays arrays, const std::string& name, Deflated deflated);
 
 /// Writes a `.npz` file completely or not at all, with large arrays deflated. Errors: `Error`.
-void write_npz(const NpzArrays& arrays, const std::filesystem::path& path);
+void write_npz(NpzArrays arrays, const std::filesystem::path& path);
 
 }  // namespace touchdown::recordings

@@ -1,6 +1,7 @@
 #include "experiments/batch/phase.hpp"
 
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -34,7 +35,7 @@ PhaseFilterConfig small_config() {
 }
 
 void expect_equal_to_scalar_filters(const PhaseFilterConfig& config) {
-  const PhaseModel model = test::small_phase_model();
+  const auto model = std::make_shared<const PhaseModel>(test::small_phase_model());
   const std::vector<BatchNoise> grid = phase_levels();
   BatchedPhaseFilter batch(model, config, grid);
   ASSERT_EQ(batch.size(), grid.size());
@@ -69,7 +70,7 @@ TEST(BatchedPhaseFilter, EqualsTheScalarFilterWithGivenNoise) {
 }
 
 TEST(BatchedPhaseFilter, RefusesBadLevels) {
-  const PhaseModel model = test::small_phase_model();
+  const auto model = std::make_shared<const PhaseModel>(test::small_phase_model());
   const auto with = [&](const std::vector<BatchNoise>& bad) {
     BatchedPhaseFilter(model, small_config(), bad);
   };
