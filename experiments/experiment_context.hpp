@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <filesystem>
@@ -46,13 +47,20 @@ ExperimentContext start(RunRequest request, RunDirectory directory, const RunOpt
 ExperimentContext start(RunRequest request, Plan plan, RunDirectory directory,
                         const RunOptions& options);
 
-/// Runs one step and records its duration.
+/// Runs a part of a step and adds its duration to that of the step.
 template <typename Step>
 auto timed(ExperimentContext& context, const char* name, const Step& step) {
   const auto start = std::chrono::steady_clock::now();
   auto result = step();
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  context.provenance.timings.emplace_back(name, elapsed.count());
+  auto& timings = context.provenance.timings;
+  const auto same = std::find_if(timings.begin(), timings.end(),
+                                 [&](const auto& timing) { return timing.first == name; });
+  if (same == timings.end()) {
+    timings.emplace_back(name, elapsed.count());
+  } else {
+    same->second += elapsed.count();
+  }
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -17,6 +18,7 @@
 #include "experiments/fit_run_check.hpp"
 #include "experiments/fitting/refits.hpp"
 #include "experiments/needs.hpp"
+#include "experiments/pending_tasks.hpp"
 #include "experiments/process_memory.hpp"
 #include "experiments/results/manifest.hpp"
 #include "experiments/results/result_files.hpp"
@@ -189,20 +191,20 @@ Rollouts simulate_fit(const ExperimentContext& context, const std::set<std::size
   return wanted.empty() ? Rollouts() : hold_rollouts(context, wanted, missing);
 }
 
-/// Simulates the streamed test runs, and evaluates each at once; its report goes to `runs`. Returns
-/// the number of tasks that were not saved.
+/// Simulates the streamed test runs of these tasks, and evaluates each at once; its report goes to
+/// `runs`. Returns the number of tasks that were not saved.
 std::size_t evaluate_streamed(const ExperimentContext& context,
-                              const std::set<std::size_t>& streamed, const TaskRange& tasks,
-                              const FittedModels& models, MissingRun missing, Rollouts& runs) {
+                              const std::set<std::size_t>& streamed,
+                              std::span<const std::size_t> tasks, const FittedModels& models,
+                              MissingRun missing, Rollouts& runs) {
   const Plan& plan = context.plan;
   const Experiment& experiment = context.request.experiment;
   std::map<std::size_t, std::vector<const Task*>> tasks_of;
-  for (std::size_t t = tasks.begin; t < tasks.end; ++t) {
-    tasks_of[plan.tasks[t].run].push_back(&plan.tasks[t]);
-  }
   std::set<std::size_t> tests;
-  for (const std::size_t index : streamed) {
-    if (plan.runs[index].role != RunRole::test) continue;
+  for (const std::size_t t : tasks) {
+    const std::size_t index = plan.tasks[t].run;
+    if (!streamed.contains(index)) continue;
+    tasks_of[index].push_back(&plan.tasks[t]);
     tests.insert(index);
     runs.emplace(index, Rollout{plan.runs[index], {}, {}});
   }
@@ -218,58 +220,85 @@ std::size_t evaluate_streamed(const ExperimentContext& context,
                      }
                      drop_signals(run);
                      runs.at(index) = std::move(run);
+                     release_free_memory();  // the pieces of ever new sizes that runs leave
                    });
   return computed;
 }
 
-/// Fits the models that the evaluation of these runs needs; none if no run can be scored.
-/// Fitted runs that are `streamed` are simulated engine by engine, so that memory holds those of
-/// one engine, and only their reports remain in `runs`.
-Fitted fit(const ExperimentContext& context, const std::set<std::size_t>& streamed,
-           MissingRun missing, Rollouts& runs) {
+/// The engines and the names of the fits that the evaluation of these runs needs, both in the order
+/// of the plan; none if no run can be scored.
+struct NeededFits {
+  std::vector<std::string> engines;
+  std::vector<std::string> names;
+};
+
+NeededFits needed_fits(const ExperimentContext& context, const std::set<std::size_t>& streamed,
+                       const Rollouts& runs) {
   const Plan& plan = context.plan;
   const bool has_later_tests = std::any_of(streamed.begin(), streamed.end(), [&](std::size_t run) {
     return plan.runs[run].role == RunRole::test;
   });
-  if (!has_later_tests && !is_any_scored(runs)) return {};
-  Experiment experiment = context.request.experiment;
+  NeededFits needed;
+  if (!has_later_tests && !is_any_scored(runs)) return needed;
   std::set<std::string> engines;
-  std::set<std::string> fits = {""};
-  const auto note = [&](const PlannedRun& run) {
+  std::set<std::size_t> all = streamed;
+  for (const auto& [index, run] : runs) all.insert(index);
+  needed.names = {""};  // the experiment's own fit: others use its tuning
+  for (const std::size_t index : all) {
+    const PlannedRun& run = plan.runs[index];
     engines.insert(run.simulator);
-    if (run.role == RunRole::fit) fits.insert(run.fit);
-  };
-  for (const auto& [index, run] : runs) note(run.plan);
-  for (const std::size_t index : streamed) note(plan.runs[index]);
-  // A shard may have runs of one engine only.
-  std::erase_if(experiment.simulators,
-                [&](const std::string& simulator) { return !engines.contains(simulator); });
-  const SavedTrials saved(context.directory.path() / "state" / "tuning",
-                          state_key(context.request));
-  Fitted all;
-  Experiment of_engine = experiment;
-  for (const std::string& name : fits) {
-    // The experiment's own fit is the first. Without `everywhere` the others use its choice.
-    const auto found = plan.refits.find(name);
-    const int refits = found == plan.refits.end() ? 0 : found->second;
-    const TunedHyperparameters chosen = chosen_in(all.trials);
-    for (const std::string& simulator : experiment.simulators) {
-      of_engine.simulators = {simulator};
-      Rollouts of_fit = simulate_fit(context, streamed, name, simulator, missing);
-      Fitted one = fit(of_engine, of_fit.empty() ? runs : of_fit, name, refits,
-                       context.should_continue, saved, chosen);
-      for (auto& [index, run] : of_fit) {
-        drop_signals(run);
-        runs.emplace(index, std::move(run));
-      }
-      release_free_memory();
-      all.models.merge(one.models);
-      std::move(one.trials.begin(), one.trials.end(), std::back_inserter(all.trials));
+    const bool is_new =
+        run.role == RunRole::fit &&
+        std::find(needed.names.begin(), needed.names.end(), run.fit) == needed.names.end();
+    if (is_new) needed.names.push_back(run.fit);
+  }
+  for (const std::string& engine : context.request.experiment.simulators) {
+    // A shard may have runs of one engine only.
+    if (engines.contains(engine)) needed.engines.push_back(engine);
+  }
+  return needed;
+}
+
+/// Makes one fit on one engine. Fitted runs that are `streamed` are simulated for it, and only
+/// their reports remain in `runs`.
+Fitted fit(const ExperimentContext& context, const std::set<std::size_t>& streamed,
+           const std::string& name, const std::string& simulator,
+           const TunedHyperparameters& chosen, const SavedTrials& saved, MissingRun missing,
+           Rollouts& runs) {
+  const Plan& plan = context.plan;
+  const auto found = plan.refits.find(name);
+  const int refits = found == plan.refits.end() ? 0 : found->second;
+  Experiment of_engine = context.request.experiment;
+  of_engine.simulators = {simulator};
+  Rollouts of_fit = simulate_fit(context, streamed, name, simulator, missing);
+  Fitted one = fit(of_engine, of_fit.empty() ? runs : of_fit, name, refits, context.should_continue,
+                   saved, chosen);
+  for (auto& [index, run] : of_fit) {
+    drop_signals(run);
+    runs.emplace(index, std::move(run));
+  }
+  return one;
+}
+
+/// Writes and frees the phase models, which are large, of fits that neither tasks nor pictures need
+/// any more.
+void release_phase_models(const ExperimentContext& context, const PendingTasks& pending,
+                          const TaskRange& tasks, FittedModels& models) {
+  const Plan& plan = context.plan;
+  if (!plan.model_tasks.empty()) return;
+  for (auto& [key, by_estimator] : models) {
+    const std::vector<std::string>& engines = context.request.experiment.simulators;
+    const bool is_own = std::find(engines.begin(), engines.end(), key) != engines.end();
+    const bool is_pictured = is_own && plan.kept_signals != KeptSignals::none;
+    if (is_pictured || pending.needs(key)) continue;
+    for (auto& [estimator, model] : by_estimator) {
+      if (!model.phase) continue;
+      const bool is_shard = tasks.size() < plan.tasks.size();
+      if (!is_shard) write_model_of(key, estimator, model, context.directory);
+      model.phase.reset();
     }
   }
-  all.models.merge(fit_training_sets(experiment, context, runs, chosen_in(all.trials)));
-  if (!context.should_continue()) throw Stopped();
-  return all;
+  release_free_memory();
 }
 
 struct Computed {
@@ -277,6 +306,56 @@ struct Computed {
   Fitted fitted;
   std::size_t tasks = 0;  ///< tasks that were not saved already
 };
+
+/// Makes all fits. Where runs are streamed, tasks are evaluated as soon as their fits are there, so
+/// that memory need not hold all models.
+void fit_and_evaluate(ExperimentContext& context, const std::set<std::size_t>& streamed,
+                      const TaskRange& tasks, MissingRun missing, Computed& done) {
+  const Experiment& experiment = context.request.experiment;
+  FittedModels& models = done.fitted.models;
+  PendingTasks pending(context.plan, tasks);
+  const auto evaluate_now = [&](const std::vector<std::size_t>& ready) {
+    done.tasks += timed(context, "evaluate", [&] {
+      return evaluate(context.plan, ready, done.runs, experiment, models, context.saved,
+                      context.should_continue) +
+             evaluate_streamed(context, streamed, ready, models, missing, done.runs);
+    });
+  };
+  const SavedTrials saved(context.directory.path() / "state" / "tuning",
+                          state_key(context.request));
+  const NeededFits needed = needed_fits(context, streamed, done.runs);
+  std::map<std::string, std::vector<Trial>> trials;  // by fit, then engine
+  for (const std::string& simulator : needed.engines) {
+    for (const std::string& name : needed.names) {
+      timed(context, "fit", [&] {
+        // Without `everywhere` other fits use the choice of the experiment's own.
+        Fitted one = fit(context, streamed, name, simulator, chosen_in(trials[""]), saved, missing,
+                         done.runs);
+        release_free_memory();
+        models.merge(one.models);
+        std::vector<Trial>& of_name = trials[name];
+        std::move(one.trials.begin(), one.trials.end(), std::back_inserter(of_name));
+        return 0;
+      });
+      if (streamed.empty()) continue;
+      evaluate_now(pending.take_ready(models));
+      release_phase_models(context, pending, tasks, models);
+    }
+  }
+  for (auto& [name, of_name] : trials) {
+    std::move(of_name.begin(), of_name.end(), std::back_inserter(done.fitted.trials));
+  }
+  if (!needed.engines.empty()) {
+    timed(context, "fit", [&] {
+      Experiment with_runs = experiment;
+      with_runs.simulators = needed.engines;
+      models.merge(fit_training_sets(with_runs, context, done.runs, chosen_in(done.fitted.trials)));
+      return 0;
+    });
+    if (!context.should_continue()) throw Stopped();
+  }
+  evaluate_now(pending.take_all());
+}
 
 /// The runs that these tasks need, and the fitted runs of the experiment's own models if this share
 /// has model tasks.
@@ -293,7 +372,6 @@ std::set<std::size_t> runs_for(const ExperimentContext& context, const TaskRange
 /// The first half of an experiment: simulate → fit → evaluate → model tasks. Saved results are
 /// read, not computed again.
 Computed compute(ExperimentContext& context, const TaskRange& tasks, MissingRun missing) {
-  const Experiment& experiment = context.request.experiment;
   try {
     Computed done;
     std::set<std::size_t> streamed;
@@ -306,13 +384,7 @@ Computed compute(ExperimentContext& context, const TaskRange& tasks, MissingRun 
       }
       return hold_rollouts(context, needed, missing);
     });
-    done.fitted = timed(context, "fit", [&] { return fit(context, streamed, missing, done.runs); });
-    done.tasks = timed(context, "evaluate", [&] {
-      const FittedModels& models = done.fitted.models;
-      return evaluate(context.plan, tasks, done.runs, experiment, models, context.saved,
-                      context.should_continue) +
-             evaluate_streamed(context, streamed, tasks, models, missing, done.runs);
-    });
+    fit_and_evaluate(context, streamed, tasks, missing, done);
     if (has_model_tasks(context.plan, tasks)) {
       timed(context, "model_tasks", [&] {
         run_model_tasks(context.plan, tasks, done.fitted.models, context.saved_model_tasks, missing,

@@ -207,13 +207,14 @@ bool evaluate_and_save(const Plan& plan, const Task& task, const Rollout& run,
   return true;
 }
 
-std::size_t evaluate(const Plan& plan, const TaskRange& tasks, const Rollouts& runs,
+std::size_t evaluate(const Plan& plan, std::span<const std::size_t> tasks, const Rollouts& runs,
                      const Experiment& experiment, const FittedModels& models,
                      const SavedCounts& saved, const ShouldContinue& should_continue) {
   std::vector<std::size_t> held;
-  for (std::size_t t = tasks.begin; t < tasks.end; ++t) {
+  for (const std::size_t t : tasks) {
     if (runs.contains(plan.tasks[t].run)) held.push_back(t);
   }
+  if (held.empty()) return 0;
   Progress progress("evaluating", "parts", static_cast<std::int64_t>(held.size()));
   std::atomic<std::size_t> computed = 0;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, held.size(), 1), [&](const auto& range) {

@@ -91,9 +91,9 @@ bool evaluate_and_save(const Plan& plan, const Task& task, const Rollout& run,
                        const Experiment& experiment, const FittedModels& models,
                        const SavedCounts& saved, const ShouldContinue& should_continue);
 
-/// Computes and saves, in parallel, those tasks of these runs that are in the range and not saved
-/// yet. Returns their number. Errors: `Stopped`.
-std::size_t evaluate(const Plan& plan, const TaskRange& tasks, const Rollouts& runs,
+/// Computes and saves, in parallel, those of the tasks, given as indices in the plan, that belong
+/// to these runs and are not saved yet. Returns their number. Errors: `Stopped`.
+std::size_t evaluate(const Plan& plan, std::span<const std::size_t> tasks, const Rollouts& runs,
                      const Experiment& experiment, const FittedModels& models,
                      const SavedCounts& saved, const ShouldContinue& should_continue);
 

@@ -17,10 +17,9 @@ namespace touchdown::experiments {
 namespace {
 
 void write_models(const FittedModels& models, const RunDirectory& directory) {
-  for (const auto& [simulator, by_estimator] : models) {
-    if (is_of_refit(simulator)) continue;
+  for (const auto& [key, by_estimator] : models) {
     for (const auto& [estimator, model] : by_estimator) {
-      write_fitted_model(model, directory.file("models", model_name(simulator, estimator)));
+      write_model_of(key, estimator, model, directory);
     }
   }
 }
@@ -60,6 +59,12 @@ void write_score_tables(const ExperimentResult& result) {
 }
 
 }  // namespace
+
+void write_model_of(const std::string& key, const std::string& estimator, const FittedModel& model,
+                    const RunDirectory& directory) {
+  if (is_of_refit(key)) return;
+  write_fitted_model(model, directory.file("models", model_name(key, estimator)));
+}
 
 void write_result_files(const ExperimentResult& result) {
   write_models(result.models, result.directory);

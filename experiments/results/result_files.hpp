@@ -6,6 +6,11 @@
 
 namespace touchdown::experiments {
 
+/// Writes a model of the fit with this key into `models/`, unless it is that of a refit. The phase
+/// model of a model that was written before may be gone: its file then stays as it is.
+void write_model_of(const std::string& key, const std::string& estimator, const FittedModel& model,
+                    const RunDirectory& directory);
+
 /// Writes an experiment's result into its run directory: `tables/` and `models/`.
 void write_result_files(const ExperimentResult& result);
 

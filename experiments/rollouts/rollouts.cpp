@@ -24,20 +24,6 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// The key of a recording: its inputs and the build. It uses the robot's content, because the path
-/// depends on the working directory.
-std::string key_of(const PlannedRun& run) {
-  scenarios::Scenario scenario = run.scenario;
-  scenario.robot.clear();
-  return Fingerprint()
-      .add(build_fingerprint())
-      .add(scenarios::to_yaml(scenario))
-      .add(scenarios::robot_text(run.scenario))
-      .add(run.simulator)
-      .add(fmt::format("{} {}", run.seed, run.run))
-      .text();
-}
-
 /// The file with a recording's checksum. Without it the recording is not used.
 std::filesystem::path stamp_of(const PlannedRun& run, const RunDirectory& directory) {
   return directory.file("state/recordings", run.file + ".sum");
@@ -140,6 +126,19 @@ Recorded simulate_or_read(const PlannedRun& run, const std::string& key,
 
 }  // namespace
 
+// The key uses the robot's content, because its path depends on the working directory.
+std::string simulation_key(const PlannedRun& run) {
+  scenarios::Scenario scenario = run.scenario;
+  scenario.robot.clear();
+  return Fingerprint()
+      .add(build_fingerprint())
+      .add(scenarios::to_yaml(scenario))
+      .add(scenarios::robot_text(run.scenario))
+      .add(run.simulator)
+      .add(fmt::format("{} {}", run.seed, run.run))
+      .text();
+}
+
 std::vector<const RunSignals*> scored_runs(const std::vector<Rollout>& runs) {
   std::vector<const RunSignals*> scored;
   for (const Rollout& run : runs) {
@@ -161,7 +160,6 @@ void for_each_rollout(const Experiment& experiment, const Plan& plan,
                       const std::set<std::size_t>& needed, const RunDirectory& directory,
                       MissingRun missing, const ShouldContinue& should_continue,
                       const UseRollout& use) {
-  // Runs that differ only in their sensor model or fit are one simulation.
   struct Simulation {
     std::string key;
     std::vector<std::size_t> runs;  // indices in the plan
@@ -169,7 +167,8 @@ void for_each_rollout(const Experiment& experiment, const Plan& plan,
   std::vector<Simulation> simulations;
   std::map<std::string, std::size_t> number;
   for (const std::size_t index : needed) {
-    const auto [known, is_new] = number.emplace(key_of(plan.runs[index]), simulations.size());
+    const auto [known, is_new] =
+        number.emplace(simulation_key(plan.runs[index]), simulations.size());
     if (is_new) simulations.push_back({known->first, {}});
     simulations[known->second].runs.push_back(index);
   }
@@ -195,12 +194,12 @@ void for_each_rollout(const Experiment& experiment, const Plan& plan,
 
 bool is_recorded(const PlannedRun& run, const RunDirectory& directory) {
   if (!run.kept) return true;
-  const std::string key = key_of(run);
+  const std::string key = simulation_key(run);
   return is_whole(run, directory, key) || read_state(failure_of(run, directory), key).has_value();
 }
 
 bool has_stamp(const PlannedRun& run, const RunDirectory& directory) {
-  return read_state(stamp_of(run, directory), key_of(run)).has_value();
+  return read_state(stamp_of(run, directory), simulation_key(run)).has_value();
 }
 
 }  // namespace touchdown::experiments

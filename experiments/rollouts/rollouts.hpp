@@ -55,6 +55,10 @@ using ShouldContinue = std::function<bool()>;
 /// Receives each rollout with its run's index in the plan, from several threads at once.
 using UseRollout = std::function<void(std::size_t index, Rollout run)>;
 
+/// Identifies the simulation of a run: its inputs and the build. Runs that differ only in their
+/// sensor model or fit share it.
+std::string simulation_key(const PlannedRun& run);
+
 /// Simulates planned runs in parallel and writes the recordings to keep. It reads complete
 /// recordings that this build made of the same scenario, seed and run. A run that keeps no
 /// recording is always simulated, for either value of `missing`. A run that cannot be simulated is
