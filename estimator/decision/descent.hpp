@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <numbers>
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -15,16 +17,34 @@
 
 namespace touchdown {
 
-/// The rows that models on `FeatureExtractor` are fitted to. Each row is a column of inputs, its
-/// label and its weight.
+/// The column that holds the inputs of a row: as they are, or those of the other wheel.
+struct RowPlace {
+  static constexpr std::uint32_t last_column = 0x7fffffff;
+
+  std::uint32_t column : 31;
+  std::uint32_t is_of_other_wheel : 1;
+};
+
+/// The rows that models on `FeatureExtractor` are fitted to. Each row has inputs, a label and a
+/// weight.
 struct DecisionRows {
   Eigen::Matrix<float, static_cast<int>(decision_inputs), Eigen::Dynamic> inputs;
   /// `ServoLoadInputs`, if the fit has them.
   Eigen::MatrixXf servo = {};
+  /// The place of each row's inputs, so that both wheels share a column; empty: each row has its
+  /// own.
+  std::vector<RowPlace> places = {};
   Eigen::RowVectorXf is_contact;  ///< 1 or 0
   Eigen::RowVectorXf weight;
 
+  [[nodiscard]] Eigen::Index count() const { return is_contact.size(); }
   [[nodiscard]] bool has_servo_load() const { return servo.rows() > 0; }
+  [[nodiscard]] DecisionInputs inputs_of(Eigen::Index row) const;
+  /// Zeros without the optional channel.
+  [[nodiscard]] ServoLoadInputs servo_load_of(Eigen::Index row) const;
+  /// One of the inputs, of all rows.
+  [[nodiscard]] std::vector<float> values_of_input(std::size_t input) const;
+  [[nodiscard]] std::vector<float> values_of_servo_load(std::size_t input) const;
 };
 
 /// One step of Adam (Kingma, Ba 2015) with decoupled weight decay. The learning rate falls to zero
@@ -73,15 +93,19 @@ void descend(const DecisionRows& rows, const DecisionFitConfig& config, Draws& d
   batch.servo.resize(rows.servo.rows(), count);
   batch.is_contact.resize(count);
   batch.weight.resize(count);
-  const auto all = static_cast<std::uint64_t>(rows.inputs.cols());
+  const auto all = static_cast<std::uint64_t>(rows.count());
   const std::size_t steps =
       (static_cast<std::size_t>(all) * config.epochs + config.batch - 1) / config.batch;
   for (std::size_t n = 0; n < steps; ++n) {
     if (before_step && n % between_calls == 0) before_step();
     for (Eigen::Index i = 0; i < count; ++i) {
       const auto row = static_cast<Eigen::Index>(draws.below(all));
-      batch.inputs.col(i) = rows.inputs.col(row);
-      if (rows.has_servo_load()) batch.servo.col(i) = rows.servo.col(row);
+      const DecisionInputs inputs = rows.inputs_of(row);
+      std::copy(inputs.begin(), inputs.end(), batch.inputs.col(i).data());
+      if (rows.has_servo_load()) {
+        const ServoLoadInputs servo = rows.servo_load_of(row);
+        std::copy(servo.begin(), servo.end(), batch.servo.col(i).data());
+      }
       batch.is_contact[i] = rows.is_contact[row];
       batch.weight[i] = rows.weight[row];
     }

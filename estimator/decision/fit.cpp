@@ -48,15 +48,17 @@ DecisionRows decision_rows(std::span<const LabelledRun> runs, const DecisionConf
   // A pass takes a row of each wheel every so many steps.
   const std::size_t stride = std::max<std::size_t>(1, 2 * steps * fit.passes / fit.rows);
   std::size_t most = 0;
-  for (const LabelledRun& run : runs) most += 2 * fit.passes * (steps_of(run) / stride + 1);
+  for (const LabelledRun& run : runs) most += fit.passes * (steps_of(run) / stride + 1);
   // Sized once and shortened at the end: pages that are not written take no memory.
   DecisionRows rows;
   rows.inputs.resize(static_cast<int>(decision_inputs), static_cast<Eigen::Index>(most));
   if (config.servo_load) {
     rows.servo.resize(static_cast<int>(std::tuple_size_v<ServoLoadInputs>), rows.inputs.cols());
   }
-  rows.is_contact.resize(rows.inputs.cols());
+  rows.places.reserve(2 * most);
+  rows.is_contact.resize(2 * rows.inputs.cols());
   Eigen::Index count = 0;
+  std::uint32_t column = 0;
   Draws draws(fit.seed);
   for (std::size_t pass = 0; pass < fit.passes; ++pass) {
     for (const LabelledRun& run : runs) {
@@ -74,22 +76,25 @@ DecisionRows decision_rows(std::span<const LabelledRun> runs, const DecisionConf
         const FeatureExtractor::Step step = features.update(augmentation(run.signals[k]));
         if (k < next) continue;
         next += stride;
+        if (!step.is_valid[0] && !step.is_valid[1]) continue;
         features.compute_inputs();
-        for (std::size_t side = 0; side < 2; ++side) {
+        const DecisionInputs inputs = features.inputs(0);
+        std::copy(inputs.begin(), inputs.end(), rows.inputs.col(column).data());
+        if (config.servo_load) {
+          const ServoLoadInputs servo = features.servo_load(0);
+          std::copy(servo.begin(), servo.end(), rows.servo.col(column).data());
+        }
+        for (std::uint32_t side = 0; side < 2; ++side) {
           if (!step.is_valid[side]) continue;
-          const DecisionInputs inputs = features.inputs(side);
-          std::copy(inputs.begin(), inputs.end(), rows.inputs.col(count).data());
-          if (config.servo_load) {
-            const ServoLoadInputs servo = features.servo_load(side);
-            std::copy(servo.begin(), servo.end(), rows.servo.col(count).data());
-          }
+          rows.places.push_back({column & RowPlace::last_column, side & 1U});
           rows.is_contact[count++] = run.contact[side][k] != 0 ? 1.0F : 0.0F;
         }
+        ++column;
       }
     }
   }
-  rows.inputs.conservativeResize(Eigen::NoChange, count);
-  if (config.servo_load) rows.servo.conservativeResize(Eigen::NoChange, count);
+  rows.inputs.conservativeResize(Eigen::NoChange, column);
+  if (config.servo_load) rows.servo.conservativeResize(Eigen::NoChange, column);
   rows.is_contact.conservativeResize(count);
   rows.weight.resize(count);
   const std::array<double, 2> weights = class_weights(rows, fit.class_exponent);

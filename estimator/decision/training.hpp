@@ -8,8 +8,9 @@
 
 namespace touchdown {
 
-/// The weighted mean of the cross-entropy of these rows; `gradient`, unless null, gets its
-/// gradient. If the rows have the load by the servo law, model and gradient need weights for it.
+/// The weighted mean of the cross-entropy of these rows, each in a column of its own; `gradient`,
+/// unless null, gets its gradient. If the rows have the load by the servo law, model and gradient
+/// need weights for it.
 [[nodiscard]] double decision_loss(const DecisionModel& model, const DecisionRows& rows,
                                    DecisionModel* gradient = nullptr);
 

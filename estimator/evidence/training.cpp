@@ -22,20 +22,6 @@ void add(auto& values, const EvidencePosition& at, float amount) {
   values[knot + 1] += at.share * amount;
 }
 
-DecisionInputs inputs_of(const DecisionRows& rows, Eigen::Index row) {
-  DecisionInputs inputs;
-  std::copy_n(rows.inputs.col(row).data(), decision_inputs, inputs.begin());
-  return inputs;
-}
-
-ServoLoadInputs servo_load_of(const DecisionRows& rows, Eigen::Index row) {
-  ServoLoadInputs inputs{};
-  if (rows.has_servo_load()) {
-    std::copy_n(rows.servo.col(row).data(), inputs.size(), inputs.begin());
-  }
-  return inputs;
-}
-
 /// Calls `part` with the same fitted numbers of all models, part by part.
 template <typename Part, typename... Models>
 void for_each_number(const Part& part, Models&... models) {
@@ -87,30 +73,26 @@ float centred(Values& values, const std::vector<double>& weight) {
 /// Centres every curve over the rows and adds the means to the bias.
 void centre(EvidenceModel& model, const DecisionRows& rows) {
   std::vector<double> weight(evidence_knots);
-  const auto centre_curve = [&](EvidenceCurve& curve, const auto& inputs) {
+  const auto centre_curve = [&](EvidenceCurve& curve, const std::vector<float>& inputs) {
     std::fill(weight.begin(), weight.end(), 0.0);
-    for (Eigen::Index row = 0; row < inputs.size(); ++row) {
-      add(weight, evidence_position(inputs[row]), rows.weight[row]);
+    for (std::size_t row = 0; row < inputs.size(); ++row) {
+      add(weight, evidence_position(inputs[row]), rows.weight[static_cast<Eigen::Index>(row)]);
     }
     model.bias += centred(curve, weight);
   };
   for (std::size_t i = 0; i < decision_inputs; ++i) {
-    centre_curve(model.curve[i], rows.inputs.row(static_cast<Eigen::Index>(i)));
+    centre_curve(model.curve[i], rows.values_of_input(i));
   }
   for (std::size_t i = 0; i < model.servo_curve.size(); ++i) {
-    centre_curve(model.servo_curve[i], rows.servo.row(static_cast<Eigen::Index>(i)));
+    centre_curve(model.servo_curve[i], rows.values_of_servo_load(i));
   }
 }
 
 /// Sets for each input the range that holds all but two in a thousand rows.
 void set_seen_ranges(EvidenceModel& model, const DecisionRows& rows) {
-  const auto count = static_cast<std::size_t>(rows.inputs.cols());
-  std::vector<float> values(count);
-  const auto range_of = [&](const auto& inputs) {
+  const auto count = static_cast<std::size_t>(rows.count());
+  const auto range_of = [&](std::vector<float> values) {
     std::array<float, 2> range{};
-    for (std::size_t row = 0; row < count; ++row) {
-      values[row] = inputs[static_cast<Eigen::Index>(row)];
-    }
     const std::size_t beyond = count / 1000;
     for (const bool upper : {false, true}) {
       const auto nth =
@@ -121,11 +103,11 @@ void set_seen_ranges(EvidenceModel& model, const DecisionRows& rows) {
     return range;
   };
   for (std::size_t i = 0; i < decision_inputs; ++i) {
-    model.seen[i] = range_of(rows.inputs.row(static_cast<Eigen::Index>(i)));
+    model.seen[i] = range_of(rows.values_of_input(i));
   }
   model.servo_seen.clear();
-  for (Eigen::Index i = 0; i < rows.servo.rows(); ++i) {
-    model.servo_seen.push_back(range_of(rows.servo.row(i)));
+  for (std::size_t i = 0; i < model.servo_curve.size(); ++i) {
+    model.servo_seen.push_back(range_of(rows.values_of_servo_load(i)));
   }
 }
 
@@ -146,9 +128,9 @@ double evidence_loss(const EvidenceModel& model, const DecisionRows& rows,
   }
   const float all = rows.weight.sum();
   double loss = 0.0;
-  for (Eigen::Index row = 0; row < rows.inputs.cols(); ++row) {
-    const DecisionInputs inputs = inputs_of(rows, row);
-    const ServoLoadInputs servo = servo_load_of(rows, row);
+  for (Eigen::Index row = 0; row < rows.count(); ++row) {
+    const DecisionInputs inputs = rows.inputs_of(row);
+    const ServoLoadInputs servo = rows.servo_load_of(row);
     const float logit = evidence_logit(model, inputs, servo);
     // log(1 + e^z) − y z, for any z.
     const float tail = std::exp(-std::abs(logit));

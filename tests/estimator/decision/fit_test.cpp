@@ -1,6 +1,8 @@
 #include "estimator/decision/fit.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -8,6 +10,7 @@
 #include "core/error.hpp"
 #include "estimator/decision/feature_extractor.hpp"
 #include "tests/estimator/decision/lifted_run.hpp"
+#include "tests/estimator/random.hpp"
 
 namespace touchdown {
 namespace {
@@ -44,16 +47,70 @@ TEST(DecisionRows, OfSlowPassesMatchTheInputsOfASlowRobot) {
       features.update(run.signals[k]);
       features.compute_inputs();
       for (std::size_t side = 0; side < 2; ++side, ++row) {
-        ASSERT_LT(row, rows.inputs.cols());
+        ASSERT_LT(row, rows.count());
         ASSERT_EQ(rows.is_contact[row], run.contact[side][k] != 0 ? 1.0F : 0.0F);
-        const DecisionInputs expected = features.inputs(side);
-        for (std::size_t i = 0; i < expected.size(); ++i) {
-          ASSERT_EQ(rows.inputs(static_cast<Eigen::Index>(i), row), expected[i]) << k << ", " << i;
-        }
+        ASSERT_EQ(rows.inputs_of(row), features.inputs(side)) << k << ", wheel " << side;
       }
     }
-    EXPECT_EQ(row, rows.inputs.cols());
+    EXPECT_EQ(row, rows.count());
+    EXPECT_EQ(2 * rows.inputs.cols(), rows.count());  // both wheels share a column
   }
+}
+
+TEST(DecisionRows, GiveEveryInputOfAllRowsAsTheyGiveRows) {
+  test::Normal normal(5);
+  DecisionRows rows;
+  rows.inputs.resize(static_cast<int>(decision_inputs), 3);
+  rows.servo.resize(static_cast<int>(std::tuple_size_v<ServoLoadInputs>), 3);
+  for (auto* columns : {rows.inputs.data(), rows.servo.data()}) {
+    const Eigen::Index size = columns == rows.servo.data() ? rows.servo.size() : rows.inputs.size();
+    std::generate_n(columns, size, [&] { return static_cast<float>(normal()); });
+  }
+  const auto expect_alike = [&] {
+    for (Eigen::Index row = 0; row < rows.count(); ++row) {
+      const auto at = static_cast<std::size_t>(row);
+      for (std::size_t i = 0; i < decision_inputs; ++i) {
+        EXPECT_EQ(rows.values_of_input(i)[at], rows.inputs_of(row)[i]) << row << ", " << i;
+      }
+      for (std::size_t i = 0; i < std::tuple_size_v<ServoLoadInputs>; ++i) {
+        EXPECT_EQ(rows.values_of_servo_load(i)[at], rows.servo_load_of(row)[i]) << row;
+      }
+    }
+  };
+  rows.is_contact.setOnes(3);
+  expect_alike();
+  // Both wheels of a step, the right one alone, the left one alone.
+  rows.places = {{0, 0}, {0, 1}, {1, 1}, {2, 0}};
+  rows.is_contact.setOnes(4);
+  expect_alike();
+  EXPECT_EQ(rows.inputs_of(1), of_other_wheel(rows.inputs_of(0)));
+  EXPECT_EQ(rows.servo_load_of(1), of_other_wheel(rows.servo_load_of(0)));
+}
+
+TEST(DecisionRows, KeepTheWheelThatIsValid) {
+  test::CarriedRun run = test::lifted_run(1, 3);
+  for (std::size_t k = 0; k < run.signals.size(); ++k) {
+    if (k % 3 == 1) run.signals[k].leg[0].knee.torque = std::nan("");
+    if (k % 3 == 2) run.signals[k].leg[1].hip.position = std::nan("");
+  }
+  DecisionFitConfig fit = undisturbed();
+  fit.share_slow = 0.0;
+  const DecisionRows rows = decision_rows(std::vector<LabelledRun>{run.view()}, {}, fit);
+  FeatureExtractor features({});
+  Eigen::Index row = 0;
+  for (std::size_t k = 0; k < run.signals.size(); ++k) {
+    const FeatureExtractor::Step step = features.update(run.signals[k]);
+    features.compute_inputs();
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (!step.is_valid[side]) continue;
+      ASSERT_LT(row, rows.count());
+      ASSERT_EQ(rows.inputs_of(row), features.inputs(side)) << k << ", wheel " << side;
+      ASSERT_EQ(rows.is_contact[row], run.contact[side][k] != 0 ? 1.0F : 0.0F);
+      ++row;
+    }
+  }
+  EXPECT_EQ(row, rows.count());
+  EXPECT_LT(rows.count(), 2 * static_cast<Eigen::Index>(run.signals.size()));
 }
 
 TEST(DecisionRows, ContainRandomStateResets) {
@@ -67,9 +124,9 @@ TEST(DecisionRows, ContainRandomStateResets) {
   fit.share_with_resets = 1.0;
   fit.reset_after = 0.05;
   const DecisionRows rows = decision_rows(std::vector<LabelledRun>{run.view()}, {}, fit);
-  ASSERT_EQ(rows.inputs.cols(), 2 * 20'000);
+  ASSERT_EQ(rows.inputs.cols(), 20'000);
   int resets = 0;
-  for (Eigen::Index i = 0; i < rows.inputs.cols(); i += 2) {  // the left wheel's load, all scales
+  for (Eigen::Index i = 0; i < rows.inputs.cols(); ++i) {  // the left wheel's load, all scales
     const auto load = rows.inputs.col(i).head(static_cast<Eigen::Index>(decision_scales));
     resets += (load.array() == load[0]).all() ? 1 : 0;
   }
