@@ -1,10 +1,10 @@
 #pragma once
 
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "experiments/calibration.hpp"
 #include "experiments/plan/plan.hpp"
 
 namespace touchdown::experiments {
@@ -26,12 +26,9 @@ struct CostEstimate {
   double seconds() const;  ///< of the stages that can be estimated
 };
 
-/// Estimates the cost from a short calibration on this machine: it simulates one run of every
-/// scene, fits every estimator to a few seconds of them, and evaluates every estimator on a few
-/// seconds more. Costs grow linearly with the data, but for the training of fits that draw a fixed
-/// number of rows (`EstimatorEntry::fit_passes`). Writes nothing into run directories. Errors:
-/// `InputError` for an invalid scene; `Stopped`.
+/// Estimates the cost of a plan from a calibration. Costs grow linearly with the data, but for the
+/// training of fits that draw a fixed number of rows (`EstimatorEntry::fit_passes`).
 CostEstimate estimate_cost(const RunRequest& request, const Plan& plan,
-                           const std::function<bool()>& should_continue);
+                           const Calibration& calibration);
 
 }  // namespace touchdown::experiments

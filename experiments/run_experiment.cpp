@@ -502,9 +502,9 @@ RunOutline outline_of(const Experiment& experiment, const RunOptions& options) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   try {
-    return {
-        directory, plan.tasks.size(), threads,
-        estimate_cost(request, plan, [stop = options.stop] { return stop == nullptr || !*stop; })};
+    const Calibration calibration =
+        calibrate(request, plan, [stop = options.stop] { return stop == nullptr || !*stop; });
+    return {directory, plan.tasks.size(), threads, estimate_cost(request, plan, calibration)};
   } catch (const Stopped&) {
     throw Stopped("stopped; nothing was written");
   }
