@@ -1,7 +1,5 @@
 #include "core/yaml_text.hpp"
 
-#include <chrono>
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -60,11 +58,11 @@ std::string laughs(int levels) {
 
 TEST(YamlText, ABillionLaughsAreRefusedQuickly) {
   EXPECT_EQ(complaint_about(laughs(4)), "");
-  const auto start = std::chrono::steady_clock::now();
-  EXPECT_THAT(complaint_about(laughs(10)),
-              AllOf(StartsWith("a.yaml:7:"), HasSubstr("1000000 values")));
-  EXPECT_THAT(complaint_about(laughs(60)), HasSubstr("1000000 values"));
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  const std::string complaint = complaint_about(laughs(10));
+  EXPECT_THAT(complaint, AllOf(StartsWith("a.yaml:7:"), HasSubstr("1000000 values")));
+  // Expansion ends at the limit, so its cost does not depend on what would follow: 9^59 values.
+  EXPECT_EQ(complaint_about(laughs(8)), complaint);
+  EXPECT_EQ(complaint_about(laughs(60)), complaint);
 }
 
 TEST(YamlText, NestingIsLimitedWithAliasesExpanded) {

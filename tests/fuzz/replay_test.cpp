@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <string_view>
 #include <vector>
@@ -49,9 +49,9 @@ TEST_P(Corpus, IsReplayed) {
   for (const fs::path& file : files) {
     SCOPED_TRACE(file.string());
     const std::string content = read_file(file);
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();  // processor time: other processes do not count
     EXPECT_NO_THROW(GetParam().fuzz(content));
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+    EXPECT_LT(std::clock() - start, 20 * CLOCKS_PER_SEC);
   }
 }
 

@@ -116,7 +116,7 @@ TEST(FrameWorkers, DieWithTheirParent) {
   ::waitpid(parent, nullptr, 0);
   for (const pid_t worker : workers) {
     bool alive = true;
-    for (int i = 0; alive && i < 200; ++i) {
+    for (int i = 0; alive && i < 3000; ++i) {
       // An orphan may stay a zombie until init collects it, and then counts as exited.
       std::string state;
       if (std::FILE* file =
