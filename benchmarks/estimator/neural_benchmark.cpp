@@ -38,9 +38,8 @@ std::shared_ptr<const NeuralNetwork> network() {
 
 /// One step of the network.
 void neural_step(benchmark::State& state) {
-  NeuralForward<1> forward(network());
-  const NeuralForward<1>::Columns input =
-      NeuralForward<1>::Columns::Constant(neural_input_count, 0.3F);
+  NeuralForward forward(network());
+  const NeuralForward::Column input = NeuralForward::Column::Constant(neural_input_count, 0.3F);
   for (auto _ : state) {
     benchmark::DoNotOptimize(forward.step(input).data());
   }

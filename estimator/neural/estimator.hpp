@@ -53,9 +53,9 @@ class NeuralEstimator : public ContactEstimator {
 
   NeuralEstimatorConfig config_;
   SignalGuard guard_;
-  NeuralForward<1> forward_;
+  NeuralForward forward_;
   NeuralInputSampler sampler_;
-  NeuralForward<1>::Columns input_;
+  NeuralForward::Column input_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   Belief belief_;
 };

@@ -15,32 +15,28 @@ std::shared_ptr<const NeuralNetwork> checked(std::shared_ptr<const NeuralNetwork
 
 }  // namespace
 
-template <int Batch>
-NeuralForward<Batch>::NeuralForward(std::shared_ptr<const NeuralNetwork> network,
-                                    Eigen::Index batch)
+NeuralForward::NeuralForward(std::shared_ptr<const NeuralNetwork> network)
     : network_(checked(std::move(network))),
-      standardised_(neural_input_count, batch),
-      hidden_(network_->hidden(), batch),
-      from_input_(3 * network_->hidden(), batch),
-      from_hidden_(3 * network_->hidden(), batch),
-      first_(network_->first.weight.rows(), batch),
-      second_(network_->second.weight.rows(), batch),
-      outputs_(neural_output_count, batch) {
+      standardised_(neural_input_count),
+      hidden_(network_->hidden()),
+      from_input_(3 * network_->hidden()),
+      from_hidden_(3 * network_->hidden()),
+      first_(network_->first.weight.rows()),
+      second_(network_->second.weight.rows()),
+      outputs_(neural_output_count) {
   reset();
 }
 
-template <int Batch>
-const typename NeuralForward<Batch>::Columns& NeuralForward<Batch>::step(
-    const Columns& inputs) noexcept {
+const NeuralForward::Column& NeuralForward::step(const Column& inputs) noexcept {
   const NeuralNetwork& net = *network_;
   const Eigen::Index n = net.hidden();
   // Starts from the bias and adds the product, so that no temporary is made.
-  const auto affine = [](const DenseLayer& layer, const Columns& x, Columns& y) {
-    y.colwise() = layer.bias;
+  const auto affine = [](const DenseLayer& layer, const Column& x, Column& y) {
+    y = layer.bias;
     y.noalias() += layer.weight * x;
   };
-  standardised_ = inputs.colwise() - net.input_mean;
-  standardised_.array().colwise() *= net.input_scale.array();
+  standardised_ = inputs - net.input_mean;
+  standardised_.array() *= net.input_scale.array();
 
   // Gates as Cho et al. (2014) have them, with the reset gate behind the matrix:
   // h' = (1 − z) ∘ tanh(a_n + r ∘ b_n) + z ∘ h, where r = σ(a_r + b_r) and z = σ(a_z + b_z).
@@ -61,8 +57,5 @@ const typename NeuralForward<Batch>::Columns& NeuralForward<Batch>::step(
   affine(net.heads, second_, outputs_);
   return outputs_;
 }
-
-template class NeuralForward<1>;
-template class NeuralForward<Eigen::Dynamic>;
 
 }  // namespace touchdown

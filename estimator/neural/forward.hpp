@@ -8,28 +8,21 @@
 
 namespace touchdown {
 
-/// Runs a neural network through time. It holds the recurrent state of a batch of independent
-/// sequences, each a column. `Batch` is their number at compile time, 1 or `Eigen::Dynamic`; one
-/// step reads the weights once for the whole batch. `step` does not throw, and allocates nothing
-/// for a batch of 1.
-template <int Batch>
+/// Runs a neural network through time and holds its recurrent state. `step` neither throws nor
+/// allocates.
 class NeuralForward {
  public:
-  using Columns = Eigen::Matrix<float, Eigen::Dynamic, Batch>;
+  using Column = Eigen::VectorXf;
 
-  /// `batch` is the number of sequences if `Batch` is dynamic. Errors: `InputError` for no network
-  /// or one that `check` refuses.
-  explicit NeuralForward(std::shared_ptr<const NeuralNetwork> network,
-                         Eigen::Index batch = Batch == Eigen::Dynamic ? 0 : Batch);
+  /// Errors: `InputError` for no network or one that `check` refuses.
+  explicit NeuralForward(std::shared_ptr<const NeuralNetwork> network);
 
   /// Sets the hidden state to zero, as at the beginning of a training episode.
   void reset() noexcept { hidden_.setZero(); }
 
-  /// One step of every sequence: raw inputs (neural_input_count × batch) to outputs
-  /// (neural_output_count × batch).
-  const Columns& step(const Columns& inputs) noexcept;
+  /// One step: raw inputs (neural_input_count) to outputs (neural_output_count).
+  const Column& step(const Column& inputs) noexcept;
 
-  [[nodiscard]] Eigen::Index batch() const noexcept { return hidden_.cols(); }
   [[nodiscard]] const NeuralNetwork& network() const noexcept { return *network_; }
   [[nodiscard]] std::shared_ptr<const NeuralNetwork> shared_network() const noexcept {
     return network_;
@@ -37,16 +30,13 @@ class NeuralForward {
 
  private:
   std::shared_ptr<const NeuralNetwork> network_;
-  Columns standardised_;
-  Columns hidden_;
-  Columns from_input_;
-  Columns from_hidden_;
-  Columns first_;
-  Columns second_;
-  Columns outputs_;
+  Column standardised_;
+  Column hidden_;
+  Column from_input_;
+  Column from_hidden_;
+  Column first_;
+  Column second_;
+  Column outputs_;
 };
-
-extern template class NeuralForward<1>;
-extern template class NeuralForward<Eigen::Dynamic>;
 
 }  // namespace touchdown

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <array>
 
-#include <Eigen/Core>
-
 #include "estimator/numerics/exponential.hpp"
 #include "estimator/phase/model.hpp"
 #include "estimator/phase/tables.hpp"
 
 namespace touchdown {
 
-/// The step from one belief over phases to the next: α'_j ∝ e_j · Σ_i α_i A_ij. One filter and many
-/// side by side share it. Arrays are padded with zeros to whole vector registers.
+/// The step from one belief over phases to the next: α'_j ∝ e_j · Σ_i α_i A_ij. Arrays are padded
+/// with zeros to whole vector registers.
 class PhaseRecursion {
  public:
   using Lanes = std::array<double, phase_simd_width>;
@@ -65,38 +63,9 @@ class PhaseRecursion {
     for (std::size_t k = 0; k < phase_simd_width; ++k) alpha[k] = predicted[k] * scale;
   }
 
-  /// Values of several filters side by side: element [phase][filter].
-  template <std::size_t filters>
-  using Block = std::array<std::array<double, filters>, phase_count>;
-
-  /// The same step for several filters. Each performs the operations of the single one in the same
-  /// order, but no operation waits for another one of its own filter's sums.
-  template <std::size_t filters>
-  void predict_and_correct(Block<filters>& alpha,
-                           const Block<filters>& log_likelihood) const noexcept {
-    static_assert(phase_count == phase_simd_width, "the single step has padding");
-    // One phase at a time, so that its sums stay in registers.
-    using Values = Eigen::Array<double, static_cast<int>(filters), 1>;
-    const auto values = [](const std::array<double, filters>& of_phase) {
-      return Eigen::Map<const Values>(of_phase.data());
-    };
-    Values largest = values(log_likelihood[0]);
-    for (std::size_t k = 1; k < phase_count; ++k) largest = largest.max(values(log_likelihood[k]));
-    std::array<Values, phase_count> predicted;
-    Values sum = Values::Zero();
-    for (std::size_t k = 0; k < phase_count; ++k) {
-      Values& phase = predicted[k];
-      phase.setZero();
-      for (std::size_t i = 0; i < phase_count; ++i) phase += values(alpha[i]) * transition_[i][k];
-      Values evidence = values(log_likelihood[k]) - largest;
-      for (double& one : evidence) one = exponential(one);
-      phase *= evidence;
-      sum += phase;
-    }
-    const Values scale = sum.inverse();
-    for (std::size_t k = 0; k < phase_count; ++k) {
-      Eigen::Map<Values>(alpha[k].data()) = predicted[k] * scale;
-    }
+  /// P(phase `to` at the next step | phase `from`).
+  [[nodiscard]] double transition(std::size_t from, std::size_t to) const noexcept {
+    return transition_[from][to];
   }
 
   /// P(left wheel in contact), P(right wheel in contact).

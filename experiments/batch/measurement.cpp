@@ -38,10 +38,8 @@ void BatchedMeasurement::estimate_noise(const Signals& clean, const NoiseStep& d
   if (!follows_noise_) return;
   for (std::size_t side = 0; side < 2; ++side) {
     const LegSignals& leg = clean.leg[side];
-    for (std::size_t i = 0; i < knee_sigma_.size(); ++i) {
-      noisy_knee_[side][i] = leg.knee.torque + knee_sigma_[i] * draws.torque[side].knee;
-      noisy_wheel_[side][i] = leg.wheel.torque + wheel_sigma_[i] * draws.torque[side].wheel;
-    }
+    add_noise(leg.knee.torque, draws.torque[side].knee, knee_sigma_, noisy_knee_[side]);
+    add_noise(leg.wheel.torque, draws.torque[side].wheel, wheel_sigma_, noisy_wheel_[side]);
   }
   knee_noise_.update(noisy_knee_);
   wheel_noise_.update(noisy_wheel_);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "estimator/neural/estimator.hpp"
+#include "experiments/batch/neural_forward.hpp"
 
 namespace touchdown::experiments {
 
@@ -32,10 +33,10 @@ class BatchedNeuralNetwork {
 
  private:
   Eigen::RowVectorXf sigmas_;
-  NeuralForward<Eigen::Dynamic> forward_;
+  BatchedNeuralForward forward_;
   NeuralInputSampler clean_;
   NeuralInputSampler draws_;  ///< averages the draws as `clean_` averages accelerations
-  NeuralForward<Eigen::Dynamic>::Columns inputs_;
+  BatchedNeuralForward::Columns inputs_;
   std::vector<double> p_contact_;
 };
 

@@ -48,6 +48,10 @@ inline BatchNoise torque_part(const BatchNoise& element) {
   return {element.knee_torque, element.wheel_torque, 0.0};
 }
 
+/// One signal at many noise levels: noisy[i] = clean + sigma[i] · draw.
+void add_noise(double clean, double draw, std::span<const double> sigma,
+               std::span<double> noisy) noexcept;
+
 /// Standard normal draws of one step, shared by all elements of a batch. The sensors of an element
 /// report clean + standard deviation × draw, with torques in the joints' own signs.
 struct NoiseStep {

@@ -8,6 +8,7 @@
 #include "estimator/phase/prepared_model.hpp"
 #include "experiments/batch/noise_estimates.hpp"
 #include "experiments/batch/noise_level.hpp"
+#include "experiments/batch/phase_recursion.hpp"
 
 namespace touchdown::experiments {
 
@@ -29,45 +30,41 @@ class BatchedPhaseFilter {
   void update(const Signals& clean, const NoiseStep& draws) noexcept;
 
   /// The number of noise levels.
-  [[nodiscard]] std::size_t size() const noexcept { return p_contact_[0].size(); }
+  [[nodiscard]] std::size_t size() const noexcept { return torque_.level_index.size(); }
   /// P(S_t = C | m_0:t) of one wheel, per noise level.
   [[nodiscard]] std::span<const double> p_contact(Side side) const noexcept {
-    return p_contact_[static_cast<std::size_t>(side)];
+    return std::span(p_contact_[static_cast<std::size_t>(side)]).first(size());
   }
   /// The decision about one wheel, per noise level: 1 for contact, 0 for none.
   [[nodiscard]] std::span<const double> contact(Side side) const noexcept {
-    return contact_[static_cast<std::size_t>(side)];
+    return std::span(contact_[static_cast<std::size_t>(side)]).first(size());
   }
 
  private:
-  /// Everything that depends on one level of torque noise.
-  struct TorqueLevel {
-    double knee_sigma;
-    double wheel_sigma;
-    PhaseRow row{};  ///< both legs together, by phase
-  };
-  /// Everything that depends on one level of accelerometer noise.
+  /// One level of accelerometer noise.
   struct AccelerationLevel {
     double sigma;
     NoiseEstimate<1> noise;
-    PhaseRow row{};
   };
+  void add_torque_noise(const Signals& clean, const NoiseStep& draws) noexcept;
+  void look_up_torques() noexcept;
+  void look_up_accelerations(double clean, double draw) noexcept;
 
   PhaseFilterConfig config_;
   PreparedPhaseModel prepared_;
   BatchByLevel<BatchNoise> torque_;
   BatchByLevel<double> acceleration_;
-  std::vector<TorqueLevel> torque_levels_;
+  std::vector<double> knee_sigma_;  ///< by level of torque noise
+  std::vector<double> wheel_sigma_;
   NoiseEstimates knee_noise_;  ///< by level of torque noise
   NoiseEstimates wheel_noise_;
   std::array<std::vector<double>, 2> knee_;  ///< noisy torques of both legs, by level
   std::array<std::vector<double>, 2> wheel_;
   std::vector<AccelerationLevel> acceleration_levels_;
-  /// Elements in blocks, as wide as a vector register; the last block is filled with copies.
-  static constexpr std::size_t block_size = 4;
-  using Block = PhaseRecursion::Block<block_size>;
-  void decide(std::size_t block) noexcept;
-  std::vector<Block> alpha_;
+  PhaseLikelihoods torque_likelihoods_;  ///< of both legs together
+  PhaseLikelihoods acceleration_likelihoods_;
+  BatchedPhaseRecursion recursion_;
+  /// By element, padded as the blocks of the recursion.
   std::array<std::vector<double>, 2> p_contact_;
   std::array<std::vector<double>, 2> contact_;
 };

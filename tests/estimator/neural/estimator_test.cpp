@@ -89,7 +89,7 @@ TEST(NeuralInputSampler, KeepsItsStepsWhereSamplesAreMissing) {
 TEST(NeuralEstimator, ActsEveryFiveMillisecondsAndHoldsInBetween) {
   const auto net = network();
   NeuralEstimator estimator(net);
-  NeuralForward<1> forward(net);
+  NeuralForward forward(net);
   const auto stream = moving_robot(200);
   double expected = 0.5;
   for (std::size_t k = 0; k < stream.size(); ++k) {
@@ -118,7 +118,7 @@ TEST(NeuralEstimator, ActsEveryFiveMillisecondsAndHoldsInBetween) {
 TEST(NeuralEstimator, AtItsOwnRateUsesEverySampleUnchanged) {
   const auto net = network();
   NeuralEstimator estimator(net, {.sample_rate = 200.0, .threshold = 0.8, .guard = {}});
-  NeuralForward<1> forward(net);
+  NeuralForward forward(net);
   for (const Signals& s : moving_robot(100, 200.0)) {
     const auto& output = forward.step(neural_input(s));
     ASSERT_NEAR(estimator.update(s).p_any_wheel, logistic(output[0]), 1e-7);
@@ -188,7 +188,7 @@ TEST(NeuralEstimator, StartsAnewAfterAGap) {
   for (std::size_t k = 0; k < 42; ++k) estimator.update(stream[k]);
   stream[42].time += 10.0;
   EXPECT_EQ(estimator.update(stream[42]).status, SignalStatus::gap);
-  NeuralForward<1> fresh(net);
+  NeuralForward fresh(net);
   EXPECT_NEAR(estimator.belief().p_any_wheel, logistic(fresh.step(neural_input(stream[42]))[0]),
               1e-7);
 }

@@ -73,12 +73,12 @@ Numbers random_input(test::Normal& normal) {
 
 TEST(NeuralForward, AgreesWithTheTextbookOverManySteps) {
   const NeuralNetwork network = test::random_network();
-  NeuralForward<1> forward(test::shared(network));
+  NeuralForward forward(test::shared(network));
   PlainNetwork plain(network);
   test::Normal normal(7);
   for (int step = 0; step < 300; ++step) {
     const Numbers input = random_input(normal);
-    NeuralForward<1>::Columns column(neural_input_count);
+    NeuralForward::Column column(neural_input_count);
     for (int i = 0; i < neural_input_count; ++i) {
       column[i] = static_cast<float>(input[static_cast<std::size_t>(i)]);
     }
@@ -90,27 +90,10 @@ TEST(NeuralForward, AgreesWithTheTextbookOverManySteps) {
   }
 }
 
-TEST(NeuralForward, BatchEqualsSingleSequences) {
-  const auto network = test::shared(test::random_network());
-  constexpr int batch = 7;
-  NeuralForward<Eigen::Dynamic> side_by_side(network, batch);
-  std::vector<NeuralForward<1>> one_by_one(batch, NeuralForward<1>(network));
-  test::Normal normal(3);
-  for (int step = 0; step < 50; ++step) {
-    NeuralForward<Eigen::Dynamic>::Columns inputs(neural_input_count, batch);
-    for (float& x : inputs.reshaped()) x = static_cast<float>(normal());
-    const auto& outputs = side_by_side.step(inputs);
-    for (int i = 0; i < batch; ++i) {
-      const auto& expected = one_by_one[static_cast<std::size_t>(i)].step(inputs.col(i));
-      ASSERT_LT((outputs.col(i) - expected).cwiseAbs().maxCoeff(), 1e-5F);
-    }
-  }
-}
-
 TEST(NeuralForward, ClearsItsStateOnReset) {
-  NeuralForward<1> forward(test::shared(test::random_network(16, 8, 8)));
-  const NeuralForward<1>::Columns input = NeuralForward<1>::Columns::Ones(neural_input_count);
-  const NeuralForward<1>::Columns first = forward.step(input);
+  NeuralForward forward(test::shared(test::random_network(16, 8, 8)));
+  const NeuralForward::Column input = NeuralForward::Column::Ones(neural_input_count);
+  const NeuralForward::Column first = forward.step(input);
   EXPECT_NE(forward.step(input), first);
   forward.reset();
   EXPECT_EQ(forward.step(input), first);
