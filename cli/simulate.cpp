@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -137,7 +138,7 @@ void add_simulate(CLI::App& program, const CliSession& session) {
       .value_name("FILE");
   verb.option("--run", &flags->run,
               "Index of the run: draws its perturbations from the seed (default: no perturbations)")
-      .not_negative();
+      .between(0.0, std::numeric_limits<int>::max());
   verb.option("--seed", &flags->seed, "Random seed").shows_default();
   verb.option("--set", &flags->overrides,
               "Override a value of the scenario, for example end.duration=5")

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <concepts>
+#include <cstdlib>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -34,13 +35,13 @@ Option& Option::one_of(const std::vector<std::string>& values) {
   return *this;
 }
 
-Option& Option::not_negative() {
-  option_->check(CLI::NonNegativeNumber);
-  return *this;
-}
-
-Option& Option::between(int lowest, int highest) {
-  option_->check(CLI::Range(lowest, highest));
+Option& Option::between(double lowest, double highest) {
+  const auto complaint = [=](const std::string& text) {
+    const double number = std::strtod(text.c_str(), nullptr);
+    if (number >= lowest && number <= highest) return std::string();
+    return fmt::format("{}: expected a number from {:.10g} to {:.10g}", text, lowest, highest);
+  };
+  option_->check(CLI::Validator([=](std::string& text) { return complaint(text); }, "", ""));
   return *this;
 }
 
@@ -99,6 +100,12 @@ Option Verb::option(const std::string& names, OptionValue value, const std::stri
     if constexpr (std::is_arithmetic_v<Number>) {
       option->check(
           CLI::Validator([](std::string& text) { return complaint_about<Number>(text); }, "", ""));
+    } else {
+      // In scripts, a variable that is not set: the default would be used without a word.
+      const auto complaint = [](const std::string& text) {
+        return std::string(text.empty() ? "expected a value, found an empty text" : "");
+      };
+      option->check(CLI::Validator([=](std::string& text) { return complaint(text); }, "", ""));
     }
     return option;
   };

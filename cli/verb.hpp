@@ -29,8 +29,7 @@ class Option {
   Option& value_name(const std::string& name);  ///< the value's name in the help: "DIR"
   Option& shows_default();
   Option& one_of(const std::vector<std::string>& values);
-  Option& not_negative();
-  Option& between(int lowest, int highest);
+  Option& between(double lowest, double highest);
   Option& takes(int least, int most);  ///< the number of values
   Option& takes(int count) { return takes(count, count); }
   Option& one_at_a_time();  ///< several values, each with the option's name before it

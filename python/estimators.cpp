@@ -34,6 +34,7 @@ struct Model {
   experiments::LogFitReport report = {};
 
   static Model load(const fs::path& path, const std::string& estimator) {
+    if (path.empty()) throw InputError("expected a model's file, found an empty path");
     return {experiments::log_estimator({.name = estimator, .model = path})};
   }
   void save(const fs::path& path) const {
@@ -141,7 +142,7 @@ std::vector<std::string> check(const py::object& log, const std::string& robot,
         path.string());
     experiments::LogSteps steps(
         reader, nullptr,
-        experiments::checked_robot(experiments::robot_called(robot), reader.info()));
+        experiments::checked_robot(experiments::robot_of_file(robot), reader.info()));
     while (steps.next() != nullptr) {
     }
     std::vector<std::string> lines;

@@ -35,7 +35,8 @@ void check_file(const std::string& file, const CheckFlags& flags, const CliSessi
     return;
   }
   if (flags.json) throw InputError(fmt::format("{}: --json is for robots", file));
-  found.findings += check_log(file, flags.mapping, experiments::robot_called(flags.robot), session);
+  found.findings +=
+      check_log(file, flags.mapping, experiments::robot_of_file(flags.robot), session);
 }
 
 void check(const CheckFlags& flags, const CliSession& session) {
@@ -72,9 +73,9 @@ void add_check(CLI::App& program, const CliSession& session) {
               "Maps the columns or topics of the logs to signals, as for `touchdown export`")
       .value_name("FILE.yaml");
   verb.option("--robot", &flags->robot,
-              "Robot that recorded the logs: its file gives weight, legs and ranges of joints\n"
+              "File of the robot that recorded the logs: gives weight, legs and ranges of joints\n"
               "(default: that of a simulated log, else Upkie's)")
-      .value_name("NAME|FILE");
+      .value_name("FILE");
   verb.flag("--strict", &flags->strict, "Exit with code 1 if there is a finding about a log");
   verb.flag("--json", &flags->json, "Print JSON about robots");
   verb.action([flags, &session] { check(*flags, session); });

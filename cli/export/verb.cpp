@@ -192,7 +192,7 @@ void add_export(CLI::App& program, const CliSession& session) {
               "For a model without metadata: the estimator that it was fitted for");
   verb.option("--rate", &flags->use.sample_rate,
               "For a model without metadata: the rate that it was fitted at (Hz)")
-      .not_negative();
+      .between(1.0, 1e6);
   verb.option("--robot", &flags->part.robots,
               "Export only this robot, as the benchmark's table names it. For a model: the robot\n"
               "that it is for. Its file gives the leg geometry to an estimator that computes "

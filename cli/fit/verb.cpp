@@ -93,7 +93,7 @@ void shape_densities(experiments::EstimatorEntry& entry, const FitFlags& flags) 
     throw InputError(
         fmt::format("fit: --grid, --bandwidth, --bandwidth-floor, --knee-range and "
                     "--wheel-range are not for {}",
-                    entry.phase ? "the phase filter" : fmt::format("'{}'", entry.name)));
+                    fmt::format("'{}'", entry.name)));
   }
   MeasurementFitConfig& fit = entry.config->measurement.fit;
   if (!flags.grid.empty()) {
@@ -160,15 +160,15 @@ void add_fit_flags(Verb& verb, FitFlags& flags) {
       .value_name("NAME|FILE");
   verb.option("--skip", &flags.config.skip,
               "Time at the beginning of each log that is not used (s)")
-      .not_negative()
+      .between(0.0, 1e5)
       .shows_default();
   verb.option("--force-threshold", &flags.config.labels.force_threshold,
               "Ground truth: a wheel is in contact above this normal force (N)")
-      .not_negative()
+      .between(0.0, 1e4)
       .shows_default();
   verb.option("--debounce", &flags.config.labels.debounce,
               "Ground truth: shorter states are merged into their neighbours (s)")
-      .not_negative()
+      .between(0.0, 10.0)
       .shows_default();
   verb.option("--grid", &flags.grid, "Grid points along knee and wheel torque (200 200)")
       .takes(2)

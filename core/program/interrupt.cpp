@@ -1,7 +1,8 @@
 #include "core/program/interrupt.hpp"
 
-#include <array>
 #include <csignal>
+
+#include "core/program/stop_signals.hpp"
 
 namespace touchdown {
 
@@ -12,15 +13,6 @@ std::atomic<bool> stop_requested = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 void request_stop(int /*signal*/) { stop_requested = true; }
-
-constexpr std::array stop_signals = {SIGINT, SIGTERM, SIGHUP};
-
-void mask_stop_signals(int how) {
-  sigset_t signals;
-  sigemptyset(&signals);
-  for (const int signal : stop_signals) sigaddset(&signals, signal);
-  ::sigprocmask(how, &signals, nullptr);
-}
 
 }  // namespace
 

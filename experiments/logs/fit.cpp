@@ -145,7 +145,7 @@ MeasurementModel fit_measurement_to_logs(std::span<const FitLog> logs,
   return std::move(fit.model);
 }
 
-/// Errors: `InputError` for a step that the phase filter cannot be fitted to.
+/// Errors: `InputError` for a step that a filter of phases cannot be fitted to.
 void check_step(const FitLog& log, const FitLogSteps& /*reader*/, const LogStep& step,
                 double before) {
   const auto refuse = [&](std::string_view what) {
@@ -153,7 +153,7 @@ void check_step(const FitLog& log, const FitLogSteps& /*reader*/, const LogStep&
         fmt::format("{}: at {:.3f} s: {}", log.path.string(), step.signals.time, what));
   };
   if (!step.normal_force) {
-    refuse("no ground truth of contact, which the phase filter has to be fitted with");
+    refuse("no ground truth of contact, which phase and hmm are fitted with");
   }
   if (!std::isfinite(step.signals.vertical_acceleration) || !has_torques(step.signals.leg[0]) ||
       !has_torques(step.signals.leg[1])) {
@@ -161,7 +161,7 @@ void check_step(const FitLog& log, const FitLogSteps& /*reader*/, const LogStep&
   }
   const double elapsed = step.signals.time - before;
   if (elapsed < 0.0 || elapsed > SignalGuardConfig{}.maximum_gap) {
-    refuse("time jumps: the phase filter has to be fitted to logs without gaps");
+    refuse("time jumps: phase and hmm are fitted to logs without gaps");
   }
 }
 
@@ -247,8 +247,8 @@ std::vector<RunSignals> logs_with_takeoffs(std::span<const FitLog> logs, const L
   for (const FitLog& log : logs) {
     if (!log.contact) continue;
     throw InputError(fmt::format(
-        "{}: the phase filter learns how wheels leave the ground and land: it has to be fitted "
-        "to logs with ground truth or --labels, not to --contact and --no-contact",
+        "{}: phase and hmm learn how wheels leave the ground and land: they are fitted to "
+        "logs with ground truth or --labels, not to --contact and --no-contact",
         log.path.string()));
   }
   ClassCounts skipped{};
@@ -257,7 +257,7 @@ std::vector<RunSignals> logs_with_takeoffs(std::span<const FitLog> logs, const L
     return has_takeoff(run, skipped_steps(run, config.skip));
   });
   if (!takeoff) {
-    throw InputError("fit: the phase filter learns from takeoffs, and the logs hold none");
+    throw InputError("fit: phase and hmm learn from takeoffs, and the logs hold none");
   }
   return runs;
 }

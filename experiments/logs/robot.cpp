@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include <fmt/format.h>
+
 #include "core/error.hpp"
 #include "core/resources.hpp"
 #include "core/yaml.hpp"
@@ -33,6 +35,13 @@ LogRobot robot_in_file(const std::filesystem::path& path) {
           .ranges = ranges_of(robot)};
 }
 
+constexpr const char* expected_file = "expected a robot's file (.xml, .urdf, .yaml)";
+
+bool is_robots_file(const std::filesystem::path& path) {
+  return path.extension() == ".xml" || path.extension() == ".urdf" ||
+         models::is_about_an_mjcf(path);
+}
+
 /// The path of a simulated log's robot; empty for other logs.
 std::filesystem::path robot_file_of(const recordings::RecordingInfo& log) {
   if (log.scenario_yaml.empty()) return {};
@@ -44,9 +53,24 @@ std::filesystem::path robot_file_of(const recordings::RecordingInfo& log) {
 }  // namespace
 
 LogRobot robot_called(const std::string& name_or_file) {
-  const std::filesystem::path path(name_or_file);
-  const bool is_file = path.extension() == ".xml" || models::is_about_an_mjcf(path);
-  return is_file ? robot_in_file(path) : LogRobot{.name = name_or_file};
+  if (is_robots_file(name_or_file)) return robot_in_file(name_or_file);
+  // Another file is no name: the legs would be Upkie's without a word.
+  std::error_code ignored;
+  const auto found = std::filesystem::status(name_or_file, ignored);
+  const bool is_other_file =
+      std::filesystem::exists(found) && !std::filesystem::is_directory(found);
+  if (is_other_file || name_or_file.find('/') != std::string::npos) {
+    throw InputError(fmt::format("{}: {}, or the name of a robot", name_or_file, expected_file));
+  }
+  return {.name = name_or_file};
+}
+
+LogRobot robot_of_file(const std::string& file) {
+  if (file.empty()) return {};
+  if (!is_robots_file(file)) {
+    throw InputError(fmt::format("{}: {}", file, expected_file));
+  }
+  return robot_in_file(file);
 }
 
 recordings::CheckedRobot checked_robot(const LogRobot& requested,

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "estimator/force/leg_geometry.hpp"
-#include "recordings/plausibility/joint_range.hpp"
+#include "recordings/plausibility/ranges.hpp"
 #include "recordings/recording.hpp"
 
 namespace touchdown::experiments {
@@ -20,6 +20,10 @@ struct LogRobot {
 /// file gives the robot its name and its legs. Errors: `InputError` for a missing file (with the
 /// nearest name in its folder) and for a file that describes no robot.
 LogRobot robot_called(const std::string& name_or_file);
+
+/// The same where a name alone would have no effect; empty text gives no robot. Errors: also
+/// `InputError` for a name.
+LogRobot robot_of_file(const std::string& file);
 
 /// What the checks of a log know about its robot: the requested one, else the one that a simulated
 /// log names, if its file is there.

@@ -128,7 +128,7 @@ def check(log: Any, *, robot: str = "", mapping: Path | None = None) -> list[str
     loads, dead channels. An empty list: nothing.
 
     log: a `Recording`, or the path of a log
-    robot: its name, or its file, which gives weight, legs and ranges of joints
+    robot: its file, which gives weight, legs and ranges of joints
     mapping: a mapping file, for the path of another robot's log: a ROS 2 bag, CSV or NumPy arrays. The list then begins
         with what `touchdown export` prints about the conversion, such as ages of held values
     """

@@ -25,6 +25,8 @@ constexpr std::uint64_t most_skipped_in_a_row = 2000;
 constexpr std::size_t rows_for_period = 200;
 /// With fewer rows, long steps may be pauses.
 constexpr std::size_t rows_for_unit = 11;
+/// Beyond any clock in any unit: nanoseconds since 1970 are 2e18.
+constexpr double largest_time = 1e20;
 
 }  // namespace
 
@@ -116,6 +118,8 @@ void LogReader::read_entry(Entry& entry) {
     } else {
       if (!parser_.is_missing_any()) held_servos_.remember(values, present);
       entry.row = to_row(values, present);
+      double& time = entry.row->observation.time;
+      if (!(std::abs(time) <= largest_time)) time = std::numeric_limits<double>::quiet_NaN();
     }
     if (!lacks_keys && repeats_last()) {
       entry.row.reset();

@@ -5,13 +5,15 @@ namespace touchdown::recordings {
 PlausibilityCheck::PlausibilityCheck(double period, const CheckedRobot& robot)
     : windows_(period),
       clock_(period),
-      range_(robot),
+      joint_range_(robot),
       load_(robot.legs.value_or(LegGeometry{}), robot.legs.has_value()) {}
 
-void PlausibilityCheck::add(const models::Observation& record) {
-  clock_.add(record.time);
-  constant_.add(record);
-  range_.add(record);
+void PlausibilityCheck::add(const models::Observation& reported) {
+  clock_.add(reported.time);
+  constant_.add(reported);
+  // One value beyond its sensor's range would be the mean of a whole window.
+  const models::Observation record = sensor_range_.add(reported);
+  joint_range_.add(record);
   const std::optional<CheckedWindow> window = windows_.add(record);
   if (!window) return;
   motion_.add(*window);
@@ -28,7 +30,8 @@ std::vector<std::string> PlausibilityCheck::findings() const {
   Findings findings;
   clock_.report(findings);
   constant_.report(findings);
-  const bool has_positions = range_.report(findings);
+  sensor_range_.report(findings);
+  const bool has_positions = joint_range_.report(findings);
   motion_.report(findings);
   turning_.report(findings);
   const std::size_t before = findings.lines().size();

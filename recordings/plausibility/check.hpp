@@ -9,8 +9,8 @@
 #include "recordings/plausibility/driving.hpp"
 #include "recordings/plausibility/gravity.hpp"
 #include "recordings/plausibility/joint_motion.hpp"
-#include "recordings/plausibility/joint_range.hpp"
 #include "recordings/plausibility/load.hpp"
+#include "recordings/plausibility/ranges.hpp"
 #include "recordings/plausibility/still.hpp"
 #include "recordings/plausibility/turning.hpp"
 #include "recordings/plausibility/window.hpp"
@@ -26,7 +26,7 @@ class PlausibilityCheck {
   /// `period`: between two records (s).
   explicit PlausibilityCheck(double period, const CheckedRobot& robot = {});
 
-  void add(const models::Observation& record);
+  void add(const models::Observation& reported);
 
   /// One line per finding so far.
   std::vector<std::string> findings() const;
@@ -36,7 +36,8 @@ class PlausibilityCheck {
   StillStretches still_;
   ClockCheck clock_;
   ConstantChannels constant_;
-  JointRangeCheck range_;
+  SensorRangeCheck sensor_range_;
+  JointRangeCheck joint_range_;
   JointMotionCheck motion_;
   TurningCheck turning_;
   DrivingCheck driving_;

@@ -105,7 +105,7 @@ TEST_F(Fit, LeavesOutUnlabelledSteps) {
   folder_.write("gap.csv",
                 "start,end,contact\n0.0,0.5995,1\n0.61,0.79,0\n0.8,1.0,1\n1.0,1.5995,1\n");
   EXPECT_THAT(complaint_about("robot.mpack --labels gap.csv -o m.npz --estimator phase"),
-              HasSubstr("learns from takeoffs, and the logs hold none"));
+              HasSubstr("learn from takeoffs, and the logs hold none"));
   folder_.write("late.csv", test::synthetic_labels(7, 8));
   EXPECT_THAT(complaint_about("robot.mpack --labels late.csv -o m.npz"),
               HasSubstr("s, covers a step of robot.mpack, which ends at 3.999 s"));
@@ -257,7 +257,7 @@ TEST_F(Fit, NeedsBothClassesAndTheirLabels) {
   EXPECT_THAT(complaint_about("--no-contact rolling.mpack -o m.npz"),
               HasSubstr("no step of the logs is in contact"));
   EXPECT_THAT(complaint_about("short.mpack -o m.npz --estimator phase"),
-              HasSubstr("learns from takeoffs"));
+              HasSubstr("learn from takeoffs"));
   EXPECT_THAT(complaint_about("--contact rolling.mpack -o m.npz --estimator phase"),
               HasSubstr("ground truth"));
 }
@@ -285,8 +285,21 @@ TEST_F(Fit, AnswersWrongRequestsInOneLine) {
   EXPECT_THAT(complaint_about("a.mpack -o m.npz --knee-range 3 1"), HasSubstr("--knee-range"));
   EXPECT_THAT(complaint_about("a.mpack -o m.npz --bandwidth -1 1"), HasSubstr("--bandwidth"));
   EXPECT_THAT(complaint_about("a.mpack -o m.npz --gird 3 3"), HasSubstr("did you mean '--grid'?"));
-  EXPECT_THAT(complaint_about("a.mpack -o m.npz --estimator phase --grid 9 9"),
-              AllOf(HasSubstr("phase filter"), Not(HasSubstr("takeoffs"))));
+  for (const std::string estimator : {"phase", "hmm", "evidence_curves", "boosted_channels"}) {
+    EXPECT_THAT(complaint_about("a.mpack -o m.npz --grid 9 9 --estimator " + estimator),
+                AllOf(HasSubstr("'" + estimator + "'"), Not(HasSubstr("takeoffs"))));
+  }
+}
+
+TEST_F(Fit, RefusesNumbersThatWouldBeIgnored) {
+  log("a.mpack", test::synthetic_log(1.0));
+  for (const std::string flag : {"--skip 1e308", "--skip -1", "--skip 1e6", "--debounce 1e300",
+                                 "--debounce 11", "--force-threshold 1e5"}) {
+    const std::string name = flag.substr(0, flag.find(' '));
+    EXPECT_THAT(complaint_about("a.mpack -o m.npz " + flag),
+                AllOf(HasSubstr(name), HasSubstr("expected a number from 0 to 1")))
+        << flag;
+  }
 }
 
 TEST_F(Fit, HelpBeginsWithAnExample) {

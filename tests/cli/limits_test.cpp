@@ -94,6 +94,23 @@ TEST_F(Limits, AHangUpStopsARunUnlessItIsIgnored) {
   EXPECT_TRUE(program.is_running());
 }
 
+// Its libraries are loaded for a tenth of a second before its first line.
+TEST_F(Limits, ASignalWhileTheProgramIsLoadedStopsIt) {
+  write_long_experiment(folder_);
+  for (const std::string arguments : {"run x.yaml --out a", "simulate long.yaml -o l.mpack"}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+      StartedProgram program(arguments, folder_.path());
+      while (program.is_running() && program.executable() != "touchdown-main") {
+        program.let_run(0.0001);
+      }
+      program.send(signal);
+      const Ended ended = program.end();
+      EXPECT_EQ(ended.exit_code, 1) << arguments << ": " << signal;
+      EXPECT_THAT(ended.errors, HasSubstr("stopped")) << arguments;
+    }
+  }
+}
+
 TEST_F(Limits, SpecialFilesAreRefusedAtOnce) {
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   fs::create_symlink("/dev/zero", folder_ / "zero");
@@ -109,6 +126,14 @@ TEST_F(Limits, SpecialFilesAreRefusedAtOnce) {
           << arguments;
     }
   }
+  for (const std::string robot : {"pipe", "zero", "a.mpack", "missing/robot", "./upkie"}) {
+    for (const std::string arguments :
+         {"check a.mpack", "estimate a.mpack", "fit a.mpack -o x.npz"}) {
+      EXPECT_THAT(refusal(arguments + " --robot " + robot),
+                  HasSubstr(robot + ": expected a robot's file"));
+    }
+  }
+  EXPECT_THAT(refusal("check a.mpack --robot upkie"), HasSubstr("upkie: expected a robot's file"));
   EXPECT_THAT(refusal("estimate loop --estimator free_fall"),
               HasSubstr("loop: cannot be opened: "));
   EXPECT_THAT(refusal("run loop"), HasSubstr("loop: cannot be opened: "));
@@ -157,6 +182,31 @@ TEST_F(Limits, NumbersThatWouldBecomeOthersAreRefused) {
                     "estimate a.mpack --estimator free_fall --figure x.png --from={}", number)),
                 HasSubstr("--from"))
         << number;
+  }
+}
+
+// As of a script's variable that is not set: the default would be used instead.
+TEST_F(Limits, EmptyTextsAreRefused) {
+  for (const std::string arguments :
+       {"estimate a.mpack --model ''", "estimate a.mpack --estimator ''", "estimate a.mpack -o ''",
+        "estimate a.mpack --figure ''", "check a.mpack --robot ''", "estimate ''",
+        "fit a.mpack -o m.npz --estimator ''", "fit a.mpack -o m.npz --robot ''",
+        "simulate s.yaml -o x.mpack --sensors ''", "simulate s.yaml -o x.mpack --simulator ''",
+        "run x.yaml --out ''"}) {
+    EXPECT_THAT(refusal(arguments), HasSubstr("found an empty text")) << arguments;
+  }
+}
+
+TEST_F(Limits, AbsurdTimesOfALogArePrintedShort) {
+  for (const double time : {1e300, -1e22, 1e21}) {
+    recordings::Recording log = test::synthetic_log(2.0);
+    log.observation[1000].time = time;
+    recordings::write_recording(log, folder_ / "t.mpack");
+    for (const std::string verb : {"estimate", "check"}) {
+      const Ended ended = touchdown_program(verb + " t.mpack", folder_.path());
+      EXPECT_EQ(ended.exit_code, 0) << ended.errors;
+      EXPECT_THAT(ended.output + ended.errors, Not(HasSubstr("0000000000")));
+    }
   }
 }
 

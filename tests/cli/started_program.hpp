@@ -22,6 +22,8 @@ class StartedProgram {
   ~StartedProgram();
 
   void send(int signal) const;
+  /// The name of the program that the process runs at the moment.
+  std::string executable() const;
   /// Whether the process has not ended yet.
   bool is_running();
   /// Sleeps for this time (s), or until the process ends.

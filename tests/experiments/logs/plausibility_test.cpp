@@ -331,6 +331,35 @@ TEST(PlausibilityCheck, NamesEveryKindOfDamage) {
   }
 }
 
+/// One record is too little for a mean to show, or for all means to be wrong.
+TEST(PlausibilityCheck, NamesASingleValueThatNoSensorReports) {
+  const Records records = reported("hop", "mujoco", "ideal");
+  using O = models::Observation;
+  const struct {
+    const char* finding;
+    std::function<void(O&)> change;
+  } cases[] = {
+      {"left_hip: velocity is 1e+39 rad/s", [](O& o) { o.servo[0].velocity = 1e39; }},
+      {"right_knee: torque is -2e+04 N·m", [](O& o) { o.servo[4].torque = -2e4; }},
+      {"left_knee: position is 1e+308 rad", [](O& o) { o.servo[1].position = 1e308; }},
+      {"right_wheel: position is -1e+308 rad", [](O& o) { o.servo[5].position = -1e308; }},
+      {"left_wheel: velocity is 1e+05 rad/s", [](O& o) { o.servo[2].velocity = 1e5; }},
+      {"orientation: is 1e+200", [](O& o) { o.imu.orientation.x() = 1e200; }},
+      {"angular_velocity: is 1e+30 rad/s", [](O& o) { o.imu.angular_velocity.y() = 1e30; }},
+      {"linear_acceleration: is 1e+300 m/s²", [](O& o) { o.imu.linear_acceleration.z() = 1e300; }},
+      {"proper_acceleration: is -1e+300 m/s²",
+       [](O& o) { o.imu.raw_linear_acceleration.z() = -1e300; }},
+  };
+  for (const auto& [finding, change] : cases) {
+    for (const std::size_t at : {std::size_t{0}, std::size_t{150}, records.size() - 1}) {
+      Records changed = records;
+      change(changed[at]);
+      const std::vector<std::string> lines = findings(changed);
+      EXPECT_THAT(lines, ::testing::ElementsAre(HasSubstr(finding))) << at;
+    }
+  }
+}
+
 /// Legs that are nearly straight carry a robot with small torques. Those of the other sign, order
 /// or unit then look like those of a robot that hangs; but it drives.
 TEST(PlausibilityCheck, NamesALoadThatIsTooSmallForARobotThatDrives) {
