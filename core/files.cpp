@@ -215,6 +215,13 @@ void require_writable(const std::filesystem::path& path) {
   if (!absolute.has_filename() || std::filesystem::is_directory(absolute, ignored)) {
     throw Error(fmt::format("{}: cannot be written: it is a folder", path.string()));
   }
+  // It is written under a longer name first.
+  std::error_code problem;
+  (void)std::filesystem::symlink_status(part_path(absolute), problem);
+  if (problem == std::errc::filename_too_long ||
+      problem == std::errc::too_many_symbolic_link_levels) {
+    throw Error(fmt::format("{}: cannot be written: {}", path.string(), problem.message()));
+  }
   // The nearest existing folder must be writable.
   std::filesystem::path folder = absolute.parent_path();
   while (!folder.empty() && folder != folder.root_path() &&

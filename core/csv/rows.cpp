@@ -23,6 +23,13 @@ std::string_view without_blanks(std::string_view text, std::string_view blanks) 
   return text.substr(0, text.find_last_not_of(blanks) + 1);
 }
 
+/// Bytes of value 0 end a text in messages. UTF-16 has one in every letter.
+void show_zero_bytes(std::string& row) {
+  for (std::size_t at = row.find('\0'); at != std::string::npos; at = row.find('\0', at)) {
+    row.replace(at, 1, "\u2400");
+  }
+}
+
 }  // namespace
 
 std::string content_of(const CsvCell& cell) {
@@ -41,6 +48,7 @@ bool CsvRows::next() {
   is_unfinished_ = text_.eof() && !row_.empty();
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (lines_read_ == 0 && row_.starts_with(byte_order_mark)) row_.erase(0, byte_order_mark.size());
+  show_zero_bytes(row_);
   line_ = ++lines_read_;
   split();
   return true;
@@ -55,6 +63,7 @@ bool CsvRows::append_line() {
   std::string more;
   if (!std::getline(text_, more)) return false;
   ++lines_read_;
+  show_zero_bytes(more);
   row_ += '\n' + more;
   split();
   return true;

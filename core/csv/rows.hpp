@@ -21,7 +21,8 @@ struct CsvCell {
 std::string content_of(const CsvCell& cell);
 
 /// Reads comma-separated values (RFC 4180) row by row, or values with another separator. A byte
-/// order mark at the beginning is left out. An empty text has one row with one empty cell.
+/// order mark at the beginning is left out, and bytes of value 0 become ␀ (U+2400). An empty text
+/// has one row with one empty cell.
 class CsvRows {
  public:
   /// `text` must outlive the object.

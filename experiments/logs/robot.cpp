@@ -56,9 +56,10 @@ LogRobot robot_called(const std::string& name_or_file) {
   if (is_robots_file(name_or_file)) return robot_in_file(name_or_file);
   // Another file is no name: the legs would be Upkie's without a word.
   std::error_code ignored;
-  const auto found = std::filesystem::status(name_or_file, ignored);
+  using Type = std::filesystem::file_type;
+  const Type found = std::filesystem::status(name_or_file, ignored).type();
   const bool is_other_file =
-      std::filesystem::exists(found) && !std::filesystem::is_directory(found);
+      found != Type::none && found != Type::not_found && found != Type::directory;
   if (is_other_file || name_or_file.find('/') != std::string::npos) {
     throw InputError(fmt::format("{}: {}, or the name of a robot", name_or_file, expected_file));
   }

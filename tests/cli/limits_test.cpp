@@ -185,6 +185,32 @@ TEST_F(Limits, NumbersThatWouldBecomeOthersAreRefused) {
   }
 }
 
+TEST_F(Limits, OutputsThatCannotBeWrittenAreRefusedBeforeAnythingIsComputed) {
+  write_long_experiment(folder_);  // half an hour
+  const std::string too_long(240, 'x');
+  fs::create_symlink("loop", folder_ / "loop");
+  for (const std::string& stem : {too_long, std::string("a.mpack/x"), std::string("/dev/full/x"),
+                                  too_long + too_long, std::string("loop/x")}) {
+    for (const auto& [arguments, extension] :
+         {std::pair<std::string, std::string>{"simulate long.yaml -o ", ".mpack"},
+          {"fit a.mpack -o ", ".npz"},
+          {"estimate a.mpack -o ", ".csv"}}) {
+      EXPECT_THAT(refusal(arguments + stem + extension, 1), HasSubstr("cannot be written"))
+          << arguments << stem;
+    }
+  }
+}
+
+TEST_F(Limits, BytesOfValueZeroDoNotCutMessages) {
+  folder_.write("nul.csv", std::string("start,end,contact\n0,1\0"
+                                       "2,1\n",
+                                       24));
+  EXPECT_THAT(refusal("estimate a.mpack --labels nul.csv"), HasSubstr("found '1\u24002'"));
+  folder_.write("wide.csv", std::string("s\0,\0", 4));
+  EXPECT_THAT(refusal("estimate a.mpack --labels wide.csv"),
+              AllOf(HasSubstr("s\u2400"), HasSubstr("expected start")));
+}
+
 // As of a script's variable that is not set: the default would be used instead.
 TEST_F(Limits, EmptyTextsAreRefused) {
   for (const std::string arguments :

@@ -217,6 +217,18 @@ class Run(InFolder):
             with self.assertRaisesRegex(touchdown.InputError, "expected a path"):
                 call("a\0b")
 
+    def test_shows_bytes_of_a_path_that_are_no_text(self):
+        for call in (touchdown.Model.load, touchdown.check, touchdown.Recording.load):
+            with self.assertRaisesRegex(touchdown.InputError, r"\\xff\\xfe\.npz: no such file"):
+                call("\udcff\udcfe.npz")
+            with self.assertRaisesRegex(touchdown.InputError, "^.* file"):
+                call("")
+
+    def test_takes_a_robot_s_file_only(self):
+        for robot in ("upkie", "missing/robot", "/dev/null"):
+            with self.assertRaisesRegex(touchdown.InputError, "expected a robot's file"):
+                touchdown.check(hop(), robot=robot)
+
     def test_refuses_times_in_another_unit_than_seconds(self):
         for factor, unit in ((1e3, "milliseconds"), (1e6, "microseconds"), (1e9, "nanoseconds")):
             run = dict(hop())
