@@ -16,7 +16,7 @@ class PendingTasks {
  public:
   PendingTasks(const Plan& plan, const TaskRange& tasks);
 
-  /// Removes and returns the tasks whose fits are all among `models`, as indices in the plan.
+  /// Removes and returns the tasks with all their fits among `models`, as indices in the plan.
   std::vector<std::size_t> take_ready(const FittedModels& models);
   /// Removes and returns all tasks that are left.
   std::vector<std::size_t> take_all();
