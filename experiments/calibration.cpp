@@ -10,10 +10,10 @@
 #include "core/files.hpp"
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/evaluation/tasks.hpp"
-#include "experiments/experiment_context.hpp"
-#include "experiments/process_memory.hpp"
 #include "experiments/processor_time.hpp"
 #include "experiments/rollouts/rollouts.hpp"
+#include "experiments/stages/experiment_context.hpp"
+#include "experiments/stages/process_memory.hpp"
 
 namespace touchdown::experiments {
 

@@ -7,9 +7,9 @@
 #include <tuple>
 #include <utility>
 
-#include "experiments/experiment_context.hpp"
-#include "experiments/needs.hpp"
 #include "experiments/plan/condition.hpp"
+#include "experiments/stages/experiment_context.hpp"
+#include "experiments/stages/needs.hpp"
 
 namespace touchdown::experiments {
 

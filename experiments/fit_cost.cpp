@@ -7,8 +7,8 @@
 
 #include "core/error.hpp"
 #include "experiments/config/experiment_estimators.hpp"
-#include "experiments/process_memory.hpp"
 #include "experiments/processor_time.hpp"
+#include "experiments/stages/process_memory.hpp"
 
 namespace touchdown::experiments {
 

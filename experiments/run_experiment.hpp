@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "experiments/cost_estimate.hpp"
-#include "experiments/experiment_context.hpp"
 #include "experiments/run_directory/shard.hpp"
+#include "experiments/stages/experiment_context.hpp"
 
 namespace touchdown::experiments {
 

@@ -9,7 +9,7 @@
 #if defined(__GNUC__) && !defined(__clang__) && defined(__FMA__) && defined(__linux__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define TOUCHDOWN_HAS_WIDE_VECTORS
-/// Marks a function whose loops over a batch fill such vectors.
+/// Marks a function with loops that fill such vectors with elements of a batch.
 #define TOUCHDOWN_WIDE_VECTORS [[gnu::target_clones("arch=x86-64-v4", "default")]]
 #else
 #define TOUCHDOWN_WIDE_VECTORS

@@ -147,6 +147,12 @@ std::vector<const RunSignals*> scored_runs(const std::vector<Rollout>& runs) {
   return scored;
 }
 
+bool is_any_scored(const Rollouts& runs) {
+  return std::any_of(runs.begin(), runs.end(), [](const auto& entry) {
+    return entry.second.plan.role == RunRole::test && !entry.second.failed();
+  });
+}
+
 const Rollout* test_run(const std::vector<Rollout>& runs, const std::string& simulator,
                         std::int64_t index) {
   const auto found = std::find_if(runs.begin(), runs.end(), [&](const Rollout& run) {

@@ -42,6 +42,9 @@ using Rollouts = std::map<std::size_t, Rollout>;
 /// The signals of the scored test runs: all that did not fail.
 std::vector<const RunSignals*> scored_runs(const std::vector<Rollout>& runs);
 
+/// Whether any test run can be scored: did not fail.
+bool is_any_scored(const Rollouts& runs);
+
 /// The test run with this index on this engine, null if there is none.
 const Rollout* test_run(const std::vector<Rollout>& runs, const std::string& simulator,
                         std::int64_t index);

@@ -7,9 +7,9 @@
 
 #include "core/error.hpp"
 #include "experiments/calibration.hpp"
-#include "experiments/experiment_context.hpp"
-#include "experiments/needs.hpp"
 #include "experiments/run_experiment.hpp"
+#include "experiments/stages/experiment_context.hpp"
+#include "experiments/stages/needs.hpp"
 #include "experiments/studies/experiment_file.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"

@@ -1,4 +1,4 @@
-#include "experiments/pending_tasks.hpp"
+#include "experiments/stages/pending_tasks.hpp"
 
 #include <algorithm>
 #include <map>

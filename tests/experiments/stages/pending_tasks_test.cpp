@@ -1,4 +1,4 @@
-#include "experiments/pending_tasks.hpp"
+#include "experiments/stages/pending_tasks.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

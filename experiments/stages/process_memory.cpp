@@ -1,4 +1,4 @@
-#include "experiments/process_memory.hpp"
+#include "experiments/stages/process_memory.hpp"
 
 #include <fstream>
 #include <malloc.h>

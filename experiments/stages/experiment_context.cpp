@@ -1,4 +1,4 @@
-#include "experiments/experiment_context.hpp"
+#include "experiments/stages/experiment_context.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -9,10 +9,10 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "experiments/needs.hpp"
 #include "experiments/plan/served_robots.hpp"
 #include "experiments/run_directory/free_space.hpp"
 #include "experiments/run_directory/shard.hpp"
+#include "experiments/stages/needs.hpp"
 #include "experiments/studies/registry.hpp"
 
 namespace touchdown::experiments {

@@ -1,4 +1,4 @@
-#include "experiments/fit_run_check.hpp"
+#include "experiments/stages/fit_run_check.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,10 +1,10 @@
-#include "experiments/needs.hpp"
+#include "experiments/stages/needs.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "experiments/experiment_context.hpp"
+#include "experiments/stages/experiment_context.hpp"
 #include "experiments/studies/experiment_file.hpp"
 
 namespace touchdown::experiments {

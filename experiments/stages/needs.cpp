@@ -1,4 +1,4 @@
-#include "experiments/needs.hpp"
+#include "experiments/stages/needs.hpp"
 
 #include <algorithm>
 #include <cmath>
