@@ -3,7 +3,9 @@
 #include <chrono>
 #include <csignal>
 #include <fcntl.h>
+#include <fstream>
 #include <sstream>
+#include <string>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -56,6 +58,18 @@ void StartedProgram::send(int signal) const {
 bool StartedProgram::is_running() {
   wait(WNOHANG);
   return !ended_;
+}
+
+void StartedProgram::wait_for_handler(int signal) {
+  const auto is_handled = [&] {
+    std::ifstream status("/proc/" + std::to_string(process_) + "/status");
+    for (std::string line; std::getline(status, line);) {
+      if (!line.starts_with("SigCgt:")) continue;  // proc(5): a mask; bit 0 is signal 1
+      return (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1U) != 0U;
+    }
+    return false;
+  };
+  while (is_running() && !is_handled()) let_run(0.001);
 }
 
 void StartedProgram::let_run(double seconds) {

@@ -26,6 +26,8 @@ class StartedProgram {
   std::string executable() const;
   /// Whether the process has not ended yet.
   bool is_running();
+  /// Waits until the process handles this signal, or has ended. Before, the signal kills it.
+  void wait_for_handler(int signal);
   /// Sleeps for this time (s), or until the process ends.
   void let_run(double seconds);
   /// Waits for the end. The exit code is minus the signal's number if a signal killed the process.
