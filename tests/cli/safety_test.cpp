@@ -325,7 +325,8 @@ TEST(Merge, RefusesPartsOfOtherTasksByName) {
 TEST(Shards, OfAnEmptyTextAreRefused) {
   const ScratchFolder folder;
   const std::string run = "run " + write_tiny_experiment(folder) + " --out a --shard ";
-  EXPECT_THAT(refusal(folder, run + "''"), HasSubstr("'' is no shard: expected k/n"));
+  EXPECT_THAT(refusal(folder, run + "''"),
+              HasSubstr("--shard: expected a value, found an empty text"));
   EXPECT_EQ(touchdown_program(run + "1/2 --shard 2/2", folder.path()).exit_code, 2);
   EXPECT_FALSE(fs::exists(folder / "a"));
 }
