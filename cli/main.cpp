@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <new>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -96,7 +97,11 @@ int run_command_line(int argc, char** argv) {
     return complain(complaint(program, argc, argv, error), wrong_request);
   } catch (const InputError& error) {
     // To the reader of a stream that ends early, because it was asked to, the input looks cut off.
-    if (*session.stop) return complain("stopped", failed);
+    // Of all commands, only an experiment may have saved something before it finds a wrong input.
+    const bool saves_parts = argc > 1 && std::string_view(argv[1]) == "run";
+    if (*session.stop) {
+      return complain(saves_parts ? "stopped" : "stopped; nothing was written", failed);
+    }
     return complain(error.what(), wrong_request);
   } catch (const std::bad_alloc&) {
     throw;
