@@ -108,8 +108,10 @@ EvaluationCost sample_evaluation(const RunRequest& request, const Plan& plan, co
   });
   const Task task = {found->first, 0, noise_key(experiment, 0, found->second.plan.run)};
   const auto seconds_of = [&](const RunSignals& run) {
-    return cost_of(
-        [&] { (void)evaluate(small, task, run, experiment, fits.models, should_continue); });
+    return cost_of([&] {
+      NoiseFreeScores none;
+      (void)evaluate(small, task, run, experiment, fits.models, none, should_continue);
+    });
   };
   const auto measured = [&] {
     (void)seconds_of(shorter);  // what is read from disk is read before

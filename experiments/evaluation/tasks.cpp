@@ -70,6 +70,12 @@ void add_samples(std::vector<ConditionSamples<Sample>>& all, const std::vector<S
   }
 }
 
+std::vector<scoring::RobotScore> scores_of(const scoring::Prediction& prediction,
+                                           const RunSignals& run,
+                                           const scoring::ScoringConfig& scoring) {
+  return scoring::score(run.contact, prediction, run.segments, run.info.control_period_us, scoring);
+}
+
 }  // namespace
 
 std::string to_bytes(const TaskCounts& counts) {
@@ -103,10 +109,8 @@ TaskCounts take_counts(std::string_view& bytes) {
 
 void add_scores(const MeasuredPrediction& prediction, std::span<const Measure> measures,
                 std::uint32_t condition, TaskCounts& counts) {
-  const RunSignals& run = prediction.run.signals;
   const std::vector<scoring::RobotScore> scores =
-      scoring::score(run.contact, prediction.prediction, run.segments, run.info.control_period_us,
-                     prediction.run.scoring);
+      scores_of(prediction.prediction, prediction.run.signals, prediction.run.scoring);
   counts.scored.insert(counts.scored.end(), scores.begin(), scores.end());
   for (const Measure& measure : measures) {
     if (!measure.of_prediction) continue;
@@ -163,9 +167,22 @@ static TaskCounts saved_counts(const Plan& plan, const Task& task, const SavedCo
   return *std::move(found);
 }
 
+NoiseFreeScores::Scores NoiseFreeScores::scores(const Key& key,
+                                                const std::function<Scores()>& compute) {
+  {
+    const std::scoped_lock lock(mutex_);
+    const auto found = known_.find(key);
+    if (found != known_.end()) return found->second;
+  }
+  // Two threads may compute the same scores at once, rather than one wait for the other.
+  Scores computed = compute();
+  const std::scoped_lock lock(mutex_);
+  return known_.emplace(key, std::move(computed)).first->second;
+}
+
 TaskCounts evaluate(const Plan& plan, const Task& task, const RunSignals& run,
                     const Experiment& experiment, const FittedModels& models,
-                    const ShouldContinue& should_continue) {
+                    NoiseFreeScores& noise_free, const ShouldContinue& should_continue) {
   const scoring::ScoringConfig& scoring = experiment.scoring;
   const RunGroup& group = plan.group_of(task);
   const std::vector<Condition> conditions = tested_on(group.conditions, run.info.simulator);
@@ -183,13 +200,23 @@ TaskCounts evaluate(const Plan& plan, const Task& task, const RunSignals& run,
     if (!bytes.empty())
       counts.measured.push_back({measure.name, no_condition, 0, std::move(bytes)});
   }
+  const bool measures_predictions =
+      std::any_of(group.measures.begin(), group.measures.end(),
+                  [](const Measure& measure) { return bool{measure.of_prediction}; });
   for (std::uint32_t c = 0; c < conditions.size(); ++c) {
     if (!group.predicts(conditions[c])) continue;
     EstimatorRunner runner = runner_of(experiment, conditions[c], models, run);
     for (std::size_t cell = 0; cell < group.scored.size(); ++cell) {
       if (!should_continue()) throw Stopped();
-      const scoring::Prediction prediction =
-          predict(runner, run, noise, group.scored[cell].levels());
+      const noise::SensorNoise levels = group.scored[cell].levels();
+      if (levels == noise::SensorNoise{} && !measures_predictions) {
+        const auto scores = noise_free.scores({task.run, c, cell}, [&] {
+          return scores_of(predict(runner, run, noise, levels), run, scoring);
+        });
+        counts.scored.insert(counts.scored.end(), scores.begin(), scores.end());
+        continue;
+      }
+      const scoring::Prediction prediction = predict(runner, run, noise, levels);
       add_scores({measured, conditions[c], cell, prediction}, group.measures, c, counts);
     }
   }
@@ -198,12 +225,13 @@ TaskCounts evaluate(const Plan& plan, const Task& task, const RunSignals& run,
 
 bool evaluate_and_save(const Plan& plan, const Task& task, const Rollout& run,
                        const Experiment& experiment, const FittedModels& models,
-                       const SavedCounts& saved, const ShouldContinue& should_continue) {
+                       const SavedCounts& saved, NoiseFreeScores& noise_free,
+                       const ShouldContinue& should_continue) {
   if (saved.read(plan, task)) return false;
   saved.write(plan, task,
-              run.failed()
-                  ? TaskCounts{}
-                  : evaluate(plan, task, run.signals, experiment, models, should_continue));
+              run.failed() ? TaskCounts{}
+                           : evaluate(plan, task, run.signals, experiment, models, noise_free,
+                                      should_continue));
   return true;
 }
 
@@ -217,11 +245,12 @@ std::size_t evaluate(const Plan& plan, std::span<const std::size_t> tasks, const
   if (held.empty()) return 0;
   Progress progress("evaluating", "parts", static_cast<std::int64_t>(held.size()));
   std::atomic<std::size_t> computed = 0;
+  NoiseFreeScores noise_free;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, held.size(), 1), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       if (!should_continue()) throw Stopped();
       const Task& task = plan.tasks[held[i]];
-      if (evaluate_and_save(plan, task, runs.at(task.run), experiment, models, saved,
+      if (evaluate_and_save(plan, task, runs.at(task.run), experiment, models, saved, noise_free,
                             should_continue)) {
         ++computed;
         progress.advance();

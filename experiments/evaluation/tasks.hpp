@@ -1,9 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <compare>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -80,16 +83,38 @@ class SavedCounts {
   std::optional<std::map<std::string, TaskCounts>> in_memory_;
 };
 
+/// Scores without sensor noise, which are equal for all noise seeds of a run. Several threads may
+/// use it at once.
+class NoiseFreeScores {
+ public:
+  struct Key {
+    std::size_t run;        ///< index in the plan
+    std::size_t condition;  ///< index among those of the run's engine
+    std::size_t cell;       ///< index among the group's scored cells
+
+    auto operator<=>(const Key&) const = default;
+  };
+  using Scores = std::vector<scoring::RobotScore>;
+
+  /// The known scores; computes them if there are none.
+  Scores scores(const Key& key, const std::function<Scores()>& compute);
+
+ private:
+  std::mutex mutex_;
+  std::map<Key, Scores> known_;
+};
+
 /// Computes one task. Errors: `Stopped`.
 TaskCounts evaluate(const Plan& plan, const Task& task, const RunSignals& run,
                     const Experiment& experiment, const FittedModels& models,
-                    const ShouldContinue& should_continue);
+                    NoiseFreeScores& noise_free, const ShouldContinue& should_continue);
 
 /// Computes and saves one task of this run, unless it is saved. Returns whether it was computed.
 /// Errors: `Stopped`.
 bool evaluate_and_save(const Plan& plan, const Task& task, const Rollout& run,
                        const Experiment& experiment, const FittedModels& models,
-                       const SavedCounts& saved, const ShouldContinue& should_continue);
+                       const SavedCounts& saved, NoiseFreeScores& noise_free,
+                       const ShouldContinue& should_continue);
 
 /// Computes and saves, in parallel, those of the tasks, given as indices in the plan, that belong
 /// to these runs and are not saved yet. Returns their number. Errors: `Stopped`.

@@ -83,11 +83,13 @@ std::size_t evaluate_streamed(const ExperimentContext& context,
   if (tests.empty()) return computed;
   for_each_rollout(experiment, plan, tests, context.directory, missing, context.should_continue,
                    [&](std::size_t index, Rollout run) {
+                     NoiseFreeScores noise_free;
                      for (const Task* task : tasks_of.at(index)) {
-                       computed += evaluate_and_save(plan, *task, run, experiment, models,
-                                                     context.saved, context.should_continue)
-                                       ? 1U
-                                       : 0U;
+                       computed +=
+                           evaluate_and_save(plan, *task, run, experiment, models, context.saved,
+                                             noise_free, context.should_continue)
+                               ? 1U
+                               : 0U;
                      }
                      drop_signals(run);
                      runs.at(index) = std::move(run);

@@ -94,6 +94,57 @@ TEST(NoiseCells, NameEveryCellOnceAndDistinguishKneesFromWheels) {
   EXPECT_EQ(noise::noise_cells(same).size(), 4U);
 }
 
+TEST(NoiseFreeScores, ComputesOncePerRunConditionAndCell) {
+  NoiseFreeScores known;
+  int computed = 0;
+  for (int pass = 0; pass < 3; ++pass) {
+    for (const NoiseFreeScores::Key& key :
+         std::vector<NoiseFreeScores::Key>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}) {
+      const std::size_t size = 1 + key.run + 2 * key.condition + 4 * key.cell;
+      const auto scores = known.scores(key, [&] {
+        ++computed;
+        return NoiseFreeScores::Scores(size);
+      });
+      EXPECT_EQ(scores.size(), size);
+    }
+  }
+  EXPECT_EQ(computed, 5);
+}
+
+// Every combination of cells with and without noise, of one sensor or both, with and without a
+// measure: a task that shares scores with other seeds equals one that is computed alone.
+TEST(Evaluation, SharesScoresWithoutNoiseBetweenSeeds) {
+  for (const bool is_measured : {false, true}) {
+    for (const std::vector<noise::NoiseCell>& cells : std::vector<std::vector<noise::NoiseCell>>{
+             {{0.0, 0.0}}, {{0.5, 3.0}, {0.0, 0.0}}, {{0.0, 0.0}, {0.0, 3.0}, {0.5, 0.0}}}) {
+      Experiment experiment = synthetic_experiment({"robust", "measurement_only", "free_fall"});
+      experiment.highlights = cells;
+      const FittedModels models =
+          fit_models(experiment, pointers_to({synthetic_run(first_fit_run)}));
+      Plan plan;
+      plan.groups.push_back({"", own_engine_conditions(experiment), {}, cells});
+      if (is_measured) {
+        plan.groups.back().measures.push_back(
+            {.name = "seed", .of_prediction = [](const MeasuredPrediction& made) {
+               return std::to_string(made.run.seed);
+             }});
+      }
+      for (const std::int64_t number : {0, 1}) {
+        plan.runs.push_back({RunRole::test, "mujoco", {}, number, std::to_string(number)});
+      }
+      plan_tasks(experiment, 0, plan);
+      ASSERT_EQ(plan.tasks.size(), 4U);
+      NoiseFreeScores shared;
+      for (const Task& task : plan.tasks) {
+        const RunSignals run = synthetic_run(plan.runs[task.run].run);
+        NoiseFreeScores alone;
+        EXPECT_EQ(to_bytes(evaluate(plan, task, run, experiment, models, shared, always)),
+                  to_bytes(evaluate(plan, task, run, experiment, models, alone, always)));
+      }
+    }
+  }
+}
+
 TEST(Evaluation, EqualsTheSumOfSingleConditions) {
   const ScratchFolder folder;
   Experiment experiment = synthetic_experiment({"robust", "measurement_only"});
