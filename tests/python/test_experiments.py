@@ -154,10 +154,11 @@ class WrittenInPython(InExperimentFolder):
         import mine
 
         touchdown.run("hops.yaml", overrides={"estimators": [mine.Same, mine.UsesEverySensor]})
-        # 2 runs × 2 seeds, counted at different levels of 4 cells, then scored at 2 highlights.
-        per_task = {"Same": 2 + 2, "UsesEverySensor": 4 + 2}
+        # 2 runs × 2 seeds, counted at different levels of 4 cells, then scored at the noisy highlight. Without noise
+        # both seeds of a run share the score, unless two threads compute it at once.
+        per_task = {"Same": 2 + 1, "UsesEverySensor": 4 + 1}
         for name, calls in per_task.items():
-            self.assertEqual(len(getattr(mine, name).calls), 4 * calls, name)
+            self.assertIn(len(getattr(mine, name).calls) - 4 * calls, {2, 3, 4}, name)
             self.assertEqual(set(getattr(mine, name).calls), {(3201, 6)})
 
     def test_with_changed_source_is_evaluated_again(self):
