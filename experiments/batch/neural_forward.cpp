@@ -59,13 +59,13 @@ using NarrowVector [[gnu::vector_size(4 * narrow_lanes)]] = float;
 /// All blocks of a product, `Lanes` columns at a time, and the rest in narrow vectors.
 template <typename Lanes>
 [[gnu::always_inline]] inline void multiply_by(const Product& p) noexcept {
-  constexpr auto lanes = static_cast<Eigen::Index>(sizeof(Lanes) / sizeof(float));
+  constexpr auto columns_at_once = static_cast<Eigen::Index>(sizeof(Lanes) / sizeof(float));
   for (Eigen::Index block = 0; block < p.blocks; ++block) {
     const float* const weights = p.weights + block * outputs_in_block * p.depth;
     const float* const bias = p.bias + block * outputs_in_block;
     float* const y = p.y + block * outputs_in_block * p.width;
     Eigen::Index column = 0;
-    for (; column + lanes <= p.width; column += lanes) {
+    for (; column + columns_at_once <= p.width; column += columns_at_once) {
       block_of_columns<Lanes>(weights, bias, p.depth, p.x + column, y + column, p.width);
     }
     for (; column < p.width; column += narrow_lanes) {

@@ -12,6 +12,7 @@
 #include "core/resources.hpp"
 #include "core/yaml.hpp"
 #include "experiments/config/experiment_estimators.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_directory/owner.hpp"
 #include "scenarios/generation/named.hpp"

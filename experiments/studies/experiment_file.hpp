@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/plan/request.hpp"
 
 namespace touchdown::experiments {

@@ -46,7 +46,7 @@ std::string write_long_experiment(const ScratchFolder& folder) {
   folder.write("long.yaml", R"(name: long
 terrain: {pieces: [{flat: {length: 9.0}}]}
 start: {x: 0.7}
-end: {duration: 1800.0}
+end: {duration: 600.0}
 )");
   folder.write("x.yaml",
                "name: x\nfit: {scenarios: [long.yaml]}\ntest: {scenarios: [long.yaml]}\n");

@@ -1,0 +1,283 @@
+#include "experiments/config/experiment_yaml.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/fields.hpp"
+#include "core/file_names.hpp"
+#include "core/resources.hpp"
+#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/config/hyperparameter_keys.hpp"
+#include "experiments/config/picture_keys.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "scenarios/generation/named.hpp"
+#include "simulators/registry.hpp"
+
+namespace touchdown::experiments {
+
+/// Names of scenarios, of which the drawn ones must be known.
+static KeyNotes describe_names(Fields& fields, std::string_view key,
+                               std::vector<std::string>& names) {
+  const KeyNotes notes = fields(key, names);
+  for (const std::string& name : names) {
+    if (!scenarios::is_drawn(name)) continue;
+    fields.check(key, [&] { (void)scenarios::generate_named(name); });
+  }
+  return notes;
+}
+
+/// Files and drawn scenarios. A written experiment has the names of both.
+static void describe_scenarios(Fields& section, RunsConfig& runs) {
+  describe_names(section, "files", runs.scenarios).doc("Scenario files, before the drawn ones.");
+  section.know("generate");
+  std::optional<scenarios::Generation> generation;
+  section.section("generate", generation).doc("Scenarios to draw (`touchdown generate`).");
+  if (!generation || section.documenting()) return;
+  for (const scenarios::GeneratedScenario& drawn : scenarios::generate(*generation)) {
+    runs.scenarios.push_back(scenarios::drawn_name(drawn));
+  }
+}
+
+static void describe(Fields& fields, RunsConfig& runs) {
+  constexpr const char* key = "scenarios";
+  fields.require(key);
+  const bool is_section = fields.documenting() || (fields.reading() && fields.node()[key].IsMap());
+  if (is_section) {
+    fields.within(key, [&](Fields& section) { describe_scenarios(section, runs); })
+        .type("list of texts, or section")
+        .doc("Scenario files, or names of drawn scenarios such as drawn:kerbs_7_000.");
+  } else {
+    describe_names(fields, key, runs.scenarios);
+  }
+  fields.check(!runs.scenarios.empty(), "scenarios", "expected at least one scenario file");
+  fields("runs", runs.runs, 1, 100'000).doc("Runs of each scenario.");
+  fields("perturbed", runs.perturbed).doc("Whether perturbations are drawn from the seed.");
+}
+
+static void describe(Fields& fields, TrainingSegments& segments) {
+  fields.require("scenario", segments.scenario).doc("Scenario file.");
+  fields("runs", segments.runs, 1, 100'000).doc("Number of perturbed runs.");
+  fields("after", segments.after, 0.0, 1e4).doc("s", "Earliest start of a segment.");
+  fields("length", segments.length, 0.01, 1e4)
+      .doc("s", "Length of a segment, less if the run ends earlier.");
+  fields.renamed("places", "offsets");
+  fields("offsets", segments.offsets, 1, 1000)
+      .doc("Number of evenly spaced start times; runs use them in turn.");
+}
+
+/// All runs of a scenario without perturbations are equal, so they count as one.
+static void describe(Fields& fields, TuningConfig& tuning, const Experiment& experiment) {
+  const RunsConfig& fit = experiment.fit;
+  fields.require("trials", tuning.trials, 1, 10'000)
+      .doc("Trials of each estimator; the first has its defaults.");
+  fields("folds", tuning.folds, 2, 1000).doc("Folds of the fitted runs, for cross-validation.");
+  fields("everywhere", tuning.everywhere)
+      .doc("Whether a benchmark's other robots and sensors have trials of their own.");
+  if (fields.present("noise", true)) {
+    fields.list("noise", tuning.noise).doc("Noise settings of the trials.");
+  }
+  fields.check(!tuning.noise.empty(), "noise", "expected at least one noise setting");
+  fields.know("fixed");
+  if (fields.present("fixed", !tuning.fixed.empty())) {
+    own_estimators(fields, "fixed", experiment, tuning.fixed)
+        .fallback("none")
+        .doc("Estimators that keep their defaults, such as a second operating point.");
+  }
+  const std::size_t runs =
+      fit.scenarios.size() * (fit.perturbed ? static_cast<std::size_t>(fit.runs) : 1);
+  fields.finish();
+  fields.check(static_cast<std::size_t>(tuning.folds) <= runs, "folds",
+               fmt::format("expected at most the number of different fitted runs, {}", runs));
+}
+
+static void describe_fit(Fields& fit, Experiment& experiment) {
+  describe(fit, experiment.fit);
+  fit.renamed("pieces", "segments");
+  fit.list_if_any("segments", experiment.training_segments)
+      .doc("Segments of runs: phase models are fitted to these instead, others to both.");
+  fit.know("tuning");
+  if (fit.present("tuning", experiment.tuning.has_value())) {
+    if (fit.reading()) experiment.tuning.emplace();
+    fit.section("tuning", *experiment.tuning, experiment)
+        .fallback("none")
+        .doc("The same number of trials for every ranked estimator with hyperparameters.");
+  }
+  if (fit.present("servo_load", experiment.fit_servo_load)) {
+    fit("servo_load", experiment.fit_servo_load)
+        .doc(
+            "Whether networks and evidence curves get the load by the servos' laws as one more "
+            "channel.");
+  }
+  if (!fit.present("seed", experiment.fit_seed.has_value())) return;
+  fit.optional("seed", experiment.fit_seed)
+      .fallback("the experiment's")
+      .doc("Seed of the fitted runs.");
+}
+
+/// The study that alone has an estimator with this name, or null.
+static const StudySection* owner_of_estimator(const Experiment& experiment,
+                                              const std::string& name) {
+  for (const StudySection& study : experiment.studies.known()) {
+    if (!study.estimators) continue;
+    for (const EstimatorEntry& entry : study.estimators()) {
+      if (entry.name == name) return &study;
+    }
+  }
+  return nullptr;
+}
+
+/// Estimators that only some experiments have: those written in Python, if Python runs the
+/// experiment, and those of a study, if the experiment has its section.
+static void require_available(const Fields& fields, const Experiment& experiment) {
+  if (!fields.reading()) return;
+  const YAML::Node given = fields.node()["estimators"];
+  if (!given || !given.IsSequence()) return;
+  const std::vector<std::string> known = estimator_names(experiment.external_estimators);
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (!given[i].IsScalar()) continue;
+    const std::string& name = given[i].Scalar();
+    const bool is_present = std::find(known.begin(), known.end(), name) != known.end();
+    fields.check_item(is_present || !name.starts_with(python_prefix), "estimators", i,
+                      fmt::format("'{}' is written in Python: run the experiment from there, by "
+                                  "'python3 -m touchdown run' or touchdown.run",
+                                  name));
+    const StudySection* const owner = is_present ? nullptr : owner_of_estimator(experiment, name);
+    if (owner == nullptr) continue;
+    fields.check_item(false, "estimators", i,
+                      fmt::format("'{0}' belongs to the study '{1}': expected the section '{1}' "
+                                  "beside it",
+                                  name, owner->key));
+  }
+}
+
+/// Makes the estimators that only the sections of this experiment have.
+static void add_study_estimators(const Fields& fields, Experiment& experiment) {
+  if (!fields.reading() || fields.documenting()) return;
+  for (const StudySection& study : experiment.studies.known()) {
+    if (!study.estimators || !fields.present(study.key, false)) continue;
+    for (EstimatorEntry& entry : study.estimators()) {
+      experiment.external_estimators.push_back(std::move(entry));
+    }
+  }
+}
+
+/// Describes the studies' sections that are written before one of the experiment's own keys.
+static void describe_studies(Fields& fields, std::string_view before, Experiment& experiment) {
+  for (const StudySection& study : experiment.studies.known()) {
+    if (study.before != before) continue;
+    fields.know(study.key);
+    study.describe(fields, experiment);
+  }
+}
+
+static void describe(Fields& fields, Experiment& experiment) {
+  fields.require("name", experiment.name).doc("Name of the run directory and in captions.");
+  fields.check(is_name_word(experiment.name), "name", expected_name_word);
+  fields("seed", experiment.seed).doc("Seed of all random draws.");
+  fields.names("simulators", simulators::simulator_names(), experiment.simulators)
+      .doc("Physics engines.");
+  add_study_estimators(fields, experiment);
+  require_available(fields, experiment);
+  fields.names("estimators", estimator_names(experiment.external_estimators), experiment.estimators)
+      .doc("Estimators, in the order of tables.");
+  fields.require("fit");
+  fields.require("test");
+  fields.within("fit", [&](Fields& fit) { describe_fit(fit, experiment); })
+      .doc("Noiseless runs to which models are fitted.");
+  describe_hyperparameters(fields, experiment);
+  fields.section("test", experiment.test).doc("Runs for scoring; no model is fitted to them.");
+  const auto file_if_any = [&](const char* key, std::string& file) {
+    fields.know(key);
+    if (!fields.present(key, !file.empty())) return KeyNotes();
+    const KeyNotes notes = fields(key, file);
+    fields.check(!file.empty(), key, "expected a file");
+    return notes;
+  };
+  file_if_any("robot", experiment.robot)
+      .fallback("each scenario's own")
+      .doc("Robot of all runs: an MJCF, or a YAML file about one.");
+  file_if_any("sensors", experiment.sensors)
+      .fallback("ideal sensors")
+      .doc("Sensor profile of all runs.");
+  fields.know("transfer");
+  if (fields.present("transfer", experiment.transfer)) {
+    fields("transfer", experiment.transfer)
+        .doc(
+            "Whether `shipped` may run on another robot, or at another rate, than its "
+            "model was fitted for.");
+  }
+  describe_studies(fields, "noise", experiment);
+  const noise::NoiseGridConfig& noise = experiment.noise;
+  fields.section("noise", experiment.noise)
+      .doc("The grid of white noise on the estimators' signals.");
+  if (experiment.tuning) {
+    for (noise::NoiseCell& cell : experiment.tuning->noise) cell = noise::as_on_grid(cell, noise);
+  }
+  fields.list("highlights", experiment.highlights, noise)
+      .fallback("the first cell")
+      .doc("Cells of the grid that are scored in full.");
+  if (fields.reading() && experiment.highlights.empty()) {
+    experiment.highlights = {
+        noise::as_on_grid({noise.torque.front(), noise.accelerometer.front()}, noise)};
+  }
+  fields.section("labels", experiment.labels).doc("When a wheel counts as being in contact.");
+  fields.section("scoring", experiment.scoring).doc("How predictions are compared with the truth.");
+  fields.section("intervals", experiment.intervals).doc("Bootstrap intervals.");
+  fields.section("video", experiment.video, experiment)
+      .doc("The run that is plotted and filmed for every engine.");
+  describe_drop_figures(fields, experiment);
+  fields.choose("recordings", {"all", "pictured", "none"}, experiment.recordings)
+      .doc("Recordings that the run directory keeps.");
+  fields("paper_tables", experiment.paper_tables)
+      .doc("Whether the paper's Tables I to III are printed for every highlight.");
+  if (fields.reading()) {
+    fields("workers", experiment.workers, 0, 4096)
+        .doc("Threads; 0: one per core. They change no result.");
+  }
+  const bool draws = experiment.video.enabled || experiment.detail;
+  fields.check(!draws || experiment.recordings != KeptRecordings::none, "recordings",
+               "expected all or pictured: the video and the detail are drawn from them; none goes "
+               "with video.enabled: false and without the detail");
+  for (const StudySection& study : experiment.studies.known()) fields.know(study.key);
+  describe_studies(fields, "", experiment);
+}
+
+static Experiment default_experiment(std::vector<StudySection> sections,
+                                     std::vector<EstimatorEntry> external_estimators) {
+  Experiment defaults;
+  defaults.studies = StudySections(std::move(sections));
+  defaults.external_estimators = std::move(external_estimators);
+  defaults.fit = {.scenarios = {}, .runs = 1, .perturbed = false};
+  defaults.test = {.scenarios = {}, .runs = 8, .perturbed = true};
+  return defaults;
+}
+
+Experiment experiment_from_yaml(const YamlDocument& document, std::vector<StudySection> sections,
+                                std::vector<EstimatorEntry> external_estimators) {
+  check_external_names(external_estimators);
+  return from_yaml(document,
+                   default_experiment(std::move(sections), std::move(external_estimators)));
+}
+
+std::vector<Key> experiment_keys(std::vector<StudySection> sections) {
+  return documented_keys(default_experiment(std::move(sections), {}));
+}
+
+void require_files(const YamlDocument& document, const std::vector<StudySection>& sections) {
+  std::vector<std::string> keys = {
+      "fit.scenarios", "fit.scenarios.files",  "test.scenarios", "test.scenarios.files", "robot",
+      "sensors",       "fit.segments.scenario"};
+  for (const StudySection& section : sections) {
+    keys.insert(keys.end(), section.file_keys.begin(), section.file_keys.end());
+  }
+  require_resources(document, keys, [](const std::string& name) {
+    if (!scenarios::is_drawn(name)) (void)find_resource(name);
+  });
+}
+
+std::string to_yaml(const Experiment& experiment) { return YAML::Dump(to_node(experiment)) + "\n"; }
+
+}  // namespace touchdown::experiments
