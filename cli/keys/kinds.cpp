@@ -10,7 +10,7 @@
 #include "experiments/config/experiment.hpp"
 #include "experiments/studies/experiment_file.hpp"
 #include "noise/sensors/profile.hpp"
-#include "recordings/mapping/mapping.hpp"
+#include "recordings/mapping/mapping_file.hpp"
 #include "scenarios/scenario_file.hpp"
 #include "training/config/training.hpp"
 

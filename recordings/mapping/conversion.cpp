@@ -13,6 +13,7 @@
 #include "recordings/bags/bag.hpp"
 #include "recordings/log/writer.hpp"
 #include "recordings/mapping/joined_log.hpp"
+#include "recordings/mapping/mapping_file.hpp"
 #include "recordings/mapping/row_hold.hpp"
 #include "recordings/mapping/source_log.hpp"
 #include "recordings/sample_times.hpp"

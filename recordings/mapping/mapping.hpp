@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <filesystem>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -12,7 +11,6 @@
 
 #include <Eigen/Core>
 
-#include "core/keys/key.hpp"
 #include "models/robot.hpp"
 #include "recordings/mapping/log_sources.hpp"
 
@@ -125,16 +123,5 @@ struct LogMapping {
   std::optional<MappedSignal> contact;
   double contact_above = 0.5;  ///< a number above this is contact
 };
-
-/// Reads a mapping file for a log with these names; a log with several sources has several. Errors:
-/// `InputError` with file:line:column for
-/// - an unknown or missing key;
-/// - a name that the log lacks, or a column that is used twice;
-/// - a wrong number of names, signs or units.
-LogMapping read_log_mapping(const std::filesystem::path& path,
-                            std::span<const SourceNames> sources);
-
-/// The keys of a mapping file.
-std::vector<Key> mapping_keys();
 
 }  // namespace touchdown::recordings
