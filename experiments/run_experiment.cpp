@@ -13,6 +13,7 @@
 #include "experiments/stages/computation.hpp"
 #include "experiments/stages/needs.hpp"
 #include "experiments/stages/summary.hpp"
+#include "experiments/studies/experiment_file.hpp"
 
 namespace touchdown::experiments {
 

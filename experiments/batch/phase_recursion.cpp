@@ -116,7 +116,7 @@ std::vector<std::uint32_t> padded(std::span<const std::uint32_t> level) {
 }  // namespace
 
 void PhaseLikelihoods::set(std::size_t level, const PhaseRow& log_likelihood) noexcept {
-  std::copy_n(log_likelihood.begin(), phase_count, log_.begin() + level * phase_count);
+  std::copy_n(log_likelihood.begin(), phase_count, log_.data() + level * phase_count);
 }
 
 void PhaseLikelihoods::update() noexcept {

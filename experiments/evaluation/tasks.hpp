@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <compare>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -11,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "experiments/evaluation/model_tasks.hpp"
@@ -92,7 +92,9 @@ class NoiseFreeScores {
     std::size_t condition;  ///< index among those of the run's engine
     std::size_t cell;       ///< index among the group's scored cells
 
-    auto operator<=>(const Key&) const = default;
+    friend bool operator<(const Key& a, const Key& b) {
+      return std::tie(a.run, a.condition, a.cell) < std::tie(b.run, b.condition, b.cell);
+    }
   };
   using Scores = std::vector<scoring::RobotScore>;
 

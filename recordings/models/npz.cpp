@@ -69,6 +69,7 @@ void add_member(zip_t& archive, const std::string& name, const std::string& byte
 
 }  // namespace
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): the loop empties the arrays
 std::string to_npz(NpzArrays arrays, const std::string& name, Deflated deflated) {
   // In memory: otherwise libzip would make a temporary file of unknown name, which could be left
   // behind.

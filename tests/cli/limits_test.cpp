@@ -129,8 +129,8 @@ TEST_F(Limits, SpecialFilesAreRefusedAtOnce) {
   for (const std::string robot : {"pipe", "zero", "a.mpack", "missing/robot", "./upkie"}) {
     for (const std::string arguments :
          {"check a.mpack", "estimate a.mpack", "fit a.mpack -o x.npz"}) {
-      EXPECT_THAT(refusal(arguments + " --robot " + robot),
-                  HasSubstr(robot + ": expected a robot's file"));
+      EXPECT_THAT(refusal(fmt::format("{} --robot {}", arguments, robot)),
+                  HasSubstr(fmt::format("{}: expected a robot's file", robot)));
     }
   }
   EXPECT_THAT(refusal("check a.mpack --robot upkie"), HasSubstr("upkie: expected a robot's file"));
@@ -195,7 +195,8 @@ TEST_F(Limits, OutputsThatCannotBeWrittenAreRefusedBeforeAnythingIsComputed) {
          {std::pair<std::string, std::string>{"simulate long.yaml -o ", ".mpack"},
           {"fit a.mpack -o ", ".npz"},
           {"estimate a.mpack -o ", ".csv"}}) {
-      EXPECT_THAT(refusal(arguments + stem + extension, 1), HasSubstr("cannot be written"))
+      EXPECT_THAT(refusal(fmt::format("{}{}{}", arguments, stem, extension), 1),
+                  HasSubstr("cannot be written"))
           << arguments << stem;
     }
   }

@@ -6,8 +6,8 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "experiments/stages/experiment_context.hpp"
 #include "experiments/run_experiment.hpp"
+#include "experiments/stages/experiment_context.hpp"
 #include "experiments/studies/experiment_file.hpp"
 #include "tests/scratch_folder.hpp"
 
