@@ -125,14 +125,14 @@ void release_phase_models(const ExperimentContext& context, const PendingTasks& 
                           const TaskRange& tasks, FittedModels& models) {
   const Plan& plan = context.plan;
   if (!plan.model_tasks.empty()) return;
+  const std::vector<std::string>& engines = context.request.experiment.simulators;
+  const bool is_shard = tasks.size() < plan.tasks.size();
   for (auto& [key, by_estimator] : models) {
-    const std::vector<std::string>& engines = context.request.experiment.simulators;
     const bool is_own = std::find(engines.begin(), engines.end(), key) != engines.end();
     const bool is_pictured = is_own && plan.kept_signals != KeptSignals::none;
     if (is_pictured || pending.needs(key)) continue;
     for (auto& [estimator, model] : by_estimator) {
       if (!model.phase) continue;
-      const bool is_shard = tasks.size() < plan.tasks.size();
       if (!is_shard) write_model_of(key, estimator, model, context.directory);
       model.phase.reset();
     }
