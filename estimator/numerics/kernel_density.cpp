@@ -112,16 +112,22 @@ class KernelSums {
     count_ += x.size();
   }
 
-  [[nodiscard]] std::vector<std::vector<double>> densities() const {
+  /// Of one pair of axes; all pairs with the first axis along x come first.
+  [[nodiscard]] std::vector<double> density(std::size_t pair) const {
     if (count_ == 0) throw InputError("a kernel density needs at least 1 sample, got 0");
+    const AxisKernels& along_x = x_[pair / y_.size()];
+    const AxisKernels& along_y = y_[pair % y_.size()];
+    const Matrix density = sums_[pair] / (static_cast<double>(count_) * 2.0 * std::numbers::pi *
+                                          along_x.bandwidth() * along_y.bandwidth());
+    return {density.data(), density.data() + density.size()};
+  }
+
+  /// Of all pairs. Each frees its sums: together they would take twice the memory.
+  [[nodiscard]] std::vector<std::vector<double>> take_densities() && {
     std::vector<std::vector<double>> all;
-    auto sum = sums_.begin();
-    for (const AxisKernels& along_x : x_) {
-      for (const AxisKernels& along_y : y_) {
-        const Matrix density = *sum++ / (static_cast<double>(count_) * 2.0 * std::numbers::pi *
-                                         along_x.bandwidth() * along_y.bandwidth());
-        all.emplace_back(density.data(), density.data() + density.size());
-      }
+    for (std::size_t pair = 0; pair < sums_.size(); ++pair) {
+      all.push_back(density(pair));
+      sums_[pair] = Matrix();
     }
     return all;
   }
@@ -183,7 +189,7 @@ std::vector<std::vector<double>> kernel_densities(std::span<const double> x,
     const std::size_t count = std::min(block, x.size() - first);
     sums.add(x.subspan(first, count), y.subspan(first, count));
   }
-  return sums.densities();
+  return std::move(sums).take_densities();
 }
 
 struct KernelDensityGrid::Sums {
@@ -223,7 +229,7 @@ void KernelDensityGrid::add(double x, double y) {
 
 std::vector<double> KernelDensityGrid::density() {
   if (!sums_->x.empty()) sums_->add_block();
-  return std::move(sums_->of_blocks.densities().front());
+  return sums_->of_blocks.density(0);
 }
 
 }  // namespace touchdown
