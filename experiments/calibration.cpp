@@ -20,7 +20,7 @@ namespace touchdown::experiments {
 namespace {
 
 /// Limits of the calibration.
-constexpr std::size_t most_scenes = 16;    // simulated on the first engine
+constexpr std::size_t most_scenes = 16;    // simulated on the first engine, without fitted ones
 constexpr double evaluated_seconds = 2.0;  // of one run, and a quarter of them
 
 /// At most `most` of the indices, evenly spread.
@@ -52,10 +52,12 @@ void simulate(const Experiment& experiment, const Plan& plan, const std::set<std
   if (steps > 0.0) found.step_seconds[engine] = cost / steps;
 }
 
-/// Simulates one run of every scene on the first engine, and one on every other engine.
+/// Simulates one run of every scene on the first engine, or of some if there are many, and one on
+/// every other engine. Runs of the experiment's own fit are always among them.
 Rollouts sample_runs(const Experiment& experiment, const Plan& plan,
                      const ShouldContinue& should_continue, Calibration& found) {
   Rollouts runs;
+  std::vector<std::size_t> fitted;
   std::map<std::string, std::vector<std::size_t>> candidates;
   std::set<std::pair<SceneKey, RunRole>> known;
   for (std::size_t i = 0; i < plan.runs.size(); ++i) {
@@ -63,11 +65,13 @@ Rollouts sample_runs(const Experiment& experiment, const Plan& plan,
     const bool is_first_engine = run.simulator == experiment.simulators.front();
     if (is_first_engine && !known.emplace(scene_key(run), run.role).second) continue;
     if (!is_first_engine && !candidates[run.simulator].empty()) continue;
-    candidates[run.simulator].push_back(i);
+    const bool is_fitted = is_first_engine && run.role == RunRole::fit && run.fit.empty();
+    (is_fitted ? fitted : candidates[run.simulator]).push_back(i);
   }
   for (const std::string& engine : experiment.simulators) {
-    simulate(experiment, plan, spread(candidates[engine], most_scenes), engine, should_continue,
-             runs, found);
+    std::set<std::size_t> chosen = spread(candidates[engine], most_scenes);
+    if (engine == experiment.simulators.front()) chosen.merge(spread(fitted, most_fitted_runs));
+    simulate(experiment, plan, chosen, engine, should_continue, runs, found);
   }
   double simulated = 0.0;
   double planned = 0.0;

@@ -195,6 +195,7 @@ CostEstimate estimate_cost(const RunRequest& request, const Plan& plan,
   estimate.memory = memory_of(experiment, plan, calibration);
   estimate.disk = disk_needs(plan).all();
   estimate.measured = calibration.measured;
+  estimate.unmeasured_fits = fits.unmeasured;
   return estimate;
 }
 

@@ -14,7 +14,6 @@ namespace touchdown::experiments {
 
 namespace {
 
-constexpr std::size_t most_fitted_runs = 6;
 constexpr double fitted_seconds = 3.0;  // of each
 
 double seconds_of(const RunSignals& run) {
@@ -147,7 +146,8 @@ FitSample sample_fits(const Experiment& experiment, const Rollouts& runs,
       try {
         found.costs.push_back(cost_of_fit(entry, data, seconds, model));
       } catch (const InputError&) {
-        continue;  // the beginnings of the runs do not suffice for it
+        found.unmeasured.push_back(name);  // the beginnings of the runs do not suffice for it
+        continue;
       }
     }
     model.metadata = new_metadata(name, data, {});

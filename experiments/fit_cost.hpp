@@ -27,6 +27,7 @@ struct FitCost {
 struct FitSample {
   FittedModels models;
   std::vector<FitCost> costs;
+  std::vector<std::string> unmeasured = {};  ///< estimators whose fits need more data
 
   /// Processor time of all fits to so much data (s), and of its part that refits repeat.
   [[nodiscard]] double of(double seconds) const;
@@ -34,6 +35,9 @@ struct FitSample {
   /// The most working memory of so many fits at once (bytes).
   [[nodiscard]] double memory(int at_once) const;
 };
+
+/// Runs that a small fit uses.
+inline constexpr std::size_t most_fitted_runs = 6;
 
 /// Fits every estimator to a few seconds of simulated fitted runs of the experiment's own fit.
 /// Errors: `Stopped`.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -174,6 +175,42 @@ TEST(Calibration, MeasuresEnginesScenesFitsAndEvaluations) {
     EXPECT_GT(found.memory_in_use, 0.0);
     EXPECT_GT(found.measured, 0.0);
   }
+}
+
+TEST(Calibration, SimulatesFittedScenesHoweverManyAreTested) {
+  const ScratchFolder folder;
+  Experiment experiment = small(folder);
+  const auto write = [&](const std::string& name) {
+    std::string scene = small_step_scene;
+    scene.replace(scene.find("small_step"), 10, name);
+    scene.replace(scene.find("duration: 6.0"), 13, "duration: 0.6");
+    return folder.write(name + ".yaml", scene).string();
+  };
+  for (int i = 0; i < 4; ++i) experiment.fit.scenarios.push_back(write(fmt::format("fit_{}", i)));
+  for (int i = 0; i < 30; ++i) experiment.test.scenarios.push_back(write(fmt::format("it_{}", i)));
+  const RunRequest request = request_of(experiment);
+  const Calibration found = calibrate(request, whole_plan(request), [] { return true; });
+  EXPECT_LT(found.duration.size(), 24U);
+  int fitted = 0;
+  for (const auto& [scene, seconds] : found.duration) fitted += scene.first.starts_with("fit_");
+  EXPECT_EQ(fitted, 4);
+  EXPECT_EQ(found.fits.costs.size(), 2U);
+  EXPECT_THAT(found.fits.unmeasured, ::testing::IsEmpty());
+}
+
+TEST(Calibration, NamesFitsThatNeedMoreData) {
+  const ScratchFolder folder;
+  std::string scene = small_step_scene;  // ends before the robot leaves the ground
+  scene.replace(scene.find("duration: 6.0"), 13, "duration: 0.8");
+  folder.write("short.yaml", scene);
+  const RunRequest request = request_of(experiment_from_yaml(YamlDocument::parse(
+      "name: short\nestimators: [phase, robust]\nfit: {scenarios: [" +
+          (folder / "short.yaml").string() + "], runs: 2, perturbed: true}\ntest: {scenarios: [" +
+          (folder / "short.yaml").string() + "], runs: 1}\nvideo: {enabled: false}\n",
+      "short.yaml")));
+  const RunOutline outline =
+      outline_of(request.experiment, {.out = folder / "run", .command = "test"});
+  EXPECT_THAT(outline.cost.unmeasured_fits, ::testing::Contains("phase"));
 }
 
 TEST(Calibration, WritesNothingAndStopsWhenAsked) {
