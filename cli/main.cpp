@@ -92,7 +92,7 @@ int run_command_line(int argc, char** argv) {
     program.parse(argc, argv);  // and runs the verb
     return good;
   } catch (const CLI::Success& asked) {  // --help, --version
-    return program.exit(asked);
+    return print_answer(program, asked);
   } catch (const CLI::ParseError& error) {
     return complain(complaint(program, argc, argv, error), wrong_request);
   } catch (const InputError& error) {

@@ -1,7 +1,5 @@
 #include "cli/show_result.hpp"
 
-#include <cstdio>
-
 #include <fmt/format.h>
 
 #include "core/error.hpp"
@@ -55,7 +53,7 @@ void show(experiments::ExperimentResult& result, const CliSession& session,
   print(experiments::summary_text(result));
   print(fmt::format("\nresults   {}\ntables    {}\n", result.directory.path().string(),
                     (result.directory.path() / "tables").string()));
-  std::fflush(stdout);
+  flush_printed();
   if (!pictures.none) {
     draw(result, session, !pictures.no_video);
     print(last_screen(result, session));

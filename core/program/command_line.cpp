@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <sstream>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "core/program/streams.hpp"
 #include "core/yaml.hpp"
 
 namespace touchdown {
@@ -55,6 +57,13 @@ std::string nearest_flag(std::string_view word, std::vector<std::string> flags) 
 }
 
 }  // namespace
+
+int print_answer(const CLI::App& program, const CLI::Success& asked) {
+  std::ostringstream text;
+  const int code = program.exit(asked, text, text);
+  print(text.str());
+  return code;
+}
 
 std::string unknown_flag(std::string_view word, const CLI::App& command) {
   const std::string_view flag = word.substr(0, word.find('='));

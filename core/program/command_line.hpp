@@ -6,9 +6,13 @@
 // CLI11 takes seconds to compile wherever it is included.
 namespace CLI {  // NOLINT(readability-identifier-naming): CLI11's name
 class App;
+class Success;
 }  // namespace CLI
 
 namespace touchdown {
+
+/// Prints what `--help` and `--version` ask for, and returns the exit code.
+int print_answer(const CLI::App& program, const CLI::Success& asked);
 
 /// "unknown flag '--otu' (did you mean '--out'?)". Without a near flag, it lists all flags of the
 /// command. A value after "=" does not count. For a file of this name, it shows how to write it.

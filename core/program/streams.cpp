@@ -16,6 +16,24 @@
 
 namespace touchdown {
 
+namespace {
+
+void complain_of_output(int reason) {
+  complain(fmt::format("standard output cannot be written{}{}", reason == 0 ? "" : ": ",
+                       reason == 0 ? "" : std::strerror(reason)),
+           failed);
+}
+
+/// Reports the first error alone.
+template <typename Write>
+void write_output(const Write& write) {
+  const bool was_writable = std::ferror(stdout) == 0;
+  errno = 0;
+  if (!write() && was_writable) complain_of_output(errno);
+}
+
+}  // namespace
+
 void open_standard_streams() {
   // By descriptor; each is the lowest that is free when its turn comes.
   constexpr std::array<int, 3> modes = {O_WRONLY, O_RDONLY, O_WRONLY};
@@ -27,7 +45,11 @@ void open_standard_streams() {
 
 void print(std::string_view text) {
   const std::string shown = terminal_text(text, "\n\t");
-  (void)std::fwrite(shown.data(), 1, shown.size(), stdout);
+  write_output([&] { return std::fwrite(shown.data(), 1, shown.size(), stdout) == shown.size(); });
+}
+
+void flush_printed() {
+  write_output([] { return std::fflush(stdout) == 0; });
 }
 
 int complain(const std::string& message, ExitCode code) {
@@ -42,16 +64,13 @@ int finished(const std::function<int()>& work) {
   } catch (const std::bad_alloc&) {
     complain("there is not enough memory", failed);
   }
+  const bool is_reported = std::cout.good() && std::ferror(stdout) != 0;  // by `print`
   errno = 0;
   std::cout.flush();
-  const bool written = std::fflush(stdout) == 0;
-  const int reason = errno;
-  if (written && std::cout && std::ferror(stdout) == 0) return code;
-  const int complaint =
-      complain(fmt::format("standard output cannot be written{}{}", reason == 0 ? "" : ": ",
-                           reason == 0 ? "" : std::strerror(reason)),
-               failed);
-  return code == good ? complaint : code;
+  const bool is_flushed = std::fflush(stdout) == 0;
+  if (is_flushed && std::cout && std::ferror(stdout) == 0) return code;
+  if (!is_reported) complain_of_output(errno);
+  return code == good ? failed : code;
 }
 
 }  // namespace touchdown

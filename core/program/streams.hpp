@@ -18,7 +18,7 @@ enum ExitCode : int { good = 0, failed = 1, wrong_request = 2 };
 void open_standard_streams();
 
 /// Prints on standard output, as `terminal_text` with line ends and tabs. A write error does not
-/// stop the work; `finished` reports it at the end.
+/// stop the work: the first one is reported, and `finished` returns an error.
 void print(std::string_view text);
 /// The same for a format and its arguments.
 template <typename First, typename... More>
@@ -26,6 +26,9 @@ void print(fmt::format_string<First, More...> format, First&& first, More&&... m
   print(std::string_view(
       fmt::format(format, std::forward<First>(first), std::forward<More>(more)...)));
 }
+
+/// Shows what was printed so far. It reports errors as `print` does.
+void flush_printed();
 
 /// Prints an error message as one line on standard error and returns `code`.
 int complain(const std::string& message, ExitCode code);

@@ -62,10 +62,15 @@ TEST(StandardError, ThatIsClosedDoesNotEndUpInAFile) {
 
 TEST(StandardOutput, ThatIsFullOrClosedIsAnError) {
   const ScratchFolder folder;
-  for (const std::string stream : {">/dev/full", ">&-"}) {
-    EXPECT_EQ(exit_code("list " + stream + " 2>errors.txt", folder), 1) << stream;
-    EXPECT_THAT(read_file(folder / "errors.txt"), HasSubstr("standard output cannot be written"));
-    EXPECT_EQ(exit_code("--help " + stream + " 2>errors.txt", folder), 1) << stream;
+  for (const auto& [stream, reason] : std::map<std::string, std::string>{
+           {">/dev/full", "No space left on device"}, {">&-", "Bad file descriptor"}}) {
+    const std::string complaint = "touchdown: standard output cannot be written: " + reason + "\n";
+    for (const std::string command :
+         {"list", "keys", "manual --markdown", "--help", "run --help", "--version"}) {
+      EXPECT_EQ(exit_code(command + " " + stream + " 2>errors.txt", folder), 1)
+          << command << stream;
+      EXPECT_EQ(read_file(folder / "errors.txt"), complaint) << command << stream;
+    }
     EXPECT_EQ(exit_code("listt " + stream + " 2>errors.txt", folder), 2) << stream;
     EXPECT_THAT(read_file(folder / "errors.txt"), HasSubstr("did you mean 'list'?"));
   }
@@ -77,7 +82,8 @@ TEST(StandardOutput, ThatIsFullDoesNotPreventTheReport) {
   const ScratchFolder folder;
   const std::string experiment = write_tiny_experiment(folder);
   EXPECT_EQ(exit_code("run " + experiment + " --out out >/dev/full 2>errors.txt", folder), 1);
-  EXPECT_THAT(read_file(folder / "errors.txt"), HasSubstr("standard output cannot be written"));
+  EXPECT_THAT(read_file(folder / "errors.txt"),
+              HasSubstr("standard output cannot be written: No space left on device"));
   EXPECT_TRUE(fs::exists(folder / "out/report.html"));
 }
 

@@ -69,7 +69,7 @@ int run_program(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help
-    return program.exit(success);
+    return print_answer(program, success);
   } catch (const CLI::ParseError& error) {
     return complain(fmt::format("train: {}", refused_words(program, error.what())), wrong_request);
   }
