@@ -11,7 +11,6 @@
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/fields.hpp"
-#include "core/files.hpp"
 #include "core/program/outputs.hpp"
 #include "core/program/streams.hpp"
 #include "core/progress.hpp"
@@ -89,7 +88,6 @@ void simulate(SimulateFlags flags, const CliSession& session) {
   scenarios::Scenario scenario = scenarios::complete_scenario(document);
   check_outputs({{document.name(), "scenario"}, {scenario.robot, "robot"}}, {flags.output});
   require_extension(flags.output, {".mpack"}, "a recording");
-  require_writable(flags.output);
   std::optional<noise::SensorProfile> sensors;
   if (!flags.sensors.empty()) {
     sensors = from_yaml<noise::SensorProfile>(YamlDocument::load(find_resource(flags.sensors)));

@@ -8,7 +8,6 @@
 
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
-#include "core/files.hpp"
 #include "core/program/outputs.hpp"
 #include "core/program/streams.hpp"
 #include "core/progress.hpp"
@@ -217,7 +216,6 @@ void fit(const FitFlags& flags, const CliSession& session) {
   for (const std::string& labels : flags.labels) inputs.push_back({labels, "file of labels"});
   check_outputs(inputs, {flags.output});
   require_extension(flags.output, {".npz"}, "a model");
-  require_writable(flags.output);
   require_different(logs);
   experiments::LogFitReport report;
   experiments::write_fitted_model(experiments::fit_to_logs(entry, logs, config, report),

@@ -73,6 +73,9 @@ void check_outputs(const std::vector<InputFile>& inputs, const std::vector<fs::p
     }
     check_replaceable(outputs[i]);
   }
+  for (const fs::path& output : outputs) {
+    if (output != "-") require_writable(output);
+  }
 }
 
 void require_extension(const fs::path& output, const std::vector<std::string>& extensions,

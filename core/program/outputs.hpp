@@ -17,7 +17,8 @@ struct InputFile {
 /// count as the same file. Errors: `InputError` for
 /// - an output that is one of the inputs;
 /// - two outputs that are the same file;
-/// - an existing output that is not a file, such as a device: writing atomically would replace it.
+/// - an existing output that is not a file, such as a device: writing atomically would replace it;
+/// and `Error` for an output that cannot be written.
 void check_outputs(const std::vector<InputFile>& inputs,
                    const std::vector<std::filesystem::path>& outputs);
 

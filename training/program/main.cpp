@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/files.hpp"
 #include "core/program/command_line.hpp"
 #include "core/program/interrupt.hpp"
 #include "core/program/outputs.hpp"
@@ -28,7 +27,6 @@ int run(const Flags& flags, const TrainingRequest& request) {
     const std::filesystem::path network = request.network;
     check_outputs({{file, "training file"}},
                   {network, std::filesystem::path(network).replace_extension("json")});
-    require_writable(network);
   }
   YamlDocument document = YamlDocument::load(file);
   for (const std::string& assignment : flags.overrides) document.override_value(assignment);

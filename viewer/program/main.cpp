@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/files.hpp"
 #include "core/program/command_line.hpp"
 #include "core/program/interrupt.hpp"
 #include "core/program/outputs.hpp"
@@ -42,7 +41,6 @@ int watch(Flags& flags, const std::atomic<bool>& stop) {
   if (!flags.record.empty()) {
     require_extension(flags.record, {".mpack"}, "a recording");
     check_outputs({{flags.request.subject, "subject"}}, {flags.record});
-    require_writable(flags.record);
   }
   const SubjectKind kind = kind_of(flags.request.subject);
   if (kind == SubjectKind::log || kind == SubjectKind::run) {

@@ -26,7 +26,7 @@ class Outputs : public ::testing::Test {
                         const std::vector<fs::path>& outputs) const {
     try {
       check_outputs(inputs, outputs);
-    } catch (const InputError& error) {
+    } catch (const Error& error) {
       return error.what();
     }
     return "";
@@ -77,6 +77,21 @@ TEST_F(Outputs, AreNoDevicesAndPipesThatAFileWouldReplace) {
   EXPECT_THAT(complaint({}, {"/dev/null"}), HasSubstr("/dev/null: is a device or a pipe"));
   EXPECT_THAT(complaint({}, {folder_ / "pipe"}), HasSubstr("device or a pipe"));
   EXPECT_EQ(complaint({{"/dev/null", "log"}}, {folder_ / "new"}), "");
+}
+
+TEST_F(Outputs, ThatCannotBeWrittenAreRefused) {
+  const fs::path link = folder_ / "loop";
+  fs::create_symlink("loop", link);
+  const std::string cannot = ": cannot be written: ";
+  EXPECT_EQ(complaint({}, {folder_.path()}), folder_.path().string() + cannot + "it is a folder");
+  EXPECT_EQ(
+      complaint({}, {log_ / "b.csv"}),
+      fmt::format("{}{}{} is not a folder", (log_ / "b.csv").string(), cannot, log_.string()));
+  for (const fs::path& output :
+       {folder_ / "new/", folder_ / std::string(300, 'a'), folder_ / "loop/b.csv"}) {
+    EXPECT_THAT(complaint({}, {folder_ / "good", "-", output}), HasSubstr(cannot)) << output;
+  }
+  EXPECT_THAT(complaint({{log_, "log"}}, {folder_.path(), log_}), HasSubstr("is the log itself"));
 }
 
 /// The standard streams of a process of its own: input from one file, output to another.
