@@ -111,6 +111,7 @@ Recorded simulate_or_read(const PlannedRun& run, const std::string& key,
   } catch (const std::bad_alloc&) {
     throw;  // no property of the run
   } catch (const std::exception& error) {
+    directory.require_in_place();  // no property of the run, either
     write_state(failure_of(run, directory), key, error.what());
     return {{}, error.what()};
   }

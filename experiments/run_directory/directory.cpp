@@ -64,6 +64,19 @@ RunDirectory::RunDirectory(const std::string& experiment, const std::string& id,
   }
 }
 
+void RunDirectory::require_in_place() const {
+  if (!lock_ || lock_->is_in_place()) return;
+  throw Error(fmt::format(
+      "{}: was moved or removed during the run: the same command continues with --out and its "
+      "new place",
+      path_.string()));
+}
+
+fs::path RunDirectory::own_file(std::string_view folder, std::string_view name) const {
+  require_in_place();
+  return record_file(path_, fs::path(folder) / name);
+}
+
 Table RunDirectory::read_table(std::string_view name) const {
   return from_csv(read_file(path_ / "tables" / name));
 }

@@ -38,6 +38,8 @@ class RunDirectory {
   /// Holds the lock for as long as this, or a copy of it, lives.
   void keep(const DirectoryLock& lock) { lock_ = lock; }
   void release() { lock_.reset(); }
+  /// Throws `Error` if others moved or removed the directory while its lock was held.
+  void require_in_place() const;
 
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path file(std::string_view folder, std::string_view name) const {
@@ -45,10 +47,8 @@ class RunDirectory {
   }
 
   /// The same for a file that is written next: the run records it as its own. `folder` may be
-  /// empty.
-  std::filesystem::path own_file(std::string_view folder, std::string_view name) const {
-    return record_file(path_, std::filesystem::path(folder) / name);
-  }
+  /// empty. Errors: those of `require_in_place`.
+  std::filesystem::path own_file(std::string_view folder, std::string_view name) const;
 
   /// Reads a table of `tables/`. Errors: `Error` when it cannot be read.
   Table read_table(std::string_view name) const;

@@ -145,8 +145,9 @@ void sign(int descriptor, Access access, const std::string& command) {
 fs::path lock_file(const fs::path& directory) { return directory / "state" / "lock"; }
 
 DirectoryLock::DirectoryLock(const fs::path& directory, Access access, const std::string& command,
-                             std::chrono::milliseconds patience) {
-  const fs::path file = lock_file(directory);
+                             std::chrono::milliseconds patience)
+    : file_(lock_file(directory)) {
+  const fs::path& file = file_;
   const auto until = std::chrono::steady_clock::now() + patience;
   for (;;) {
     std::error_code error;
@@ -166,7 +167,8 @@ DirectoryLock::DirectoryLock(const fs::path& directory, Access access, const std
 
 DirectoryLock DirectoryLock::for_reading(const fs::path& directory, const std::string& command) {
   DirectoryLock lock;
-  const fs::path file = lock_file(directory);
+  lock.file_ = lock_file(directory);
+  const fs::path& file = lock.file_;
   lock.descriptor_ = opened(file, O_RDWR | O_APPEND);
   if (!lock.descriptor_) lock.descriptor_ = opened(file, O_RDONLY);
   if (!lock.descriptor_) return lock;
@@ -176,6 +178,10 @@ DirectoryLock DirectoryLock::for_reading(const fs::path& directory, const std::s
   }
   sign(*lock.descriptor_, Access::shared, command);
   return lock;
+}
+
+bool DirectoryLock::is_in_place() const {
+  return !descriptor_ || is_still_there(file_, *descriptor_);
 }
 
 }  // namespace touchdown::experiments

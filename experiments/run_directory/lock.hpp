@@ -26,9 +26,13 @@ class DirectoryLock {
   static DirectoryLock for_reading(const std::filesystem::path& directory,
                                    const std::string& command);
 
+  /// Whether the locked directory is still at its path: others may move or remove it.
+  [[nodiscard]] bool is_in_place() const;
+
  private:
   DirectoryLock() = default;
 
+  std::filesystem::path file_;
   std::shared_ptr<const int> descriptor_;  ///< closes itself
 };
 

@@ -98,7 +98,10 @@ ExperimentContext start(RunRequest request, Plan plan, RunDirectory directory,
                   "by test.runs={} and noise.seeds={}",
                   1e-9 * needs.recordings, 1e-9 * needs.parts, plan.tasks.size(),
                   request.experiment.test.runs, request.experiment.noise.seeds));
-  ShouldContinue should_continue = [stop = options.stop] { return stop == nullptr || !*stop; };
+  ShouldContinue should_continue = [stop = options.stop, directory] {
+    directory.require_in_place();
+    return stop == nullptr || !*stop;
+  };
   request.experiment.intervals.bootstrap.before_resamples = [should_continue] {
     if (!should_continue()) throw Stopped();
   };

@@ -154,6 +154,25 @@ TEST(Interrupt, EndsIntervalsAndDrawsOfScenarios) {
   }
 }
 
+TEST(Restart, AtAnotherPlaceContinuesARunWithADirectoryThatWasMoved) {
+  const ScratchFolder folder;
+  const std::string run =
+      "run " + write_tiny_experiment(folder) + " --no-pictures --set noise.seeds=40 --out ";
+  StartedProgram program(run + "a --set workers=1", folder.path());
+  while (program.is_running() && saved_parts(folder / "a").size() < 2) program.let_run(0.002);
+  fs::rename(folder / "a", folder / "b");
+  const Ended ended = program.end();
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.errors, HasSubstr("a: was moved or removed during the run"));
+  EXPECT_FALSE(fs::exists(folder / "a/tables"));
+  const auto parts = saved_parts(folder / "b");
+  ASSERT_FALSE(parts.empty());
+  const fs::file_time_type written = fs::last_write_time(parts.front());
+  run_through(run + "b --set workers=1", folder);
+  EXPECT_EQ(fs::last_write_time(parts.front()), written);
+  EXPECT_TRUE(fs::exists(folder / "b/tables/success.csv"));
+}
+
 // Whatever the moment: while the log is read, while frames are drawn, while records are written.
 TEST(Interrupt, OfACommandWithOneOutputWritesNothing) {
   const ScratchFolder folder;

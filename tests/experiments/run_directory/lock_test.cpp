@@ -37,6 +37,26 @@ struct Lock : ::testing::Test {
   const ScratchFolder folder;
 };
 
+TEST_F(Lock, NoticesThatItsDirectoryWasMovedOrReplaced) {
+  const fs::path place = folder / "run";
+  const auto held = [&] {
+    fs::create_directories(place);
+    return DirectoryLock(place, Access::shared, "touchdown run x.yaml");
+  };
+  const DirectoryLock moved = held();
+  EXPECT_TRUE(moved.is_in_place());
+  fs::rename(place, folder / "elsewhere");
+  EXPECT_FALSE(moved.is_in_place());
+  const DirectoryLock other = held();  // a new directory at the old place
+  EXPECT_TRUE(other.is_in_place());
+  EXPECT_FALSE(moved.is_in_place());
+  fs::remove_all(place);
+  EXPECT_FALSE(other.is_in_place());
+  fs::rename(folder / "elsewhere", place);
+  EXPECT_TRUE(moved.is_in_place());
+  EXPECT_TRUE(DirectoryLock::for_reading(folder / "nowhere", "x").is_in_place());
+}
+
 TEST_F(Lock, HeldAloneRefusesAllOthersAndNamesItsHolder) {
   std::optional<DirectoryLock> held = take(Access::alone, "touchdown run\tx.yaml\n--out a");
   EXPECT_FALSE(is_free(Access::alone));
