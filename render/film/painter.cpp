@@ -1,6 +1,7 @@
 #include "render/film/painter.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "render/film/pose.hpp"
@@ -22,14 +23,15 @@ std::vector<FrameComposer> composers_of(const std::vector<VideoSource>& sources,
 }
 
 /// The smallest size from which every film can take its views: none has more rows or, for its rows,
-/// more columns. Films of quality `page` reduce views of twice their size.
+/// more columns. Films of quality `page` reduce larger views.
 cv::Size common_view(const std::vector<Film>& films, const std::vector<FrameComposer>& composers) {
   std::vector<cv::Size> sizes;
   int height = 1;
   for (std::size_t i = 0; i < films.size(); ++i) {
-    const int factor = films[i].options.quality == VideoQuality::page ? 2 : 1;
+    const double factor = films[i].options.quality == VideoQuality::page ? page_oversampling : 1.0;
     const cv::Size shown = composers[i].view_size();
-    sizes.push_back({factor * shown.width, factor * shown.height});
+    sizes.push_back({static_cast<int>(std::ceil(factor * shown.width)),
+                     static_cast<int>(std::ceil(factor * shown.height))});
     if (films[i].least_view) sizes.push_back(*films[i].least_view);
   }
   for (const cv::Size& size : sizes) height = std::max(height, size.height);

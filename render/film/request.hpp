@@ -53,8 +53,10 @@ std::string label_of(const VideoSource& source);
 
 enum class VideoQuality : int {
   draft,  ///< no anti-aliasing in the view
-  page,   ///< drawn at twice the size and averaged
+  page,   ///< drawn `page_oversampling` times as wide and high, and averaged
 };
+/// Edges look as at 2, with 0.56 times its pixels.
+inline constexpr double page_oversampling = 1.5;
 
 struct VideoOptions : VideoFormat {
   VideoQuality quality = VideoQuality::draft;
