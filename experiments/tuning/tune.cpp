@@ -66,25 +66,31 @@ void run_fold(FoldJob& job, const Fold& fold, std::span<const Trial> trials,
                      experiment.fit_servo_load};
   std::vector<NoiseRun> noise;
   for (const RunSignals* run : fold.held_out) noise.push_back(noise_of(*run, experiment));
-  std::map<HyperparameterValues, FittedModel> models;
-  for (const Trial& trial : trials) {
-    const EstimatorEntry entry = with_hyperparameters(*job.entry, trial.hyperparameters);
+  // Trials with one fit follow each other: a phase model takes tens of megabytes.
+  std::map<HyperparameterValues, std::vector<std::size_t>> trials_of;
+  for (std::size_t number = 0; number < trials.size(); ++number) {
+    const EstimatorEntry entry = with_hyperparameters(*job.entry, trials[number].hyperparameters);
+    trials_of[fit_hyperparameters(entry, trials[number].hyperparameters)].push_back(number);
+  }
+  job.counts.resize(trials.size());
+  for (const auto& [fit, numbers] : trials_of) {
     FittedModel model;
-    if (entry.fits()) {
-      const HyperparameterValues key = fit_hyperparameters(entry, trial.hyperparameters);
-      if (!models.contains(key)) models[key] = fit_model(entry, runs);
-      model = models[key];
-      model.metadata = new_metadata(entry.name, runs, trial.hyperparameters);
-    }
-    SceneCounts& counts = job.counts.emplace_back();
-    for (std::size_t i = 0; i < fold.held_out.size(); ++i) {
-      const RunSignals& run = *fold.held_out[i];
-      EstimatorRunner runner =
-          runner_of(entry, {1.0 / period_of(run), &model, run.legs, &run.contact});
-      for (std::size_t cell = 0; cell < experiment.tuning->noise.size(); ++cell) {
-        stop_if_asked();
-        count(runner, run, noise[i], experiment.tuning->noise[cell].levels(), experiment.scoring,
-              counts[fmt::format("{} {}", cell, run.info.scenario)]);
+    for (const std::size_t number : numbers) {
+      const HyperparameterValues& hyperparameters = trials[number].hyperparameters;
+      const EstimatorEntry entry = with_hyperparameters(*job.entry, hyperparameters);
+      if (entry.fits()) {
+        if (number == numbers.front()) model = fit_model(entry, runs);
+        model.metadata = new_metadata(entry.name, runs, hyperparameters);
+      }
+      for (std::size_t i = 0; i < fold.held_out.size(); ++i) {
+        const RunSignals& run = *fold.held_out[i];
+        EstimatorRunner runner =
+            runner_of(entry, {1.0 / period_of(run), &model, run.legs, &run.contact});
+        for (std::size_t cell = 0; cell < experiment.tuning->noise.size(); ++cell) {
+          stop_if_asked();
+          count(runner, run, noise[i], experiment.tuning->noise[cell].levels(), experiment.scoring,
+                job.counts[number][fmt::format("{} {}", cell, run.info.scenario)]);
+        }
       }
     }
   }
