@@ -19,6 +19,7 @@
 #include "render/palette.hpp"
 #include "render/pictures/stop.hpp"
 #include "scenarios/compiled_scenes.hpp"
+#include "scenarios/leg_geometry.hpp"
 #include "scenarios/scenario.hpp"
 
 namespace touchdown::render {
@@ -27,12 +28,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-experiments::FittedModel model_of(const ReportSubject& subject, const std::string& simulator,
-                                  const std::string& estimator) {
-  const auto kind = experiments::estimator_entry(subject.experiment, estimator).fits();
-  if (!kind) return {};
-  return experiments::read_fitted_model(
-      *kind, subject.directory / "models" / experiments::model_name(simulator, estimator));
+scenarios::Scenario recorded_scenario(const recordings::Recording& recording) {
+  const recordings::RecordingInfo& info = recording.info;
+  if (info.scenario_yaml.empty()) {
+    throw InputError(
+        "the recording does not contain its terrain: a robot's own log cannot be drawn");
+  }
+  scenarios::Scenario scenario = scenarios::scenario_from_yaml(
+      YamlDocument::parse(info.scenario_yaml, info.scenario + " (in the log)"));
+  scenario.robot = find_resource(scenario.robot);
+  return scenario;
 }
 
 /// An estimator's beliefs along a noisy recording. `noise` was drawn for the run.
@@ -56,15 +61,25 @@ BeliefTrack beliefs_of(const experiments::Experiment& experiment,
 }  // namespace
 
 models::RobotModel recorded_robot(const recordings::Recording& recording) {
-  const recordings::RecordingInfo& info = recording.info;
-  if (info.scenario_yaml.empty()) {
-    throw InputError(
-        "the recording does not contain its terrain: a robot's own log cannot be drawn");
+  return scenarios::compile_robot(recorded_scenario(recording));
+}
+
+experiments::FittedModels read_models(const fs::path& directory,
+                                      const experiments::Experiment& experiment,
+                                      const std::string& simulator,
+                                      const std::vector<std::string>& estimators) {
+  experiments::TunedHyperparameters chosen =
+      experiments::or_given(experiments::read_chosen(directory), experiment);
+  experiments::FittedModels models;
+  for (const std::string& estimator : estimators) {
+    experiments::FittedModel& model = models[simulator][estimator];
+    if (const auto kind = experiments::estimator_entry(experiment, estimator).fits()) {
+      model = experiments::read_fitted_model(
+          *kind, directory / "models" / experiments::model_name(simulator, estimator));
+    }
+    model.hyperparameters = chosen[simulator][estimator];
   }
-  scenarios::Scenario scenario = scenarios::scenario_from_yaml(
-      YamlDocument::parse(info.scenario_yaml, info.scenario + " (in the log)"));
-  scenario.robot = find_resource(scenario.robot);
-  return scenarios::compile_robot(scenario);
+  return models;
 }
 
 void add_belief(BeliefTrack& track, const ContactEstimator& estimator, const Belief& belief) {
@@ -84,8 +99,10 @@ FilmedRun filmed(recordings::Recording recording, const experiments::Experiment&
   const noise::NoiseKey key = experiments::noise_key(experiment, 0, run);
   recordings::Recording reported = recording;
   experiments::report_through_sensors(profile, experiment, run, reported);
-  const experiments::RunSignals signals = experiments::signals_of(
+  experiments::RunSignals signals = experiments::signals_of(
       reported, experiment.labels, experiment.scoring, experiment.intervals.over);
+  scenarios::CompiledScenes scenes;
+  signals.legs = scenarios::leg_geometry(*scenes.as_described(recorded_scenario(recording)));
   const experiments::NoiseRun drawn = experiments::noise_run(signals, key);
   const std::string& simulator = recording.info.simulator;
   std::vector<BeliefTrack> beliefs;
@@ -114,19 +131,13 @@ std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
       experiments::read_sensors(experiment, subject.directory), experiment.sensors);
   const experiments::VideoConfig& video = experiment.video;
   const noise::SensorNoise levels = video.noise.levels();
-  experiments::TunedHyperparameters chosen =
-      experiments::or_given(experiments::read_chosen(subject.directory), experiment);
   std::vector<FilmedRun> all;
   for (const experiments::RunSummary& run : subject.summary.runs) {
     if (run.role != experiments::RunRole::test || run.run != video.run) continue;
     const fs::path log = subject.directory / "recordings" / run.recording;
     if (!is_there(log)) continue;
-    experiments::FittedModels models;
-    for (const std::string& estimator : video.estimators) {
-      experiments::FittedModel& model = models[run.simulator][estimator];
-      model = model_of(subject, run.simulator, estimator);
-      model.hyperparameters = chosen[run.simulator][estimator];
-    }
+    const experiments::FittedModels models =
+        read_models(subject.directory, experiment, run.simulator, video.estimators);
     all.push_back(filmed(recordings::read_recording(log), experiment, profile,
                          {video.estimators, models, levels}));
   }

@@ -25,6 +25,13 @@ namespace touchdown::render {
 /// `InputError` when it contains none.
 models::RobotModel recorded_robot(const recordings::Recording& recording);
 
+/// The models of these estimators in a run directory, with the hyperparameters that its tuning
+/// chose. Errors: `InputError` when the directory lacks a model.
+experiments::FittedModels read_models(const std::filesystem::path& directory,
+                                      const experiments::Experiment& experiment,
+                                      const std::string& simulator,
+                                      const std::vector<std::string>& estimators);
+
 /// Adds an estimator's belief at the next row.
 void add_belief(BeliefTrack& track, const ContactEstimator& estimator, const Belief& belief);
 
