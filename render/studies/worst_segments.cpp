@@ -1,6 +1,7 @@
 #include "render/studies/worst_segments.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -18,36 +19,36 @@ namespace {
 
 constexpr double shown = 2.0;  ///< length of a film (s)
 
-using Runs = std::vector<const experiments::Rollout*>;
-
-Runs runs_of(const experiments::ExperimentResult& result, const Standing& standing) {
-  Runs runs;
+/// The runs of a standing's worst scene, simulated anew with the beliefs of its estimator.
+std::vector<FilmedRun> worst_runs(const experiments::ExperimentResult& result,
+                                  const Standing& standing, const noise::SensorProfile& profile) {
+  const experiments::Experiment& experiment = result.experiment;
+  const std::vector<std::string> estimators = {standing.estimator};
+  std::vector<FilmedRun> runs;
   for (const experiments::Rollout& run : result.runs) {
-    if (run.plan.role == experiments::RunRole::test && !run.failed() &&
-        run.plan.simulator == standing.worst_simulator &&
-        run.plan.scenario.name == standing.worst_scene) {
-      runs.push_back(&run);
-    }
+    const experiments::PlannedRun& plan = run.plan;
+    const bool is_wanted = plan.role == experiments::RunRole::test && !run.failed() &&
+                           plan.group == 0 && plan.simulator == standing.worst_simulator &&
+                           plan.scenario.name == standing.worst_scene;
+    if (!is_wanted) continue;
+    const experiments::FittedModels models =
+        read_models(result.directory.path(), experiment, plan.simulator, estimators);
+    runs.push_back(filmed(scenarios::play(plan.scenario, plan.simulator, plan.seed, plan.run),
+                          experiment, profile,
+                          {estimators, models, experiment.highlights.front().levels()}));
   }
   return runs;
 }
 
-/// The number of wheels about which an estimator decides wrongly, at every scored step.
-std::vector<int> wrong_decisions(const experiments::ExperimentResult& result,
-                                 const std::string& estimator, const experiments::Rollout& run,
-                                 const noise::SensorNoise& levels) {
-  const std::string& simulator = run.plan.simulator;
-  const auto runner = experiments::make_estimator(
-      result.experiment, {simulator, simulator, estimator}, result.models, run.signals);
-  const auto drawn = experiments::noise_run(
-      run.signals, experiments::noise_key(result.experiment, 0, run.plan.run));
-  const auto decisions = experiments::decide(*runner, run.signals, drawn, levels);
-  std::vector<int> wrong(run.signals.steps());
-  for (std::size_t k = scoring::first_scored_step(run.signals.info.control_period_us,
-                                                  result.experiment.scoring);
+/// The number of wheels about which the estimator decides wrongly, at every scored step.
+std::vector<int> wrong_decisions(const FilmedRun& run, const scoring::ScoringConfig& scoring) {
+  const auto contact = scoring::contact_labels(run.recording, run.labels);
+  const auto& decisions = run.beliefs.front().contact;
+  std::vector<int> wrong(run.recording.steps());
+  for (std::size_t k = scoring::first_scored_step(run.recording.info.control_period_us, scoring);
        k < wrong.size(); ++k) {
     for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-      wrong[k] += run.signals.contact[wheel][k] != decisions[wheel][k] ? 1 : 0;
+      wrong[k] += contact[wheel][k] != decisions[wheel][k] ? 1 : 0;
     }
   }
   return wrong;
@@ -56,19 +57,14 @@ std::vector<int> wrong_decisions(const experiments::ExperimentResult& result,
 void film_worst_segment(const experiments::ExperimentResult& result, const Standing& standing,
                         const noise::SensorProfile& profile, const std::atomic<bool>* stop) {
   const experiments::Experiment& experiment = result.experiment;
-  const noise::SensorNoise levels = experiment.highlights.front().levels();
-  const Runs runs = runs_of(result, standing);
+  const std::vector<FilmedRun> runs = worst_runs(result, standing, profile);
   if (runs.empty()) return;
   std::vector<std::vector<int>> wrong;
-  for (const experiments::Rollout* run : runs) {
-    wrong.push_back(wrong_decisions(result, standing.estimator, *run, levels));
-  }
-  const double period = 1e-6 * static_cast<double>(runs.front()->signals.info.control_period_us);
-  const auto length = static_cast<std::size_t>(shown / period);
-  const WorstSegment segment = worst_segment(wrong, length);
-  const experiments::PlannedRun& plan = runs[segment.run]->plan;
-  const FilmedRun run = filmed(scenarios::play(plan.scenario, plan.simulator, plan.seed, plan.run),
-                               experiment, profile, {{standing.estimator}, result.models, levels});
+  for (const FilmedRun& run : runs) wrong.push_back(wrong_decisions(run, experiment.scoring));
+  const double period = runs.front().recording.period();
+  const WorstSegment segment =
+      worst_segment(wrong, static_cast<std::size_t>(std::llround(shown / period)));
+  const FilmedRun& run = runs[segment.run];
   VideoOptions options;
   options.width = 640;
   options.height = 360;

@@ -30,8 +30,8 @@ class BenchmarkStudy final : public SectionStudy<BenchmarkConfig> {
 
   void plan(const RunRequest& request, Plan& plan) const override { add_benchmark(request, plan); }
 
-  KeptSignals kept_signals(const Experiment& experiment) const override {
-    return section_of(experiment).clips ? KeptSignals::own : KeptSignals::none;
+  KeptSignals kept_signals(const Experiment& /*experiment*/) const override {
+    return KeptSignals::none;
   }
 
   StudyResult summarize(const Evaluation& evaluation,
