@@ -189,6 +189,9 @@ class Estimator {
     require_rate(signals);
     const ExclusiveUse use(busy_);
     std::vector<Belief> beliefs(signals.steps());
+    if (py::hasattr(arrays, "info")) {  // it names its robot
+      estimator_ = source_.make(rate_, info_of(arrays.attr("info").cast<py::dict>()));
+    }
     reset_state();
     long_call([&](const std::atomic<bool>& stop) {
       for (std::size_t k = 0; k < beliefs.size(); ++k) {

@@ -245,17 +245,23 @@ py::dict dict_of(const recordings::RecordingInfo& info) {
   return dict;
 }
 
+recordings::RecordingInfo info_of(const py::dict& dict) {
+  recordings::RecordingInfo info;
+  info.scenario = dict["scenario"].cast<std::string>();
+  info.simulator = dict["simulator"].cast<std::string>();
+  info.seed = dict["seed"].cast<std::uint64_t>();
+  info.run = dict["run"].cast<std::int64_t>();
+  info.control_period_us = dict["control_period_us"].cast<std::int64_t>();
+  if (!dict["outcome"].is_none()) {
+    info.outcome = recordings::outcome_from_text(dict["outcome"].cast<std::string>());
+  }
+  info.scenario_yaml = dict["scenario_yaml"].cast<std::string>();
+  return info;
+}
+
 recordings::Recording recording_of(const py::object& arrays, const py::dict& info) {
   recordings::Recording recording;
-  recording.info.scenario = info["scenario"].cast<std::string>();
-  recording.info.simulator = info["simulator"].cast<std::string>();
-  recording.info.seed = info["seed"].cast<std::uint64_t>();
-  recording.info.run = info["run"].cast<std::int64_t>();
-  recording.info.control_period_us = info["control_period_us"].cast<std::int64_t>();
-  if (!info["outcome"].is_none()) {
-    recording.info.outcome = recordings::outcome_from_text(info["outcome"].cast<std::string>());
-  }
-  recording.info.scenario_yaml = info["scenario_yaml"].cast<std::string>();
+  recording.info = info_of(info);
   ArrayMap map(arrays, "recording");
   recording.observation = rows_from<models::Observation>(map);
   read_quaternions(

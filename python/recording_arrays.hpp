@@ -9,8 +9,11 @@ namespace touchdown::python {
 py::dict arrays_of(recordings::Recording recording);
 py::dict dict_of(const recordings::RecordingInfo& info);
 
-/// The inverse. It has ground truth if there is an array `base_position`. Errors: `InputError` for
-/// arrays that are missing or have another shape.
+/// The inverse of `dict_of`.
+recordings::RecordingInfo info_of(const py::dict& dict);
+
+/// The inverse of `arrays_of`. It has ground truth if there is an array `base_position`. Errors:
+/// `InputError` for arrays that are missing or have another shape.
 recordings::Recording recording_of(const py::object& arrays, const py::dict& info);
 
 }  // namespace touchdown::python

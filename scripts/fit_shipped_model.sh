@@ -40,7 +40,7 @@ for robot in "${robots[@]}"; do
     done
   done
 done
-"$program" fit "$logs"/*.mpack --estimator evidence_curves --servo-load --own-legs --robot upkie \
+"$program" fit "$logs"/*.mpack --estimator evidence_curves --servo-load --robot upkie \
   --set leave_below="${balanced_point[0]}" --set return_above="${balanced_point[1]}" -o "$output"
 "$program" export "$output" --set leave_below="${quiet_point[0]}" --set return_above="${quiet_point[1]}" -o "$quiet"
 

@@ -303,7 +303,7 @@ void add_estimate(CLI::App& program, const CliSession& session) {
           "--robot", &flags->robot,
           "Robot that recorded the logs (default: that of a simulated log); it must be the\n"
           "model's. Its file gives the leg geometry to estimators that compute loads (default:\n"
-          "the model's)")
+          "that of a simulated log, else the model's)")
       .value_name("NAME|FILE");
   verb.option(
           "--set", &flags->hyperparameters,

@@ -150,13 +150,11 @@ void add_fit_flags(Verb& verb, FitFlags& flags) {
   verb.flag("--servo-load", &flags.config.servo_load,
             "Give networks and evidence curves the load by the laws of the servos: for logs with "
             "the\ncommands of hips and knees (action.servo)");
-  verb.flag("--own-legs", &flags.config.own_legs,
-            "Take the legs of every simulated log from its own robot's file: for a fit to several\n"
-            "robots");
-  verb.option("--robot", &flags.robot,
-              "Robot that recorded the logs, for the model's metadata (default: that of simulated\n"
-              "logs). Its file gives the leg geometry to estimators that compute loads (default:\n"
-              "Upkie's)")
+  verb.option(
+          "--robot", &flags.robot,
+          "Robot that recorded the logs, for the model's metadata (default: that of simulated\n"
+          "logs). Its file gives the leg geometry to estimators that compute loads (default: each\n"
+          "simulated log's own, else Upkie's)")
       .value_name("NAME|FILE");
   verb.option("--skip", &flags.config.skip,
               "Time at the beginning of each log that is not used (s)")

@@ -111,8 +111,9 @@ std::unique_ptr<ContactEstimator> LogEstimator::make(double sample_rate,
   const double rate = is_fitted_rate ? model.metadata->sample_rate : sample_rate;
   EstimatorEntry resampled = entry;
   if (resampled.config) resampled.config = at_rate(*entry.config, rate);
-  std::unique_ptr<ContactEstimator> made =
-      resampled.make(resampled, {rate, &model, request.robot.legs});
+  const std::optional<LegGeometry> legs =
+      entry.knows.geometry ? checked_robot(request.robot, log).legs : request.robot.legs;
+  std::unique_ptr<ContactEstimator> made = resampled.make(resampled, {rate, &model, legs});
   if (model.metadata) made->limit_signals(signal_bounds_of(model.metadata->configuration));
   return made;
 }

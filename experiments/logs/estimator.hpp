@@ -15,7 +15,8 @@ namespace touchdown::experiments {
 struct LogEstimatorRequest {
   std::string name = {};             ///< empty: the one in the model's metadata
   std::filesystem::path model = {};  ///< empty: none; the shipped one if the name is empty, too
-  LogRobot robot = {};               ///< robot of the logs; its legs replace the model's
+  /// Robot of the logs. Its legs, or those of a simulated log's own robot, replace the model's.
+  LogRobot robot = {};
   /// Allows other rates and robots than those that the model was fitted for.
   bool transfer = false;
   HyperparameterValues hyperparameters = {};  ///< replace the model's; none that the fit uses

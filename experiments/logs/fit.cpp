@@ -220,9 +220,7 @@ std::vector<RunSignals> signals_of_logs(std::span<const FitLog> logs, const LogF
   std::vector<RunSignals> runs;
   for (const FitLog& log : logs) add_runs_of_log(log, config, check, report, runs);
   for (RunSignals& run : runs) {
-    const std::optional<LegGeometry> legs =
-        config.own_legs ? checked_robot({}, run.info).legs : config.robot.legs;
-    run.legs = legs.value_or(LegGeometry{});
+    run.legs = checked_robot(config.robot, run.info).legs.value_or(LegGeometry{});
     const std::size_t skipped = skipped_steps(run, config.skip);
     report.seconds += static_cast<double>(run.steps() - skipped) * period_of(run);
     for (const scoring::ContactSequence& contact : run.contact) {
@@ -231,6 +229,10 @@ std::vector<RunSignals> signals_of_logs(std::span<const FitLog> logs, const LogF
       }
     }
   }
+  const bool share_legs = std::all_of(runs.begin(), runs.end(), [&](const RunSignals& run) {
+    return run.legs == runs.front().legs;
+  });
+  if (share_legs && !runs.empty()) report.fitted_to.legs = runs.front().legs;
   return runs;
 }
 
@@ -297,7 +299,7 @@ FittedModel fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> log
   FittedModel model =
       fit_model(with_hyperparameters(entry, config.hyperparameters), logs, config, report);
   if (!config.robot.name.empty()) report.fitted_to.robots = {config.robot.name};
-  report.fitted_to.legs = config.robot.legs.value_or(LegGeometry{});
+  if (config.robot.legs) report.fitted_to.legs = *config.robot.legs;
   report.fitted_to.servo_load = config.servo_load;
   model.metadata = new_metadata(entry.name, report.fitted_to);
   put_into(*model.metadata, config.hyperparameters);

@@ -29,13 +29,13 @@ struct FitLog {
 };
 
 struct LogFitConfig {
-  scoring::LabelConfig labels;                ///< of logs with ground truth
-  double skip = 0.3;                          ///< not used at the beginning of each log (s)
-  LogRobot robot = {};                        ///< of the logs; without legs: Upkie's
+  scoring::LabelConfig labels;  ///< of logs with ground truth
+  double skip = 0.3;            ///< not used at the beginning of each log (s)
+  /// Of the logs. Without legs, simulated logs have those of their own robots' files, others
+  /// Upkie's.
+  LogRobot robot = {};
   HyperparameterValues hyperparameters = {};  ///< replace the estimator's defaults
   bool servo_load = false;                    ///< as in `FitRuns`
-  /// Whether every simulated log has the legs of its own robot's file, for fits to several robots.
-  bool own_legs = false;
   /// Stops with `Stopped` once true; may be null.
   const std::atomic<bool>* stop = nullptr;
 };

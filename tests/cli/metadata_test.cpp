@@ -115,6 +115,29 @@ TEST_F(Metadata, OfARobotsFileHasItsLegs) {
   }
 }
 
+TEST_F(Metadata, OfASimulatedLogsRobotHasTheLegsOfItsFile) {
+  for (const std::string robot : {"upkie_heavy", "upkie_long_legs"}) {
+    const std::string file = "models/" + robot + ".yaml";
+    recordings::Recording simulated = recordings::read_recording(folder_ / "a.mpack");
+    simulated.info.scenario_yaml = "name: x\nrobot: " + file + "\n";
+    log("own.mpack", simulated);
+    const auto beliefs = [&](const std::string& flags) {
+      run("estimate own.mpack -o beliefs.csv " + flags);
+      return read_file(folder_ / "beliefs.csv");
+    };
+    for (const std::string flags : {"--estimator support_force", "--transfer"}) {
+      const std::string own = beliefs(flags);
+      EXPECT_EQ(beliefs(flags + " --robot " + file), own) << robot;
+      EXPECT_NE(beliefs(flags + " --robot models/upkie.xml"), own) << robot;
+    }
+    run("fit own.mpack -o own.npz --estimator force_kinematics");
+    const std::string model = read_file(folder_ / "own.npz");
+    run("fit own.mpack -o named.npz --estimator force_kinematics --robot " + file);
+    EXPECT_EQ(read_file(folder_ / "named.npz"), model);
+    EXPECT_EQ(load_metadata(folder_ / "own.npz").robot, robot);
+  }
+}
+
 TEST_F(Metadata, OfFormerNamesIsReplacedByThePresentOnes) {
   const std::string present = "(the shipped model is 'models/evidence_curves.npz' now)";
   for (const char* verb :

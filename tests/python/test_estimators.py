@@ -5,7 +5,7 @@ import unittest
 import numpy as np
 
 import touchdown
-from scene import InFolder, hop, program
+from scene import HOP, SHORT, InFolder, hop, program
 
 NAMES = ("time", "position", "velocity", "torque", "linear_acceleration", "angular_velocity", "vertical_acceleration",
          "ground_velocity_command")
@@ -153,6 +153,24 @@ class Run(InFolder):
             np.testing.assert_array_equal(beliefs["p_any_wheel"], [float(row["p_any_wheel"]) for row in rows])
             self.assertEqual([touchdown.STATUS[status] for status in beliefs["status"]],
                              [row["status"] for row in rows])
+
+    def test_of_another_robot_uses_its_legs_as_the_program_does(self):
+        for robot in ("upkie_heavy", "knee_and_wheel"):
+            run = touchdown.simulate(HOP, overrides={**SHORT, "robot": f"models/{robot}.yaml"})
+            run.save("own.mpack")
+            program("estimate", "own.mpack", "--estimator", "support_force", "-o", "beliefs.csv")
+            with open("beliefs.csv", newline="", encoding="utf-8") as file:
+                left = [float(row["p_contact_left"]) for row in csv.DictReader(file)]
+            beliefs = touchdown.Estimator("support_force").run(run)["p_contact"][:, 0]
+            np.testing.assert_array_equal(beliefs, left)
+            plain = {key: np.asarray(value) for key, value in run.items()}
+            self.assertFalse(np.array_equal(touchdown.Estimator("support_force").run(plain)["p_contact"][:, 0], left))
+            with self.assertRaisesRegex(touchdown.InputError, f"not to '{robot}'"):
+                touchdown.Estimator().run(run)
+            model = touchdown.fit(run, "force_kinematics")
+            program("fit", "own.mpack", "--estimator", "force_kinematics", "-o", "program.npz")
+            model.save("python.npz")
+            self.assertEqual((self.folder / "python.npz").read_bytes(), (self.folder / "program.npz").read_bytes())
 
     def test_equals_successive_updates(self):
         run = hop()
