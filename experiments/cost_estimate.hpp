@@ -22,7 +22,7 @@ struct CostEstimate {
   double memory = 0.0;                         ///< at most at one time (bytes)
   double disk = 0.0;                           ///< at most, pictures included (bytes)
   double measured = 0.0;                       ///< duration of the calibration (s)
-  std::vector<std::string> unmeasured_fits;    ///< estimators whose fits no stage contains
+  std::vector<std::string> unmeasured_fits;    ///< estimators with fits in no stage
 
   double seconds() const;  ///< of the stages that can be estimated
 };

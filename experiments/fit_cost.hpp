@@ -27,7 +27,7 @@ struct FitCost {
 struct FitSample {
   FittedModels models;
   std::vector<FitCost> costs;
-  std::vector<std::string> unmeasured = {};  ///< estimators whose fits need more data
+  std::vector<std::string> unmeasured = {};  ///< estimators with fits that need more data
 
   /// Processor time of all fits to so much data (s), and of its part that refits repeat.
   [[nodiscard]] double of(double seconds) const;
