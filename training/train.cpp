@@ -146,6 +146,7 @@ class TrainingSession {
     record.data_seconds = iteration * batch.seconds(config_.rollout.period());
     const auto start = Clock::now();
     const StopIfAsked stop_if_asked = [&] {
+      directory_.require_in_place();
       if (request_.wants_stop()) throw Stopped();
     };
     {
@@ -165,6 +166,7 @@ class TrainingSession {
 
   /// Saves in an order that always leaves a state to resume from.
   void save() {
+    directory_.require_in_place();
     const bool best = best_iteration(history_) + 1 == history_.size();
     if (best) {
       recordings::write_neural_network(trainer_->network(), directory_.file("models", "nmn.npz"));

@@ -1,9 +1,11 @@
 #include "training/train.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include <gmock/gmock.h>
 
@@ -97,6 +99,21 @@ TEST_F(Train, SavesNothingPartialWhenStopped) {
   request.stop = &stop;
   EXPECT_ANY_THROW(train(config_, request));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "halt" / "models" / "nmn.npz"));
+}
+
+TEST_F(Train, StopsWhenItsDirectoryIsMoved) {
+  config_.optimiser.iterations = 1000;
+  std::thread mover([&] {
+    while (!std::filesystem::exists(folder_ / "here" / "tables" / "training.csv")) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    std::filesystem::rename(folder_ / "here", folder_ / "there");
+  });
+  EXPECT_THAT([&] { run("here"); }, testing::ThrowsMessage<Error>(testing::HasSubstr(
+                                        "here: was moved or removed during the run")));
+  mover.join();
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "here" / "models" / "nmn.json"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "there" / "tables" / "training.csv"));
 }
 
 TEST_F(Train, StopsEarlyWithoutImprovement) {
