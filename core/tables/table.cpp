@@ -40,12 +40,6 @@ std::string csv_cell(std::string cell) {
   return quoted;
 }
 
-std::string csv_line(const std::vector<std::string>& cells) {
-  std::vector<std::string> quoted;
-  std::transform(cells.begin(), cells.end(), std::back_inserter(quoted), csv_cell);
-  return fmt::format("{}\n", fmt::join(quoted, ","));
-}
-
 std::string padded(const std::string& cell, std::size_t to, bool left) {
   const std::string space(to - width(cell), ' ');
   return left ? cell + space : space + cell;
@@ -67,6 +61,12 @@ std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char byte) {
     return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
   }));
+}
+
+std::string csv_line(const std::vector<std::string>& cells) {
+  std::vector<std::string> quoted;
+  std::transform(cells.begin(), cells.end(), std::back_inserter(quoted), csv_cell);
+  return fmt::format("{}\n", fmt::join(quoted, ","));
 }
 
 std::string to_csv(const Table& table) {

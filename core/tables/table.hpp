@@ -19,6 +19,9 @@ struct Table {
 /// apostrophe.
 std::string to_csv(const Table& table);
 
+/// One line of it.
+std::string csv_line(const std::vector<std::string>& cells);
+
 /// Parses CSV, the inverse of `to_csv`. Quoted cells may contain commas, quotes and line ends.
 /// Short rows are padded with empty cells.
 Table from_csv(std::string_view text);

@@ -15,6 +15,7 @@
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_directory/test_seed_log.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
+#include "experiments/stages/process_memory.hpp"
 #include "experiments/studies/registry.hpp"
 #include "experiments/tables/results.hpp"
 #include "experiments/tuning/table.hpp"
@@ -93,6 +94,7 @@ ExperimentResult summarize(ExperimentContext& context, Computed done) {
   for (auto& [index, run] : done.runs) {
     if (run.plan.group == 0) result.runs.push_back(std::move(run));
   }
+  release_free_memory();  // of the studies' tables
   result.provenance = context.provenance;
   write_result_files(result);
   write_results(context.request, context.directory);

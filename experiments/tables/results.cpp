@@ -2,6 +2,7 @@
 
 #include <array>
 #include <iterator>
+#include <ostream>
 
 #include <fmt/format.h>
 
@@ -132,6 +133,30 @@ Columns<ResultRow> result_columns() {
       .text("setting", &Row::setting);
 }
 
+/// The numbers of one line of a table.
+std::vector<ResultRow> rows_of_line(const std::string& study, const std::vector<std::string>& cells,
+                                    const std::vector<ColumnInfo>& columns,
+                                    const ResultSetup& setup) {
+  std::vector<ResultRow> rows;
+  const ResultRow common = common_part(study, cells, columns, setup);
+  std::size_t at = 0;
+  for (const ColumnInfo& column : columns) {
+    if (column.role == ColumnRole::metric) {
+      ResultRow& row = rows.emplace_back(common);
+      row.metric =
+          common.metric.empty() ? column.as : fmt::format("{}_of_{}", column.as, common.metric);
+      row.unit = or_else(common.unit, unit_of(row.metric));
+      row.estimate = cells[at];
+      if (column.has_bounds) {
+        row.low = cells[at + 1];
+        row.high = cells[at + 2];
+      }
+    }
+    at += column.has_bounds ? 3 : 1;
+  }
+  return rows;
+}
+
 }  // namespace
 
 std::string unit_of(const std::string& metric) {
@@ -145,37 +170,31 @@ std::vector<ResultRow> long_rows(const std::string& study, const Table& table,
                                  const std::vector<ColumnInfo>& columns, const ResultSetup& setup) {
   std::vector<ResultRow> rows;
   for (const std::vector<std::string>& cells : table.rows) {
-    const ResultRow common = common_part(study, cells, columns, setup);
-    std::size_t at = 0;
-    for (const ColumnInfo& column : columns) {
-      if (column.role == ColumnRole::metric) {
-        ResultRow& row = rows.emplace_back(common);
-        row.metric =
-            common.metric.empty() ? column.as : fmt::format("{}_of_{}", column.as, common.metric);
-        row.unit = or_else(common.unit, unit_of(row.metric));
-        row.estimate = cells[at];
-        if (column.has_bounds) {
-          row.low = cells[at + 1];
-          row.high = cells[at + 2];
-        }
-      }
-      at += column.has_bounds ? 3 : 1;
-    }
+    std::vector<ResultRow> of_line = rows_of_line(study, cells, columns, setup);
+    std::move(of_line.begin(), of_line.end(), std::back_inserter(rows));
   }
   return rows;
 }
 
 void write_results(const RunRequest& request, const RunDirectory& directory) {
   const ResultSetup setup = setup_of(request);
-  std::vector<ResultRow> all;
-  for (const std::string& name : tables_with_columns(directory.path())) {
-    const std::filesystem::path file = directory.file("tables", name);
-    if (!is_there(file)) continue;
-    std::vector<ResultRow> rows = long_rows(file.stem().string(), from_csv(read_file(file)),
-                                            read_columns(directory.path(), name), setup);
-    std::move(rows.begin(), rows.end(), std::back_inserter(all));
-  }
-  directory.write_table("results.csv", result_columns().table(all));
+  const Columns<ResultRow> columns = result_columns();
+  // Line by line: all rows at once would take ten times the memory of their text.
+  const auto write = [&](std::ostream& stream) {
+    stream << csv_line(columns.header());
+    for (const std::string& name : tables_with_columns(directory.path())) {
+      const std::filesystem::path file = directory.file("tables", name);
+      if (!is_there(file)) continue;
+      const Table table = from_csv(read_file(file));
+      const std::vector<ColumnInfo> of_table = read_columns(directory.path(), name);
+      for (const std::vector<std::string>& cells : table.rows) {
+        for (const ResultRow& row : rows_of_line(file.stem().string(), cells, of_table, setup)) {
+          stream << csv_line(columns.cells(row));
+        }
+      }
+    }
+  };
+  write_stream_atomically(directory.own_file("tables", "results.csv"), write);
 }
 
 }  // namespace touchdown::experiments
