@@ -55,8 +55,8 @@ void outline(const experiments::Experiment& experiment, const experiments::RunOp
       "besides\n",
       cost.seconds(), cost.seconds() / 60.0 / outline.threads, outline.threads);
   if (!cost.unmeasured_fits.empty()) {
-    print("without   fits of {}: a few seconds of data do not suffice for them\n",
-          fmt::join(cost.unmeasured_fits, ", "));
+    print(fmt::format("without   fits of {}: a few seconds of data do not suffice for them\n",
+                      fmt::join(cost.unmeasured_fits, ", ")));
   }
   print("memory    about {:.0f} MB\n", 1e-6 * cost.memory);
   print("disk      at most {:.0f} MB\n", 1e-6 * cost.disk);

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -127,7 +128,7 @@ TEST_F(Metadata, OfASimulatedLogsRobotHasTheLegsOfItsFile) {
     };
     for (const std::string flags : {"--estimator support_force", "--transfer"}) {
       const std::string own = beliefs(flags);
-      EXPECT_EQ(beliefs(flags + " --robot " + file), own) << robot;
+      EXPECT_EQ(beliefs(fmt::format("{} --robot {}", flags, file)), own) << robot;
       EXPECT_NE(beliefs(flags + " --robot models/upkie.xml"), own) << robot;
     }
     run("fit own.mpack -o own.npz --estimator force_kinematics");

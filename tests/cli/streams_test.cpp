@@ -67,7 +67,7 @@ TEST(StandardOutput, ThatIsFullOrClosedIsAnError) {
     const std::string complaint = "touchdown: standard output cannot be written: " + reason + "\n";
     for (const std::string command :
          {"list", "keys", "manual --markdown", "--help", "run --help", "--version"}) {
-      EXPECT_EQ(exit_code(command + " " + stream + " 2>errors.txt", folder), 1)
+      EXPECT_EQ(exit_code(fmt::format("{} {} 2>errors.txt", command, stream), folder), 1)
           << command << stream;
       EXPECT_EQ(read_file(folder / "errors.txt"), complaint) << command << stream;
     }
