@@ -213,7 +213,9 @@ TEST_F(Render, UnwritableOutputsAreRefusedBeforeAnythingIsDrawn) {
   }
   fs::create_directory(folder_ / "folder.mp4");
   EXPECT_THAT(complaint_about("a.mpack -o folder.mp4", 1), HasSubstr("cannot be written"));
-  EXPECT_THAT(complaint_about("a.mpack -o .", 2), HasSubstr(".mp4"));
+  EXPECT_THAT(complaint_about("a.mpack -o .", 1),
+              HasSubstr(".: cannot be written: it is a folder"));
+  EXPECT_THAT(complaint_about("a.mpack -o new", 2), HasSubstr(".mp4"));
 }
 
 /// Live children of `parent`, by /proc: zombies do not count.
