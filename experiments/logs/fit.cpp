@@ -188,6 +188,7 @@ void add_runs_of_log(const FitLog& log, const LogFitConfig& config, CheckStep ch
   const auto finish = [&] {
     if (run.signals.empty()) return;
     run.info = reader.info();
+    run.legs = reader.legs();
     for (std::size_t wheel = 0; wheel < models::wheel_count && !log.contact; ++wheel) {
       run.contact[wheel] =
           scoring::contact_labels(run.normal_force[wheel], period_of(run), config.labels);
@@ -219,8 +220,7 @@ std::vector<RunSignals> signals_of_logs(std::span<const FitLog> logs, const LogF
   skipped_samples = {};
   std::vector<RunSignals> runs;
   for (const FitLog& log : logs) add_runs_of_log(log, config, check, report, runs);
-  for (RunSignals& run : runs) {
-    run.legs = checked_robot(config.robot, run.info).legs.value_or(LegGeometry{});
+  for (const RunSignals& run : runs) {
     const std::size_t skipped = skipped_steps(run, config.skip);
     report.seconds += static_cast<double>(run.steps() - skipped) * period_of(run);
     for (const scoring::ContactSequence& contact : run.contact) {

@@ -26,7 +26,8 @@ FitLogSteps::FitLogSteps(const FitLog& log, const LogFitConfig& config, LogFitRe
       config_(config),
       report_(report),
       reader_(reader_of(log, config)),
-      steps_(reader_, log.labels.get(), checked_robot(config.robot, reader_.info())),
+      robot_(checked_robot(config.robot, reader_.info())),
+      steps_(reader_, log.labels.get(), robot_),
       info_(reader_.info()) {
   check_may_be_fitted(info_);
   info_.control_period_us = steps_.period_us();

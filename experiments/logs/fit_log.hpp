@@ -75,6 +75,8 @@ class FitLogSteps {
   /// The log's description, with its period.
   const recordings::RecordingInfo& info() const { return info_; }
   const LogSteps& steps() const { return steps_; }
+  /// Those of the log's robot; Upkie's if its file is not known.
+  LegGeometry legs() const { return robot_.legs.value_or(LegGeometry{}); }
 
  private:
   void compare_with_declared_class();
@@ -83,6 +85,7 @@ class FitLogSteps {
   const LogFitConfig& config_;
   LogFitReport& report_;
   recordings::LogReader reader_;
+  recordings::CheckedRobot robot_;
   LogSteps steps_;
   recordings::RecordingInfo info_;
   const LogStep* step_ = nullptr;

@@ -60,17 +60,40 @@ HyperparameterValues fit_hyperparameters(const EstimatorEntry& entry,
   return of_fit;
 }
 
+/// The held-out runs of a fold, and noise for each.
+struct HeldOut {
+  std::span<const RunSignals* const> runs;
+  std::vector<NoiseRun> noise;
+};
+
+/// The decisions of an estimator on held-out runs, by noise setting and scene.
+SceneCounts counts_on(const HeldOut& held_out, const EstimatorEntry& entry,
+                      const FittedModel& model, const Experiment& experiment,
+                      const std::function<void()>& stop_if_asked) {
+  SceneCounts counts;
+  for (std::size_t i = 0; i < held_out.runs.size(); ++i) {
+    const RunSignals& run = *held_out.runs[i];
+    EstimatorRunner runner =
+        runner_of(entry, {1.0 / period_of(run), &model, run.legs, &run.contact});
+    for (std::size_t cell = 0; cell < experiment.tuning->noise.size(); ++cell) {
+      stop_if_asked();
+      count(runner, run, held_out.noise[i], experiment.tuning->noise[cell].levels(),
+            experiment.scoring, counts[fmt::format("{} {}", cell, run.info.scenario)]);
+    }
+  }
+  return counts;
+}
+
 void run_fold(FoldJob& job, const Fold& fold, std::span<const Trial> trials,
               const Experiment& experiment, const std::function<void()>& stop_if_asked) {
   const FitRuns runs{fold.fitted, fold.segments, experiment.scoring, stop_if_asked,
                      experiment.fit_servo_load};
-  std::vector<NoiseRun> noise;
-  for (const RunSignals* run : fold.held_out) noise.push_back(noise_of(*run, experiment));
+  HeldOut held_out{fold.held_out, {}};
+  for (const RunSignals* run : fold.held_out) held_out.noise.push_back(noise_of(*run, experiment));
   // Trials with one fit follow each other: a phase model takes tens of megabytes.
   std::map<HyperparameterValues, std::vector<std::size_t>> trials_of;
   for (std::size_t number = 0; number < trials.size(); ++number) {
-    const EstimatorEntry entry = with_hyperparameters(*job.entry, trials[number].hyperparameters);
-    trials_of[fit_hyperparameters(entry, trials[number].hyperparameters)].push_back(number);
+    trials_of[fit_hyperparameters(*job.entry, trials[number].hyperparameters)].push_back(number);
   }
   job.counts.resize(trials.size());
   for (const auto& [fit, numbers] : trials_of) {
@@ -82,16 +105,7 @@ void run_fold(FoldJob& job, const Fold& fold, std::span<const Trial> trials,
         if (number == numbers.front()) model = fit_model(entry, runs);
         model.metadata = new_metadata(entry.name, runs, hyperparameters);
       }
-      for (std::size_t i = 0; i < fold.held_out.size(); ++i) {
-        const RunSignals& run = *fold.held_out[i];
-        EstimatorRunner runner =
-            runner_of(entry, {1.0 / period_of(run), &model, run.legs, &run.contact});
-        for (std::size_t cell = 0; cell < experiment.tuning->noise.size(); ++cell) {
-          stop_if_asked();
-          count(runner, run, noise[i], experiment.tuning->noise[cell].levels(), experiment.scoring,
-                job.counts[number][fmt::format("{} {}", cell, run.info.scenario)]);
-        }
-      }
+      job.counts[number] = counts_on(held_out, entry, model, experiment, stop_if_asked);
     }
   }
 }

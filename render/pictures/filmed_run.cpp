@@ -101,8 +101,8 @@ FilmedRun filmed(recordings::Recording recording, const experiments::Experiment&
   experiments::report_through_sensors(profile, experiment, run, reported);
   experiments::RunSignals signals = experiments::signals_of(
       reported, experiment.labels, experiment.scoring, experiment.intervals.over);
-  scenarios::CompiledScenes scenes;
-  signals.legs = scenarios::leg_geometry(*scenes.as_described(recorded_scenario(recording)));
+  const scenarios::Scenario scenario = recorded_scenario(recording);
+  signals.legs = scenarios::leg_geometry(*scenarios::CompiledScenes().as_described(scenario));
   const experiments::NoiseRun drawn = experiments::noise_run(signals, key);
   const std::string& simulator = recording.info.simulator;
   std::vector<BeliefTrack> beliefs;
@@ -112,7 +112,7 @@ FilmedRun filmed(recordings::Recording recording, const experiments::Experiment&
                                  filmed_estimators.noise));
     beliefs.back().colour = line_colour(line_type_of(experiment.estimators, estimator));
   }
-  models::RobotModel robot = recorded_robot(recording);
+  models::RobotModel robot = scenarios::compile_robot(scenario);
   // Torques become those that the sensors report; ground truth and pose stay.
   for (std::size_t k = 0; k < recording.steps(); ++k) {
     for (std::size_t servo = 0; servo < models::servo_count; ++servo) {

@@ -19,23 +19,16 @@ namespace {
 
 constexpr double shown = 2.0;  ///< length of a film (s)
 
-/// The runs of a standing's worst scene, simulated anew with the beliefs of its estimator.
-std::vector<FilmedRun> worst_runs(const experiments::ExperimentResult& result,
-                                  const Standing& standing, const noise::SensorProfile& profile) {
-  const experiments::Experiment& experiment = result.experiment;
-  const std::vector<std::string> estimators = {standing.estimator};
-  std::vector<FilmedRun> runs;
+/// The runs of a standing's worst scene.
+std::vector<experiments::PlannedRun> worst_runs(const experiments::ExperimentResult& result,
+                                                const Standing& standing) {
+  std::vector<experiments::PlannedRun> runs;
   for (const experiments::Rollout& run : result.runs) {
     const experiments::PlannedRun& plan = run.plan;
-    const bool is_wanted = plan.role == experiments::RunRole::test && !run.failed() &&
-                           plan.group == 0 && plan.simulator == standing.worst_simulator &&
-                           plan.scenario.name == standing.worst_scene;
-    if (!is_wanted) continue;
-    const experiments::FittedModels models =
-        read_models(result.directory.path(), experiment, plan.simulator, estimators);
-    runs.push_back(filmed(scenarios::play(plan.scenario, plan.simulator, plan.seed, plan.run),
-                          experiment, profile,
-                          {estimators, models, experiment.highlights.front().levels()}));
+    if (plan.role == experiments::RunRole::test && !run.failed() && plan.group == 0 &&
+        plan.simulator == standing.worst_simulator && plan.scenario.name == standing.worst_scene) {
+      runs.push_back(plan);
+    }
   }
   return runs;
 }
@@ -57,10 +50,19 @@ std::vector<int> wrong_decisions(const FilmedRun& run, const scoring::ScoringCon
 void film_worst_segment(const experiments::ExperimentResult& result, const Standing& standing,
                         const noise::SensorProfile& profile, const std::atomic<bool>* stop) {
   const experiments::Experiment& experiment = result.experiment;
-  const std::vector<FilmedRun> runs = worst_runs(result, standing, profile);
-  if (runs.empty()) return;
+  const std::vector<experiments::PlannedRun> plans = worst_runs(result, standing);
+  if (plans.empty()) return;
+  const std::vector<std::string> estimators = {standing.estimator};
+  const experiments::FittedModels models =
+      read_models(result.directory.path(), experiment, standing.worst_simulator, estimators);
+  std::vector<FilmedRun> runs;
   std::vector<std::vector<int>> wrong;
-  for (const FilmedRun& run : runs) wrong.push_back(wrong_decisions(run, experiment.scoring));
+  for (const experiments::PlannedRun& plan : plans) {
+    runs.push_back(filmed(scenarios::play(plan.scenario, plan.simulator, plan.seed, plan.run),
+                          experiment, profile,
+                          {estimators, models, experiment.highlights.front().levels()}));
+    wrong.push_back(wrong_decisions(runs.back(), experiment.scoring));
+  }
   const double period = runs.front().recording.period();
   const WorstSegment segment =
       worst_segment(wrong, static_cast<std::size_t>(std::llround(shown / period)));
