@@ -39,10 +39,12 @@ else()
 endif()
 
 # Flags of all the project's code. They stay in this build tree and are never installed.
-# `-fno-math-errno` lets square roots vectorise.
+# `-fno-math-errno` lets square roots vectorise. g++ collects its garbage above half a GiB: it then takes
+# a tenth less time for a sixth more memory.
 add_library(touchdown_flags INTERFACE)
 target_compile_options(touchdown_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wshadow -fno-math-errno
+  $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>
   $<$<AND:$<BOOL:${TOUCHDOWN_NATIVE}>,$<BOOL:${TOUCHDOWN_HOST_IS_X86_64_V3}>>:-march=x86-64-v3>)
 target_include_directories(touchdown_flags INTERFACE ${PROJECT_SOURCE_DIR})
 
