@@ -10,11 +10,11 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "render/encode/picture.hpp"
 #include "render/film/painter.hpp"
 #include "render/workers/workers.hpp"
 
@@ -29,16 +29,6 @@ double seconds_since(Clock::time_point start) {
 
 double duration(const VideoSource& source) {
   return source.recording.period() * static_cast<double>(source.recording.steps() - 1);
-}
-
-/// Writes a picture (8UC3, BGR) as a PNG, or as a JPEG for a path with `.jpg`.
-void write_picture(const cv::Mat& bgr, const std::filesystem::path& path) {
-  const std::string kind = path.extension() == ".jpg" ? ".jpg" : ".png";
-  std::vector<std::uint8_t> file;
-  if (!cv::imencode(kind, bgr, file, {cv::IMWRITE_JPEG_QUALITY, 82})) {
-    throw Error("cannot compress a picture");
-  }
-  write_atomically(path, std::string_view(reinterpret_cast<const char*>(file.data()), file.size()));
 }
 
 void picture(const std::vector<VideoSource>& sources, VideoOptions options, bool annotated,
