@@ -206,7 +206,7 @@ TEST(Lock, OfARunRefusesOtherWritersAndNamesItsOwner) {
 TEST(Lock, OfAShardAdmitsOnlyOtherShards) {
   const ScratchFolder folder;
   const std::string run =
-      "run " + write_tiny_experiment(folder) + " --no-pictures --set noise.seeds=200 --out a";
+      "run " + write_tiny_experiment(folder) + " --no-pictures --set noise.seeds=30 --out a";
   StartedProgram first(run + " --shard 1/2 --set workers=1", folder.path());
   while (first.is_running() && !fs::exists(folder / "a/state/shards/1_of_2")) first.let_run(0.002);
   first.send(SIGSTOP);

@@ -20,7 +20,7 @@ import work
 from work import check
 
 HOSTS = ('node1', 'node2', 'node3')
-SEEDS = 60
+SEEDS = 20
 PARTS = 2 * SEEDS  # of each shard: three runs in two engines
 # Only the user who runs the test may log in, with one key, from this machine.
 SERVER = """ListenAddress 127.0.0.1

@@ -195,7 +195,7 @@ TEST(BoostingRows, StopBeforeAnyPassThroughARun) {
   const DrawnRun run(1);
   const std::vector<LabelledRun> runs = {run.view(), run.view(), run.view()};
   const int all = static_cast<int>(quick.passes * runs.size());
-  for (int at = 0; at <= all; ++at) {
+  for (const int at : {0, 1, all / 2, all - 1, all}) {
     int calls = 0;
     const auto draw = [&] {
       (void)boosting_rows<SignalWindow>(runs, quick, [&] {
