@@ -76,8 +76,10 @@ TEST_F(Picture, WithoutPixelsIsRefusedByName) {
   }
 }
 
-TEST_F(Picture, InAFolderThatIsMissingIsAnError) {
-  EXPECT_THROW(write_picture(gradient(4, 4), scratch_.path() / "none" / "a.png"), Error);
+TEST_F(Picture, InAFileInsteadOfAFolderIsRefusedByName) {
+  const std::filesystem::path file = scratch_.write("file", "");
+  EXPECT_THAT([&] { write_picture(gradient(4, 4), file / "a.png"); },
+              ThrowsMessage<Error>(HasSubstr("file")));
 }
 
 }  // namespace
