@@ -24,8 +24,9 @@ import sys
 import tempfile
 
 FILES_AT_ONCE = 48
-# Options of g++ only: its precompiled headers, and an optimisation.
-OF_GCC = re.compile(r" -(Winvalid-pch|fpch-preprocess|include \S*cmake_pch\.hxx|fexpensive-optimizations)")
+# Options of g++ only: its precompiled headers, memory, an optimisation, a warning.
+OF_GCC = re.compile(r" -(Winvalid-pch|fpch-preprocess|include \S*cmake_pch\.hxx|-param=\S+|fexpensive-optimizations"
+                    r"|Wno-restrict)")
 # "12 warnings generated." counts hidden warnings in headers of libraries.
 NOISE = re.compile(r"^\d+ (warnings?|errors?)( and \d+ errors?)? (generated|treated as errors?)\.?$")
 
