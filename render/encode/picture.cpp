@@ -1,6 +1,5 @@
 #include "render/encode/picture.hpp"
 
-#include <cstddef>
 #include <memory>
 #include <png.h>
 #include <string>
