@@ -4,7 +4,7 @@ BUILD := build/release
 
 .DEFAULT_GOAL := help
 .PHONY: help setup program-packages trainer-packages viewer-packages python-packages test-packages \
-	fuzz-packages build run trainer viewer python everything test faults package lint lint-all format bench results figures asan tsan fuzz clean
+	fuzz-packages build run trainer viewer python everything test nightly faults package lint lint-all format bench results figures asan tsan fuzz clean
 
 help: ## Show this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 16
@@ -81,10 +81,16 @@ python: $(call configured,python) ## Build the Python package: build/release/pyt
 everything: $(BUILD)/CTestTestfile.cmake ## Build the program, the trainer, the Python package, the tests and the benchmarks
 	cmake --build --preset release --parallel $(JOBS)
 
-test: everything ## Build everything and run every test
+test: everything ## Build everything and run every test but the nightly ones
 	ctest --preset release --parallel $(JOBS)
 
+nightly: $(BUILD)/CTestTestfile.cmake ## Run the rest: faults, kills, ssh, Slurm, aarch64, fuzz replays, installations
+	cmake --preset release -DTOUCHDOWN_NIGHTLY=ON
+	cmake --build --preset release --parallel $(JOBS)
+	ctest --preset nightly --parallel $(JOBS)
+
 faults: $(BUILD)/CTestTestfile.cmake ## Let each system call fail, fill the disk, kill the program in every stage
+	cmake --preset release -DTOUCHDOWN_NIGHTLY=ON
 	cmake --build --preset release --parallel $(JOBS) --target test_faults
 	@scripts/faults.sh $(BUILD)/test_faults $(JOBS)
 
@@ -92,7 +98,7 @@ package: build/package/build.ninja ## Build a Debian package that needs no compi
 	cmake --build --preset package --parallel $(JOBS) --target package
 
 lint: setup $(BUILD)/CTestTestfile.cmake ## Check formatting, shell scripts, and what changed with clang-tidy
-	@cmake --build --preset release --target build.ninja >/dev/null # brings compile_commands.json up to date
+	@cmake --preset release -DTOUCHDOWN_NIGHTLY=ON >/dev/null # brings compile_commands.json up to date, with every test
 	@JOBS=$(JOBS) scripts/lint.sh $(BUILD)
 
 lint-all: ## Lint everything, also what clang-tidy found clean before

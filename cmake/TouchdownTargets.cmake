@@ -191,9 +191,10 @@ endfunction()
 
 # touchdown_test(<folder> DEPENDS <target>...)
 # makes the program test_<folder> of every .cpp below this folder. Every TEST in it is one CTest test.
-# ONE_BY_ONE: as for a library.
+# ONE_BY_ONE: as for a library. NIGHTLY: the tests run in `make nightly` alone. A test's time limit is ten
+# times what it needs on a quiet machine: it ends what hangs, and checks nothing.
 function(touchdown_test folder)
-  cmake_parse_arguments(ARG "ONE_BY_ONE" "" "DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "ONE_BY_ONE;NIGHTLY" "" "DEPENDS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
   add_executable(test_${folder} ${sources})
   target_link_libraries(test_${folder} PRIVATE touchdown_flags ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
@@ -205,8 +206,12 @@ function(touchdown_test folder)
   target_compile_definitions(test_${folder} PRIVATE
     TOUCHDOWN_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     TOUCHDOWN_REFERENCE_DATA="${TOUCHDOWN_REFERENCE_DATA}")
+  set(labels "")
+  if(ARG_NIGHTLY)
+    set(labels LABELS nightly)
+  endif()
   gtest_discover_tests(test_${folder} TEST_PREFIX ${folder}. DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT 300
+                       PROPERTIES TIMEOUT 600 ${labels}
                        # For the sanitizers of the asan preset only.
                        ENVIRONMENT "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/lsan.supp:print_suppressions=0"
                        ENVIRONMENT_MODIFICATION "UBSAN_OPTIONS=set:print_stacktrace=1")
