@@ -2,8 +2,6 @@
 
 #include <csignal>
 
-#include "core/program/stop_signals.hpp"
-
 namespace touchdown {
 
 namespace {
@@ -20,7 +18,7 @@ const std::atomic<bool>& stop_on_interrupt() {
   struct sigaction action = {};
   action.sa_handler = request_stop;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
-  for (const int signal : stop_signals) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before = {};
     ::sigaction(signal, nullptr, &before);
     // `nohup` lets programs ignore SIGHUP. Scripts let jobs in the background ignore SIGINT, which
@@ -29,10 +27,7 @@ const std::atomic<bool>& stop_on_interrupt() {
     if (!is_unwanted) ::sigaction(signal, &action, nullptr);
   }
   ::signal(SIGXFSZ, SIG_IGN);
-  mask_stop_signals(SIG_UNBLOCK);
   return stop_requested;
 }
-
-void delay_interrupts() { mask_stop_signals(SIG_BLOCK); }
 
 }  // namespace touchdown

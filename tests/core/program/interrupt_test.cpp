@@ -38,19 +38,6 @@ TEST_P(Interrupt, RequestsAStopAndKillsTheSecondTime) {
             -GetParam());
 }
 
-// As for `touchdown train`, which replaces itself by a program that loads for a while.
-TEST_P(Interrupt, IsDelayedUntilAHandlerIsInstalled) {
-  EXPECT_EQ(end_of([] {
-              stop_on_interrupt();
-              delay_interrupts();
-              ::signal(GetParam(), SIG_DFL);  // as in a new program
-              ::raise(GetParam());
-              const std::atomic<bool>& stop = stop_on_interrupt();
-              return stop ? 7 : 2;
-            }),
-            7);
-}
-
 INSTANTIATE_TEST_SUITE_P(Signals, Interrupt, ::testing::Values(SIGINT, SIGTERM, SIGHUP));
 
 }  // namespace
