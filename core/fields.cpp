@@ -137,10 +137,6 @@ void Fields::know(std::string_view key) {
   if (reading()) (void)take(key);
 }
 
-void Fields::renamed(std::string_view old_key, std::string_view key) const {
-  check(!present(old_key, false), old_key, fmt::format("this key is now called '{}'", key));
-}
-
 std::size_t Fields::size() const { return node_.IsMap() ? node_.size() : 0; }
 
 void Fields::finish() const {

@@ -157,8 +157,6 @@ class Fields {
   bool present(std::string_view key, bool has_value) const;
   /// Declares an optional key, so that it is suggested for a misspelt one.
   void know(std::string_view key);
-  /// Reading: rejects a key of an earlier version and names the key that replaced it.
-  void renamed(std::string_view old_key, std::string_view key) const;
   /// The number of keys.
   std::size_t size() const;
 

@@ -55,8 +55,7 @@ bool is_part_file_name(const std::filesystem::path& name) {
 }
 
 bool is_part_folder_name(const std::filesystem::path& name) {
-  // Names of earlier versions have no random part.
-  return has_shape(name.string(), R"(\..*\.\d+(\.[0-9a-f]{4,8})?\.part)");
+  return has_shape(name.string(), R"(\..*\.\d+\.[0-9a-f]{4,8}\.part)");
 }
 
 }  // namespace touchdown

@@ -84,7 +84,7 @@ void export_header(const std::filesystem::path& model, const ExportFlags& flags)
 }
 
 void export_model(const ExportFlags& flags) {
-  const std::filesystem::path model = experiments::find_model(flags.source);
+  const std::filesystem::path model = find_resource(flags.source);
   check_outputs({{model.string(), "model"}}, {flags.output});
   if (std::filesystem::path(flags.output).extension() != ".npz") {
     return export_header(model, flags);

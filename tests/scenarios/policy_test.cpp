@@ -100,8 +100,6 @@ TEST(PolicyFile, ComplainsOnTheLine) {
               AllOf(HasSubstr("s.yaml:2:"), HasSubstr("did you mean 'truth'?")));
   EXPECT_THAT(error_of("policy: {law: soft}\n"), HasSubstr("soft_landing"));
   EXPECT_THAT(error_of("policy: {delay: -1}\n"), HasSubstr("policy.delay"));
-  EXPECT_THAT(error_of("policy: {late: 0.1}\n"),
-              AllOf(HasSubstr("policy.late"), HasSubstr("delay")));
 }
 
 }  // namespace

@@ -54,7 +54,6 @@ void describe(Fields& fields, Machine& machine) {
   fields("mass", machine.mass, 0.0, 1e300).doc("kg", "Mass.");
   if (fields.reading() || std::isfinite(machine.reach)) fields("reach", machine.reach, 0.0, 9.0);
   fields("seed", machine.seed).doc("Seed.");
-  fields.renamed("size", "height");
   fields.optional("height", machine.height, 0.5, 1.5).doc("m", "Height.");
   fields.choose("surface", {"rubber", "foam"}, machine.surface).doc("Surface.");
   fields.names("drives", {"left", "right"}, machine.drives).doc("Drives.");
