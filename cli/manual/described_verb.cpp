@@ -43,11 +43,9 @@ DescribedOption described_option(const CLI::Option& option) {
   return result;
 }
 
-}  // namespace
-
 DescribedVerb described(const CLI::App& app) {
   DescribedVerb result;
-  if (app.get_parent() != nullptr) result.name = app.get_name();
+  result.name = app.get_name();
   std::istringstream description(app.get_description());
   for (std::string line; std::getline(description, line) && !line.empty();) {
     result.examples.push_back(line);
@@ -59,6 +57,8 @@ DescribedVerb described(const CLI::App& app) {
     result.options.push_back(described_option(*option));
   return result;
 }
+
+}  // namespace
 
 std::vector<DescribedVerb> described_verbs(const CLI::App& program) {
   std::vector<DescribedVerb> verbs;

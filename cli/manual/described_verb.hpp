@@ -22,14 +22,11 @@ struct DescribedOption {
 
 /// The parts of a verb's `--help` text.
 struct DescribedVerb {
-  std::string name;                   ///< "run"; empty for the program itself
+  std::string name;                   ///< "run"
   std::vector<std::string> examples;  ///< complete command lines
   std::string text;                   ///< description on one line
   std::vector<DescribedOption> options;
 };
-
-/// Describes a verb, or the program without its verbs.
-DescribedVerb described(const CLI::App& app);
 
 /// The program's verbs in the order of its help.
 std::vector<DescribedVerb> described_verbs(const CLI::App& program);

@@ -6,7 +6,6 @@
 
 #include "cli/keys/kinds.hpp"
 #include "cli/manual/completion.hpp"
-#include "cli/manual/man_page.hpp"
 #include "cli/manual/markdown.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
@@ -46,12 +45,6 @@ void write_manual(const CLI::App& program, const ManualFlags& flags) {
   if (flags.share.empty()) throw InputError("manual: expected DIR or --markdown");
   const std::filesystem::path share = flags.share;
   add_known_names(verbs);
-  const std::filesystem::path pages = share / "man" / "man1";
-  write_atomically(pages / "touchdown.1", man_page(described(program), verbs, TOUCHDOWN_VERSION));
-  for (const DescribedVerb& verb : verbs) {
-    write_atomically(pages / fmt::format("touchdown-{}.1", verb.name),
-                     man_page(verb, {}, TOUCHDOWN_VERSION));
-  }
   write_atomically(share / "bash-completion" / "completions" / "touchdown", bash_completion(verbs));
   write_atomically(share / "zsh" / "site-functions" / "_touchdown", zsh_completion(verbs));
 }
@@ -62,8 +55,8 @@ void add_manual(CLI::App& program, const CliSession& /*session*/) {
   Verb verb(
       program, "manual",
       "touchdown manual ~/.local/share\n\n"
-      "Writes a man page for every command, and completion scripts for bash and zsh, to where\n"
-      "man and the shells look for them. An installed touchdown includes them.");
+      "Writes completion scripts for bash and zsh to where the shells look for them. An installed\n"
+      "touchdown includes them.");
   const auto flags = std::make_shared<ManualFlags>();
   verb.option("share", &flags->share, "Folder for data, such as ~/.local/share").value_name("DIR");
   verb.flag("--markdown", &flags->markdown, "Print the document docs/reference/cli.md");

@@ -1,5 +1,4 @@
 #include <cstdio>
-#include <regex>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -11,7 +10,6 @@
 namespace touchdown::cli {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 /// The completions that bash offers for the last of these words.
@@ -37,28 +35,6 @@ struct Manual : ::testing::Test {
   ScratchFolder folder;
   std::filesystem::path share = folder.path() / "share";
 };
-
-TEST_F(Manual, HasAPageForEveryCommandAndNamesEachOfItsFlags) {
-  const std::string help = touchdown_program("--help", folder.path()).output;
-  const std::string program_page = read_file(share / "man" / "man1" / "touchdown.1");
-  const std::regex verb_line("\n  ([a-z]+)  +touchdown ");
-  int verbs = 0;
-  for (std::sregex_iterator found(help.begin(), help.end(), verb_line), end; found != end;
-       ++found, ++verbs) {
-    const std::string verb = found->str(1);
-    EXPECT_THAT(program_page, HasSubstr("touchdown\\-" + verb));
-    if (verb == "train" || verb == "watch") continue;  // programs of their own have the flags
-    const std::string page = read_file(share / "man" / "man1" / ("touchdown-" + verb + ".1"));
-    EXPECT_THAT(page, AllOf(HasSubstr(".TH touchdown\\-" + verb), HasSubstr(".SH EXAMPLES")));
-    const std::string verb_help = touchdown_program(verb + " --help", folder.path()).output;
-    const std::regex flag("--[a-z-]+");
-    const std::string flags = verb_help.substr(verb_help.find("Options:"));
-    for (std::sregex_iterator name(flags.begin(), flags.end(), flag); name != end; ++name) {
-      EXPECT_THAT(page, HasSubstr(std::regex_replace(name->str(), std::regex("-"), "\\-"))) << verb;
-    }
-  }
-  EXPECT_GE(verbs, 10);
-}
 
 TEST_F(Manual, ReferenceOfTheDocumentsIsThatOfTheProgram) {
   const std::string file = TOUCHDOWN_SOURCE_DIR "/docs/reference/cli.md";
