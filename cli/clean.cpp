@@ -6,7 +6,7 @@
 
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
-#include "core/program/streams.hpp"
+#include "core/program.hpp"
 #include "experiments/run_directory/lock.hpp"
 #include "experiments/run_directory/old_runs.hpp"
 #include "experiments/run_directory/own_files.hpp"

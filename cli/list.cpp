@@ -5,7 +5,7 @@
 
 #include "cli/verbs.hpp"
 #include "core/files.hpp"
-#include "core/program/streams.hpp"
+#include "core/program.hpp"
 #include "core/resources.hpp"
 #include "core/tables/table.hpp"
 #include "experiments/estimators/registry.hpp"

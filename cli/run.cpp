@@ -10,7 +10,7 @@
 #include "cli/show_result.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
-#include "core/program/streams.hpp"
+#include "core/program.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"
 #include "experiments/rollouts/failures.hpp"

@@ -4,7 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/program/streams.hpp"
+#include "core/program.hpp"
 #include "experiments/results/manifest.hpp"
 #include "experiments/results/terminal.hpp"
 #include "render/pictures/filmed_report.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/fields.hpp"
-#include "core/file_names.hpp"
+#include "core/files.hpp"
 #include "core/random.hpp"
 #include "core/resources.hpp"
 #include "models/robot_description.hpp"

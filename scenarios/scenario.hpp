@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/keys/key.hpp"
+#include "core/key.hpp"
 #include "core/yaml.hpp"
 #include "models/robot_description.hpp"
 #include "models/terrain.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/keys/key.hpp"
+#include "core/key.hpp"
 #include "core/yaml.hpp"
 #include "experiments/config/study_sections.hpp"
 #include "experiments/estimators/entry.hpp"

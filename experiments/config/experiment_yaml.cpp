@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/fields.hpp"
-#include "core/file_names.hpp"
+#include "core/files.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/config/hyperparameter_keys.hpp"

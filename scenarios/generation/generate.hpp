@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/keys/key.hpp"
+#include "core/key.hpp"
 #include "scenarios/generation/family.hpp"
 
 namespace touchdown {

@@ -1,4 +1,3 @@
-#include "core/yaml_text.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

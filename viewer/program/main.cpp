@@ -7,11 +7,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "core/command_line.hpp"
 #include "core/error.hpp"
-#include "core/program/command_line.hpp"
-#include "core/program/interrupt.hpp"
-#include "core/program/outputs.hpp"
-#include "core/program/streams.hpp"
+#include "core/outputs.hpp"
+#include "core/program.hpp"
 #include "viewer/subject.hpp"
 #include "viewer/watch_live.hpp"
 #include "viewer/watch_log.hpp"

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace touchdown {
+
+/// Installs signal handlers: the first Ctrl-C (or SIGTERM, or SIGHUP of a terminal that closes)
+/// requests a stop, the second one kills. Under `nohup`, SIGHUP stays ignored. A write
+/// beyond `ulimit -f` fails with an error in place of a signal. The returned flag becomes true on
+/// the request. Call it first, because until then a signal kills.
+const std::atomic<bool>& stop_on_interrupt();
+
+/// Exit code of a program.
+enum ExitCode : int { good = 0, failed = 1, wrong_request = 2 };
+
+/// Replaces closed standard streams: input is empty, messages are dropped, and results are refused.
+/// Otherwise the next opened file would take their descriptor and receive their text. Call it
+/// before any file is opened.
+void open_standard_streams();
+
+/// Prints on standard output, as `terminal_text` with line ends and tabs. A write error does not
+/// stop the work: the first one is reported, and `finished` returns an error.
+void print(std::string_view text);
+/// The same for a format and its arguments.
+template <typename First, typename... More>
+void print(fmt::format_string<First, More...> format, First&& first, More&&... more) {
+  print(std::string_view(
+      fmt::format(format, std::forward<First>(first), std::forward<More>(more)...)));
+}
+
+/// Shows what was printed so far. It reports errors as `print` does.
+void flush_printed();
+
+/// Prints warnings on standard error, one line each.
+void print_warnings(const std::vector<std::string>& warnings);
+
+/// Prints an error message as one line on standard error and returns `code`.
+int complain(const std::string& message, ExitCode code);
+
+/// Runs a whole program and returns the exit code of `work`. Reports and returns an error if memory
+/// ran out or standard output could not be written.
+int finished(const std::function<int()>& work);
+
+}  // namespace touchdown
