@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/verbs.hpp"
+#include "cli/verb.hpp"
 #include "core/error.hpp"
 #include "core/program.hpp"
 #include "core/resources.hpp"
@@ -21,7 +21,7 @@
 #include "recordings/log/byte_source.hpp"
 #include "recordings/log/reader.hpp"
 #include "recordings/mapping/mapped_log.hpp"
-#include "scenarios/robot_check/robot_check.hpp"
+#include "scenarios/robot_check.hpp"
 
 namespace touchdown::cli {
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/verbs.hpp"
+#include "cli/verb.hpp"
 #include "core/error.hpp"
 #include "core/program.hpp"
 #include "experiments/run_directory/lock.hpp"

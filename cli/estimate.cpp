@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "cli/estimate_outputs.hpp"
-#include "cli/verbs.hpp"
+#include "cli/verb.hpp"
 #include "core/error.hpp"
 #include "core/program.hpp"
 #include "core/progress.hpp"
@@ -23,7 +23,7 @@
 #include "recordings/log/byte_source.hpp"
 #include "recordings/mapping/mapped_log.hpp"
 #include "render/curves/log_figure.hpp"
-#include "scenarios/ending.hpp"
+#include "scenarios/scenario.hpp"
 
 namespace touchdown::cli {
 

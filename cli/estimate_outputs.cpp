@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/outputs.hpp"
+#include "core/program.hpp"
 
 namespace touchdown::cli {
 

@@ -6,10 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/verbs.hpp"
+#include "cli/verb.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/outputs.hpp"
 #include "core/program.hpp"
 #include "core/progress.hpp"
 #include "core/resources.hpp"

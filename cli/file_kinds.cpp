@@ -9,7 +9,7 @@
 #include "core/fields.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/studies/experiment_file.hpp"
-#include "noise/sensors/profile.hpp"
+#include "noise/sensor_profile.hpp"
 #include "recordings/mapping/mapping_file.hpp"
 #include "scenarios/scenario_file.hpp"
 #include "training/config/training.hpp"

@@ -8,9 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cli/verbs.hpp"
+#include "cli/verb.hpp"
 #include "core/error.hpp"
-#include "core/outputs.hpp"
 #include "core/program.hpp"
 #include "core/progress.hpp"
 #include "experiments/estimators/registry.hpp"

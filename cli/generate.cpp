@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/verbs.hpp"
+#include "cli/verb.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/program.hpp"

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "cli/file_kinds.hpp"
-#include "cli/verbs.hpp"
+#include "cli/verb.hpp"
 #include "core/key.hpp"
 #include "core/program.hpp"
 #include "core/tables/table.hpp"

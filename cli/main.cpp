@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/verbs.hpp"
+#include "cli/verb.hpp"
 #include "core/command_line.hpp"
 #include "core/error.hpp"
 #include "core/program.hpp"

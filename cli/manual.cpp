@@ -12,7 +12,6 @@
 
 #include "cli/file_kinds.hpp"
 #include "cli/verb.hpp"
-#include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/program.hpp"

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "cli/show_result.hpp"
-#include "cli/verbs.hpp"
+#include "cli/verb.hpp"
 #include "experiments/run_experiment.hpp"
 
 namespace touchdown::cli {

@@ -4,10 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/verbs.hpp"
+#include "cli/verb.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/outputs.hpp"
 #include "core/program.hpp"
 #include "experiments/run_directory/lock.hpp"
 #include "render/film/video.hpp"

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "cli/show_result.hpp"
-#include "cli/verbs.hpp"
+#include "cli/verb.hpp"
 #include "core/error.hpp"
 #include "core/program.hpp"
 #include "core/resources.hpp"

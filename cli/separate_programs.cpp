@@ -5,7 +5,7 @@
 #include <unistd.h>
 #include <vector>
 
-#include "cli/verbs.hpp"
+#include "cli/verb.hpp"
 #include "core/error.hpp"
 
 namespace touchdown::cli {

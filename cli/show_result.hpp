@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/verbs.hpp"
+#include "cli/verb.hpp"
 #include "experiments/run_experiment.hpp"
 
 namespace touchdown::cli {

@@ -1,4 +1,3 @@
-#include "python/estimators.hpp"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -11,11 +10,11 @@
 #include "experiments/logs/estimator.hpp"
 #include "experiments/logs/fit.hpp"
 #include "experiments/logs/log_steps.hpp"
-#include "python/belief_arrays.hpp"
+#include "python/arrays.hpp"
 #include "python/long_call.hpp"
+#include "python/module.hpp"
 #include "python/recording_arrays.hpp"
 #include "python/signal_arrays.hpp"
-#include "python/spine.hpp"
 #include "recordings/log/byte_source.hpp"
 #include "recordings/log/writer.hpp"
 #include "recordings/mapping/mapped_log.hpp"

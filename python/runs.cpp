@@ -1,5 +1,3 @@
-#include "python/runs.hpp"
-
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -11,16 +9,17 @@
 #include "core/error.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"
-#include "python/belief_arrays.hpp"
+#include "python/arrays.hpp"
 #include "python/long_call.hpp"
+#include "python/module.hpp"
 #include "python/recording_arrays.hpp"
 #include "recordings/log/byte_source.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "recordings/mapping/mapped_log.hpp"
 #include "scenarios/engine.hpp"
-#include "scenarios/generation/named.hpp"
+#include "scenarios/generation/generate.hpp"
 #include "scenarios/scenario_file.hpp"
-#include "scoring/metrics.hpp"
+#include "scoring/score.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::python {

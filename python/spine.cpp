@@ -1,4 +1,4 @@
-#include "python/spine.hpp"
+#include "python/module.hpp"
 
 #include <limits>
 #include <string>

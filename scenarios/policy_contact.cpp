@@ -11,7 +11,6 @@
 #include "estimator/free_fall.hpp"
 #include "models/robot_model.hpp"
 #include "recordings/signals_from.hpp"
-#include "scenarios/contact_delay.hpp"
 #include "scenarios/leg_geometry.hpp"
 
 namespace touchdown::scenarios {

@@ -15,11 +15,11 @@
 #include "experiments/config/yaml_kind.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
-#include "noise/sensors/profile.hpp"
+#include "noise/sensor_profile.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "render/pictures/filmed_run.hpp"
 #include "render/report/subject.hpp"
-#include "scenarios/generation/named.hpp"
+#include "scenarios/generation/generate.hpp"
 #include "scenarios/scenario_file.hpp"
 #include "viewer/screen/live_plots.hpp"
 

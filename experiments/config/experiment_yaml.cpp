@@ -13,7 +13,7 @@
 #include "experiments/config/hyperparameter_keys.hpp"
 #include "experiments/config/picture_keys.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "scenarios/generation/named.hpp"
+#include "scenarios/generation/generate.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::experiments {

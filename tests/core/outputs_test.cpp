@@ -1,5 +1,3 @@
-#include "core/outputs.hpp"
-
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -10,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "core/program.hpp"
+#include "tests/complaint.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown {
@@ -24,12 +24,7 @@ class Outputs : public ::testing::Test {
  protected:
   std::string complaint(const std::vector<InputFile>& inputs,
                         const std::vector<fs::path>& outputs) const {
-    try {
-      check_outputs(inputs, outputs);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+    return complaint_of<Error>([&] { check_outputs(inputs, outputs); });
   }
 
   const ScratchFolder folder_;
@@ -56,9 +51,9 @@ TEST_F(Outputs, ThatAreAnInputUnderAnyNameAreRefused) {
 
 TEST_F(Outputs, BesideTheInputsAreGood) {
   const fs::path other = folder_.write("b.mpack", "log");
-  EXPECT_EQ(complaint({{log_, "log"}, {"", "model"}}, {folder_ / "new", other}), "");
-  EXPECT_EQ(complaint({{log_, "log"}}, {folder_ / "no" / "such" / "folder" / "a.mpack"}), "");
-  EXPECT_EQ(complaint({}, {}), "");
+  EXPECT_EQ(complaint({{log_, "log"}, {"", "model"}}, {folder_ / "new", other}), "no complaint");
+  EXPECT_EQ(complaint({{log_, "log"}}, {folder_ / "no" / "such" / "folder" / "a.mpack"}), "no complaint");
+  EXPECT_EQ(complaint({}, {}), "no complaint");
 }
 
 TEST_F(Outputs, ThatAreOneFileAreRefused) {
@@ -69,14 +64,14 @@ TEST_F(Outputs, ThatAreOneFileAreRefused) {
   EXPECT_THAT(complaint({}, {folder_ / "new", folder_ / "sub/../new"}), HasSubstr("written twice"));
   EXPECT_THAT(complaint({}, {folder_ / "no/new", folder_ / "no/./new"}),
               HasSubstr("written twice"));
-  EXPECT_EQ(complaint({}, {folder_ / "new", folder_ / "new2", there}), "");
+  EXPECT_EQ(complaint({}, {folder_ / "new", folder_ / "new2", there}), "no complaint");
 }
 
 TEST_F(Outputs, AreNoDevicesAndPipesThatAFileWouldReplace) {
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   EXPECT_THAT(complaint({}, {"/dev/null"}), HasSubstr("/dev/null: is a device or a pipe"));
   EXPECT_THAT(complaint({}, {folder_ / "pipe"}), HasSubstr("device or a pipe"));
-  EXPECT_EQ(complaint({{"/dev/null", "log"}}, {folder_ / "new"}), "");
+  EXPECT_EQ(complaint({{"/dev/null", "log"}}, {folder_ / "new"}), "no complaint");
 }
 
 TEST_F(Outputs, ThatCannotBeWrittenAreRefused) {

@@ -5,7 +5,6 @@
 
 #include "core/command_line.hpp"
 #include "core/error.hpp"
-#include "core/outputs.hpp"
 #include "core/program.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"

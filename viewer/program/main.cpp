@@ -9,7 +9,6 @@
 
 #include "core/command_line.hpp"
 #include "core/error.hpp"
-#include "core/outputs.hpp"
 #include "core/program.hpp"
 #include "viewer/subject.hpp"
 #include "viewer/watch_live.hpp"
