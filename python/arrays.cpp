@@ -1,5 +1,7 @@
 #include "python/arrays.hpp"
 
+#include <pybind11/stl/filesystem.h>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -124,6 +126,14 @@ StepArray ArrayMap::column(const char* name, std::size_t columns) {
   StepArray column(array);
   steps_ = column.steps();
   return column;
+}
+
+std::filesystem::path path_of(const py::object& object) {
+  try {
+    return object.cast<std::filesystem::path>();
+  } catch (const py::cast_error&) {
+    throw InputError(fmt::format("{}: expected a path", py::repr(object).cast<std::string>()));
+  }
 }
 
 }  // namespace touchdown::python

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <pybind11/numpy.h>
@@ -120,5 +121,8 @@ py::dict arrays_of(std::vector<Belief> beliefs);
 /// Errors: `InputError` for other shapes, and for numbers that are no probabilities.
 std::vector<Belief> beliefs_of(const py::object& given, std::size_t steps,
                                const std::string& source);
+
+/// Errors: `InputError` for what Python accepts in a path and no system does, such as "a\0".
+std::filesystem::path path_of(const py::object& object);
 
 }  // namespace touchdown::python
