@@ -86,7 +86,7 @@ TEST(WrongRequest, IsOneLineWithThePlaceAndTheNearestName) {
 }
 
 TEST(Help, BeginsWithAnExample) {
-  for (const std::string verb : {"", "run", "simulate", "render"}) {
+  for (const std::string verb : {"", "run", "simulate", "render", "fit", "estimate"}) {
     const Ended ended = touchdown_program(verb + " --help", ScratchFolder().path());
     EXPECT_EQ(ended.exit_code, 0);
     EXPECT_THAT(ended.output, StartsWith("touchdown " + (verb.empty() ? "run" : verb) + " "));
