@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "cli/verb.hpp"
-#include "core/command_line.hpp"
 #include "core/error.hpp"
 #include "core/program.hpp"
 #include "core/yaml.hpp"

@@ -2,18 +2,23 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <optional>
+#include <sstream>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
+#include <vector>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -21,10 +26,51 @@
 #include "core/files.hpp"
 #include "core/progress.hpp"
 #include "core/terminal_text.hpp"
+#include "core/yaml.hpp"
 
 namespace touchdown {
 
 namespace {
+
+/// The names of a command's flags, the long name of each flag first.
+std::vector<std::string> flags_of(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+/// As flags are written: in lower case, with "-" for "_".
+std::string spelled_as_flag(std::string_view word) {
+  std::string spelled(word);
+  for (char& letter : spelled) {
+    letter =
+        letter == '_' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  }
+  return spelled;
+}
+
+/// The long flag that was meant, or nothing: one that begins with the word, else the nearest one,
+/// else one that the word begins with. A single letter is near to flags that begin with it.
+std::string nearest_flag(std::string_view word, std::vector<std::string> flags) {
+  std::erase_if(flags, [](const std::string& flag) { return !flag.starts_with("--"); });
+  const std::string spelled = spelled_as_flag(word);
+  const bool is_letter = spelled.size() == 2;
+  const std::string beginning = is_letter ? "-" + spelled : spelled;
+  const auto whole = std::find_if(flags.begin(), flags.end(), [&](const std::string& flag) {
+    return flag.starts_with(beginning);
+  });
+  if (whole != flags.end() && beginning != "--") return *whole;
+  if (is_letter) return "";
+  std::string near = nearest(spelled, flags);
+  if (!near.empty()) return near;
+  const auto inner = std::find_if(flags.begin(), flags.end(), [&](const std::string& flag) {
+    return spelled.starts_with(flag);
+  });
+  return inner == flags.end() ? "" : *inner;
+}
 
 namespace fs = std::filesystem;
 
@@ -93,29 +139,6 @@ void write_output(const Write& write) {
 
 }  // namespace
 
-void check_outputs(const std::vector<InputFile>& inputs, const std::vector<fs::path>& outputs) {
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    for (const InputFile& input : inputs) check_against_input(outputs[i], input);
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!is_one_file(outputs[j], outputs[i])) continue;
-      throw InputError(
-          fmt::format("{}: would be written twice: name two files", outputs[i].string()));
-    }
-    check_replaceable(outputs[i]);
-  }
-  for (const fs::path& output : outputs) {
-    if (output != "-") require_writable(output);
-  }
-}
-
-void require_extension(const fs::path& output, const std::vector<std::string>& extensions,
-                       const std::string& what) {
-  const std::string extension = output.extension().string();
-  if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) return;
-  throw InputError(fmt::format("{}: expected {} with the extension {}", output.string(), what,
-                               fmt::join(extensions, " or ")));
-}
-
 const std::atomic<bool>& stop_on_interrupt() {
   struct sigaction action = {};
   action.sa_handler = request_stop;
@@ -175,6 +198,57 @@ int finished(const std::function<int()>& work) {
   if (is_flushed && std::cout && std::ferror(stdout) == 0) return code;
   if (!is_reported) complain_of_output(errno);
   return code == good ? failed : code;
+}
+
+void check_outputs(const std::vector<InputFile>& inputs, const std::vector<fs::path>& outputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    for (const InputFile& input : inputs) check_against_input(outputs[i], input);
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!is_one_file(outputs[j], outputs[i])) continue;
+      throw InputError(
+          fmt::format("{}: would be written twice: name two files", outputs[i].string()));
+    }
+    check_replaceable(outputs[i]);
+  }
+  for (const fs::path& output : outputs) {
+    if (output != "-") require_writable(output);
+  }
+}
+
+void require_extension(const fs::path& output, const std::vector<std::string>& extensions,
+                       const std::string& what) {
+  const std::string extension = output.extension().string();
+  if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) return;
+  throw InputError(fmt::format("{}: expected {} with the extension {}", output.string(), what,
+                               fmt::join(extensions, " or ")));
+}
+
+int print_answer(const CLI::App& program, const CLI::Success& asked) {
+  std::ostringstream text;
+  const int code = program.exit(asked, text, text);
+  print(text.str());
+  return code;
+}
+
+std::string unknown_flag(std::string_view word, const CLI::App& command) {
+  const std::string_view flag = word.substr(0, word.find('='));
+  std::error_code ignored;
+  if (std::filesystem::exists(word, ignored)) {
+    return fmt::format("unknown flag '{0}': write ./{0} for the file of that name", word);
+  }
+  const std::vector<std::string> flags = flags_of(command);
+  const std::string near = nearest_flag(flag, flags);
+  return fmt::format("unknown flag '{}' ({})", flag,
+                     near.empty() ? fmt::format("known: {}", fmt::join(flags, ", "))
+                                  : fmt::format("did you mean '{}'?", near));
+}
+
+std::string refused_words(const CLI::App& command, std::string message) {
+  for (const std::string& word : command.remaining(true)) {
+    if (word.starts_with('-')) return unknown_flag(word, command);
+  }
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  return message;
 }
 
 }  // namespace touchdown

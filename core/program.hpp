@@ -10,6 +10,12 @@
 
 #include <fmt/format.h>
 
+// CLI11 takes seconds to compile wherever it is included.
+namespace CLI {  // NOLINT(readability-identifier-naming): CLI11's name
+class App;
+class Success;
+}  // namespace CLI
+
 namespace touchdown {
 
 /// Installs signal handlers: the first Ctrl-C (or SIGTERM, or SIGHUP of a terminal that closes)
@@ -69,5 +75,16 @@ void check_outputs(const std::vector<InputFile>& inputs,
 /// choose the format by the extension. `what` names the output: "a recording".
 void require_extension(const std::filesystem::path& output,
                        const std::vector<std::string>& extensions, const std::string& what);
+
+/// Prints what `--help` and `--version` ask for, and returns the exit code.
+int print_answer(const CLI::App& program, const CLI::Success& asked);
+
+/// "unknown flag '--otu' (did you mean '--out'?)". Without a near flag, it lists all flags of the
+/// command. A value after "=" does not count. For a file of this name, it shows how to write it.
+std::string unknown_flag(std::string_view word, const CLI::App& command);
+
+/// One line about words that the command refused: its first unknown flag, or else `message`, which
+/// is CLI11's own.
+std::string refused_words(const CLI::App& command, std::string message);
 
 }  // namespace touchdown

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scenarios/policy_contact.hpp"
+#include "scenarios/rollout.hpp"
 #include "scenarios/start_pose.hpp"
 #include "tests/complaint.hpp"
 #include "tests/scenarios/runs.hpp"

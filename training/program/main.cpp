@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "core/command_line.hpp"
 #include "core/error.hpp"
 #include "core/program.hpp"
 #include "core/resources.hpp"

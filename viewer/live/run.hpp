@@ -11,7 +11,6 @@
 #include "noise/reported_signals.hpp"
 #include "noise/sensor_noise.hpp"
 #include "recordings/recording.hpp"
-#include "scenarios/policy_contact.hpp"
 #include "scenarios/rollout.hpp"
 #include "scenarios/scenario.hpp"
 #include "simulators/simulator.hpp"
