@@ -21,7 +21,7 @@
 
 namespace touchdown {
 
-/// The keys of one kind of file, in the order of their description (core/fields.hpp).
+/// The keys of one kind of file, in the order of their description.
 class KeyCollection {
  public:
   /// Adds a key and returns its index. The fallback of a required key is "required".
