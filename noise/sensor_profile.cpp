@@ -52,7 +52,7 @@ constexpr std::array disturbances = {
     VariedDisturbance{"dropout", [](SensorChannel& c) -> double& { return c.dropout.rate; }, true,
                       true, true, true}};
 
-struct Sensor {
+struct VariedSensor {
   const char* name;
   std::array<SensorChannel, 3> SensorProfile::*channels;
   bool is_joint;
@@ -63,12 +63,12 @@ struct Sensor {
   }
 };
 constexpr std::array sensors = {
-    Sensor{"torque", &SensorProfile::torque, true, false},
-    Sensor{"position", &SensorProfile::position, true, false},
-    Sensor{"velocity", &SensorProfile::velocity, true, false},
-    Sensor{"accelerometer", &SensorProfile::accelerometer, false, false},
-    Sensor{"gyroscope", &SensorProfile::gyroscope, false, false},
-    Sensor{"orientation", &SensorProfile::orientation, false, true}};
+    VariedSensor{"torque", &SensorProfile::torque, true, false},
+    VariedSensor{"position", &SensorProfile::position, true, false},
+    VariedSensor{"velocity", &SensorProfile::velocity, true, false},
+    VariedSensor{"accelerometer", &SensorProfile::accelerometer, false, false},
+    VariedSensor{"gyroscope", &SensorProfile::gyroscope, false, false},
+    VariedSensor{"orientation", &SensorProfile::orientation, false, true}};
 
 constexpr std::array joints = {"hip", "knee", "wheel"};
 constexpr std::array axes = {"x", "y", "z"};
@@ -107,7 +107,7 @@ std::vector<double*> numbers_of(SensorProfile& profile, std::string_view key) {
     const VariedDisturbance& disturbance =
         find(words[0], disturbances.front(), disturbances.size(),
              [](const VariedDisturbance& one) { return one.has_no_unit; });
-    for (const Sensor& sensor : sensors) {
+    for (const VariedSensor& sensor : sensors) {
       if (!sensor.has(disturbance)) continue;
       for (SensorChannel& channel : profile.*sensor.channels) {
         numbers.push_back(&disturbance.of(channel));
@@ -115,8 +115,8 @@ std::vector<double*> numbers_of(SensorProfile& profile, std::string_view key) {
     }
     return numbers;
   }
-  const Sensor& sensor =
-      find(words[0], sensors.front(), sensors.size(), [](const Sensor& /*any*/) { return true; });
+  const VariedSensor& sensor = find(words[0], sensors.front(), sensors.size(),
+                                    [](const VariedSensor& /*any*/) { return true; });
   const bool whole = words.size() == 2;
   const VariedDisturbance& disturbance = find(
       words.back(), disturbances.front(), disturbances.size(), [&](const VariedDisturbance& one) {
@@ -141,9 +141,6 @@ struct Sensor {
   const char* unit;
   const char* meaning;
 };
-
-constexpr std::array joints = {"hip", "knee", "wheel"};
-constexpr std::array axes = {"x", "y", "z"};
 
 void describe_low_pass(Fields& fields, double& time_constant) {
   const auto describe_time_constant = [&](Fields& filter) {
