@@ -66,7 +66,7 @@ Config read_yaml(const std::string& text, const std::vector<std::string>& overri
   return read_yaml(document);
 }
 
-std::string complaint_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return complaint_of([&] { read_yaml(text, overrides); });
 }
 
@@ -106,59 +106,58 @@ TEST(Yaml, AbsentKeysKeepTheirDefaults) {
 }
 
 TEST(Yaml, ATypoIsPlacedAndTheNearestKeyNamed) {
-  EXPECT_THAT(
-      complaint_of("name: x\ndurration: 2\n"),
-      AllOf(StartsWith("test.yaml:2:1: durration: "), HasSubstr("did you mean 'duration'?")));
-  EXPECT_THAT(complaint_of("noise:\n  seed: 2\n"),
+  EXPECT_THAT(refusal("name: x\ndurration: 2\n"), AllOf(StartsWith("test.yaml:2:1: durration: "),
+                                                        HasSubstr("did you mean 'duration'?")));
+  EXPECT_THAT(refusal("noise:\n  seed: 2\n"),
               AllOf(StartsWith("test.yaml:2:3: noise.seed: "), HasSubstr("'seeds'")));
-  EXPECT_THAT(complaint_of("runs:\n  - name: a\n  - name: b\n    sped: 1\n"),
+  EXPECT_THAT(refusal("runs:\n  - name: a\n  - name: b\n    sped: 1\n"),
               AllOf(StartsWith("test.yaml:4:5: runs.1.sped: "), HasSubstr("'speed'")));
 }
 
 TEST(Yaml, AnUnknownKeyThatIsNearToNothingListsTheKnownOnes) {
-  EXPECT_THAT(complaint_of("zzzzzzzz: 1\n"), AllOf(HasSubstr("unknown key"), HasSubstr("duration"),
-                                                   Not(HasSubstr("did you mean"))));
+  EXPECT_THAT(refusal("zzzzzzzz: 1\n"), AllOf(HasSubstr("unknown key"), HasSubstr("duration"),
+                                              Not(HasSubstr("did you mean"))));
 }
 
 TEST(Yaml, AWrongTypeIsReportedWithTheExpectedTypeAndPosition) {
-  EXPECT_THAT(complaint_of("duration: long\n"),
+  EXPECT_THAT(refusal("duration: long\n"),
               AllOf(StartsWith("test.yaml:1:11: duration: "), HasSubstr("a number")));
-  EXPECT_THAT(complaint_of("count: 2.5\n"), HasSubstr("a whole number"));
-  EXPECT_THAT(complaint_of("video: perhaps\n"), HasSubstr("true or false"));
-  EXPECT_THAT(complaint_of("name: [1, 2]\n"), HasSubstr("a text"));
-  EXPECT_THAT(complaint_of("noise:\n  levels: 3\n"), HasSubstr("a list, each item a number"));
-  EXPECT_THAT(complaint_of("noise: 3\n"), HasSubstr("expected a mapping"));
-  EXPECT_THAT(complaint_of("runs: 3\n"), HasSubstr("expected a list"));
-  EXPECT_THAT(complaint_of("runs: [3]\n"), HasSubstr("runs.0: expected a mapping"));
+  EXPECT_THAT(refusal("count: 2.5\n"), HasSubstr("a whole number"));
+  EXPECT_THAT(refusal("video: perhaps\n"), HasSubstr("true or false"));
+  EXPECT_THAT(refusal("name: [1, 2]\n"), HasSubstr("a text"));
+  EXPECT_THAT(refusal("noise:\n  levels: 3\n"), HasSubstr("a list, each item a number"));
+  EXPECT_THAT(refusal("noise: 3\n"), HasSubstr("expected a mapping"));
+  EXPECT_THAT(refusal("runs: 3\n"), HasSubstr("expected a list"));
+  EXPECT_THAT(refusal("runs: [3]\n"), HasSubstr("runs.0: expected a mapping"));
 }
 
 TEST(Yaml, AValueOutOfRangeIsReportedWithTheRange) {
-  EXPECT_THAT(complaint_of("duration: -1\n"),
+  EXPECT_THAT(refusal("duration: -1\n"),
               AllOf(StartsWith("test.yaml:1:11: duration: "), HasSubstr("from 0 to 100")));
-  EXPECT_THAT(complaint_of("count: 11\n"), HasSubstr("from 1 to 10"));
-  EXPECT_THAT(complaint_of("duration: .nan\n"), HasSubstr("from 0 to 100"));
+  EXPECT_THAT(refusal("count: 11\n"), HasSubstr("from 1 to 10"));
+  EXPECT_THAT(refusal("duration: .nan\n"), HasSubstr("from 0 to 100"));
 }
 
 TEST(Yaml, AnUnknownChoiceNamesTheNearest) {
-  EXPECT_THAT(complaint_of("engine: mujocco\n"),
+  EXPECT_THAT(refusal("engine: mujocco\n"),
               AllOf(StartsWith("test.yaml:1:9: engine: "), HasSubstr("mujoco, bullet"),
                     HasSubstr("did you mean 'mujoco'?")));
 }
 
 TEST(Yaml, ARequiredKeyThatIsAbsentIsNamed) {
-  EXPECT_THAT(complaint_of("runs:\n  - speed: 1\n"),
+  EXPECT_THAT(refusal("runs:\n  - speed: 1\n"),
               AllOf(StartsWith("test.yaml:2:5: runs.0.name: "), HasSubstr("missing")));
 }
 
 TEST(Yaml, BrokenYamlIsPlaced) {
-  EXPECT_THAT(complaint_of("name: [1, 2\nduration: 3\n"),
+  EXPECT_THAT(refusal("name: [1, 2\nduration: 3\n"),
               AllOf(StartsWith("test.yaml:"), HasSubstr("not valid YAML")));
-  EXPECT_THAT(complaint_of("name: x\n\tcount: 3\n"), StartsWith("test.yaml:2:"));
+  EXPECT_THAT(refusal("name: x\n\tcount: 3\n"), StartsWith("test.yaml:2:"));
 }
 
 TEST(Yaml, EmptyFilesAndOtherDocumentsAreNoMappings) {
   for (const char* text : {"", "\n# only a comment\n", "- a\n- b\n", "just text\n"}) {
-    EXPECT_THAT(complaint_of(text), HasSubstr("test.yaml:1:1: expected a mapping")) << text;
+    EXPECT_THAT(refusal(text), HasSubstr("test.yaml:1:1: expected a mapping")) << text;
   }
 }
 
@@ -169,7 +168,7 @@ TEST(Yaml, AMissingFileIsNamed) {
 }
 
 TEST(Yaml, DuplicateKeysAreRefused) {
-  EXPECT_THAT(complaint_of("count: 3\nname: x\ncount: 4\n"),
+  EXPECT_THAT(refusal("count: 3\nname: x\ncount: 4\n"),
               AllOf(StartsWith("test.yaml:3:1: count: "), HasSubstr("twice")));
 }
 
@@ -190,33 +189,33 @@ TEST(YamlOverride, AddsKeysThatTheFileLeavesOut) {
 }
 
 TEST(YamlOverride, AnUnknownKeyIsReportedWhenItIsRead) {
-  EXPECT_THAT(complaint_of(good, {"noise.seedz=5"}),
+  EXPECT_THAT(refusal(good, {"noise.seedz=5"}),
               AllOf(StartsWith("--set noise.seedz=5: noise.seedz: "), HasSubstr("'seeds'")));
-  EXPECT_THAT(complaint_of(good, {"duration=-2"}),
+  EXPECT_THAT(refusal(good, {"duration=-2"}),
               StartsWith("--set duration=-2: duration: expected a number from 0"));
 }
 
 TEST(YamlOverride, IsNamedInErrorsOfItsValueOnly) {
-  EXPECT_THAT(complaint_of(good, {"noise={seeds: 1, seedz: 5}"}),
+  EXPECT_THAT(refusal(good, {"noise={seeds: 1, seedz: 5}"}),
               StartsWith("--set noise={seeds: 1, seedz: 5}: noise.seedz: unknown key"));
-  EXPECT_THAT(complaint_of(good, {"duration=1", "duration=-3"}), StartsWith("--set duration=-3: "));
-  EXPECT_THAT(complaint_of("name: x\nduration: -1\n", {"noise.seeds=1"}),
+  EXPECT_THAT(refusal(good, {"duration=1", "duration=-3"}), StartsWith("--set duration=-3: "));
+  EXPECT_THAT(refusal("name: x\nduration: -1\n", {"noise.seeds=1"}),
               StartsWith("test.yaml:2:11: duration: "));
 }
 
 TEST(YamlOverride, WhatIsNoAssignmentIsRefused) {
   for (const char* assignment : {"duration", "=3", "", "noise..seeds=3", ".=1", "noise.=2"}) {
-    EXPECT_THAT(complaint_of(good, {assignment}), HasSubstr("--set")) << assignment;
+    EXPECT_THAT(refusal(good, {assignment}), HasSubstr("--set")) << assignment;
   }
-  EXPECT_THAT(complaint_of(good, {"duration=[1"}), HasSubstr("--set duration=[1"));
+  EXPECT_THAT(refusal(good, {"duration=[1"}), HasSubstr("--set duration=[1"));
 }
 
 TEST(YamlOverride, ItemsThatAreNotThereAreRefused) {
-  EXPECT_THAT(complaint_of(good, {"runs.2.speed=1"}), HasSubstr("0 to 1"));
-  EXPECT_THAT(complaint_of(good, {"runs.first.speed=1"}), HasSubstr("'first'"));
-  EXPECT_THAT(complaint_of(good, {"runs.-1.speed=1"}), HasSubstr("'-1'"));
-  EXPECT_THAT(complaint_of(good, {"name.first=1"}), HasSubstr("'name' holds no keys"));
-  EXPECT_THAT(complaint_of("runs: []\n", {"runs.0.speed=1"}), HasSubstr("--set"));
+  EXPECT_THAT(refusal(good, {"runs.2.speed=1"}), HasSubstr("0 to 1"));
+  EXPECT_THAT(refusal(good, {"runs.first.speed=1"}), HasSubstr("'first'"));
+  EXPECT_THAT(refusal(good, {"runs.-1.speed=1"}), HasSubstr("'-1'"));
+  EXPECT_THAT(refusal(good, {"name.first=1"}), HasSubstr("'name' holds no keys"));
+  EXPECT_THAT(refusal("runs: []\n", {"runs.0.speed=1"}), HasSubstr("--set"));
 }
 
 TEST(YamlOverride, OneDocumentsOverridesDoNotReachAnother) {
