@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include "cli/verbs.hpp"
+#include "cli/verb.hpp"
 #include "core/files.hpp"
-#include "core/program/streams.hpp"
+#include "core/program.hpp"
 #include "core/resources.hpp"
 #include "core/tables/table.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "scenarios/generation/family.hpp"
+#include "scenarios/generation/families.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::cli {

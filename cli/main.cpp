@@ -1,22 +1,19 @@
 #include <algorithm>
 #include <filesystem>
+#include <malloc.h>
 #include <new>
 #include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/manual/described_verb.hpp"
-#include "cli/verbs.hpp"
+#include "cli/verb.hpp"
 #include "core/error.hpp"
-#include "core/program/command_line.hpp"
-#include "core/program/interrupt.hpp"
-#include "core/program/memory.hpp"
-#include "core/program/streams.hpp"
+#include "core/program.hpp"
 #include "core/yaml.hpp"
-#include "core/yaml_text.hpp"
 
 namespace touchdown::cli {
+
 namespace {
 
 /// The command line as text. A byte that is not valid UTF-8 becomes a question mark, because
@@ -32,7 +29,7 @@ std::string joined(int argc, char** argv) {
 
 std::vector<std::string> verbs(const CLI::App& program) {
   std::vector<std::string> names;
-  for (const DescribedVerb& verb : described_verbs(program)) names.push_back(verb.name);
+  for (const CLI::App* verb : program.get_subcommands({})) names.push_back(verb->get_name());
   return names;
 }
 
@@ -112,12 +109,21 @@ int run_command_line(int argc, char** argv) {
   }
 }
 
+/// Keeps freed memory in the process. Runs allocate tens of megabytes each, and the system clears
+/// returned pages one by one when they are needed again. Call it before any allocation.
+void keep_freed_memory() noexcept {
+  constexpr int gigabyte = 1 << 30;
+  ::mallopt(M_MMAP_THRESHOLD, gigabyte);
+  ::mallopt(M_TRIM_THRESHOLD, gigabyte);
+}
+
 }  // namespace
+
 }  // namespace touchdown::cli
 
 int main(int argc, char** argv) {
   touchdown::stop_on_interrupt();
-  touchdown::keep_freed_memory();
+  touchdown::cli::keep_freed_memory();
   touchdown::open_standard_streams();
   return touchdown::finished([&] { return touchdown::cli::run_command_line(argc, argv); });
 }

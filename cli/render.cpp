@@ -4,12 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "cli/verbs.hpp"
+#include "cli/verb.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/program/outputs.hpp"
-#include "core/program/streams.hpp"
-#include "core/progress.hpp"
+#include "core/program.hpp"
 #include "experiments/run_directory/lock.hpp"
 #include "render/film/video.hpp"
 #include "render/pictures/filmed_run.hpp"
@@ -65,8 +63,7 @@ std::vector<render::FilmedRun> runs_of(const RenderFlags& flags, const CliSessio
       runs.push_back(std::move(filmed[i]));
     }
   }
-  for (const std::string& warning : warnings)
-    print_message(fmt::format("touchdown: {}\n", warning));
+  print_warnings(warnings);
   const std::size_t wanted = flags.layout == "side-by-side" || flags.inputs.size() > 1 ? 2 : 1;
   if (runs.size() != wanted || (flags.layout == "single" && wanted != 1)) {
     throw InputError(fmt::format("render: layout '{}' shows {}, not {}",

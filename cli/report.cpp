@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/verbs.hpp"
+#include "cli/verb.hpp"
 #include "core/files.hpp"
-#include "core/program/streams.hpp"
+#include "core/program.hpp"
 #include "experiments/run_directory/lock.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_directory/owner.hpp"

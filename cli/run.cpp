@@ -7,19 +7,79 @@
 
 #include <fmt/format.h>
 
-#include "cli/show_result.hpp"
-#include "cli/verbs.hpp"
+#include "cli/verb.hpp"
 #include "core/error.hpp"
-#include "core/program/streams.hpp"
+#include "core/files.hpp"
+#include "core/program.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"
+#include "experiments/results/manifest.hpp"
+#include "experiments/results/terminal.hpp"
 #include "experiments/rollouts/failures.hpp"
 #include "experiments/run_experiment.hpp"
 #include "experiments/studies/experiment_file.hpp"
+#include "render/pictures/filmed_report.hpp"
+#include "render/pictures/pictures.hpp"
+#include "render/studies/registry.hpp"
 
 namespace touchdown::cli {
 
 namespace {
+
+/// Which pictures are drawn of a result.
+struct ShownPictures {
+  bool none = false;      ///< tables only
+  bool no_video = false;  ///< figures and the report, without films
+};
+
+void draw(experiments::ExperimentResult& result, const CliSession& session, bool with_films) {
+  std::vector<render::FilmedRun> filmed;
+  if (result.experiment.video.enabled) {
+    filmed = render::filmed_runs(render::read_subject(result.directory.path()));
+  }
+  render::draw_pictures(result, filmed, render::study_pictures(), with_films, session.stop);
+  experiments::write_manifest(result);
+  render::make_report(render::read_subject(result.directory.path()), filmed,
+                      render::study_pictures(), {.film = with_films});
+}
+
+/// The last lines of output: a table of results, the paths of all outputs and the next commands.
+std::string last_screen(const experiments::ExperimentResult& result, const CliSession& session) {
+  const std::filesystem::path& directory = result.directory.path();
+  std::string text =
+      fmt::format("{}\nreport    {}\nfigures   {}\n", experiments::closing_text(result),
+                  (directory / "report.html").string(), (directory / "figures").string());
+  if (is_there(directory / "videos")) {
+    text += fmt::format("videos    {}\n", (directory / "videos").string());
+  }
+  const char* next = result.experiment.name == "noise_study" ? "cross_simulator" : "noise_study";
+  return text + fmt::format("\nnext      {0} run experiments/{1}.yaml\n          {0} list\n",
+                            session.program, next);
+}
+
+/// Adds the flags `--no-pictures` and `--no-video`.
+void add_picture_flags(Verb& verb, ShownPictures* pictures) {
+  verb.flag("--no-pictures", &pictures->none, "Write tables only, without figures and videos");
+  verb.flag("--no-video", &pictures->no_video,
+            "Write tables, figures and the report, but no videos");
+}
+
+/// Prints an experiment's result and its paths, and draws its figures and videos. Errors: `Error`
+/// if a demanded verdict fails.
+void show(experiments::ExperimentResult& result, const CliSession& session,
+          const ShownPictures& pictures) {
+  print(experiments::summary_text(result));
+  print(fmt::format("\nresults   {}\ntables    {}\n", result.directory.path().string(),
+                    (result.directory.path() / "tables").string()));
+  flush_printed();
+  if (!pictures.none) {
+    draw(result, session, !pictures.no_video);
+    print(last_screen(result, session));
+  }
+  if (!result.failed_demands.empty()) {
+    throw Error(fmt::format("demanded verdicts fail: {}", fmt::join(result.failed_demands, ", ")));
+  }
+}
 
 struct RunFlags {
   std::string experiment;
@@ -91,6 +151,17 @@ void run(const RunFlags& flags, const CliSession& session) {
   show(result, session, flags.pictures);
 }
 
+struct MergeFlags {
+  std::string directory;
+  ShownPictures pictures;
+};
+
+void merge(const MergeFlags& flags, const CliSession& session) {
+  experiments::ExperimentResult result = experiments::merge_run(
+      flags.directory, {.out = {}, .command = session.command, .stop = session.stop});
+  show(result, session, flags.pictures);
+}
+
 }  // namespace
 
 void add_run(CLI::App& program, const CliSession& session) {
@@ -118,6 +189,18 @@ void add_run(CLI::App& program, const CliSession& session) {
             "can be computed, and its cost by stage, from a calibration of a few seconds");
   add_picture_flags(verb, &flags->pictures);
   verb.action([flags, &session] { run(*flags, session); });
+}
+
+void add_merge(CLI::App& program, const CliSession& session) {
+  Verb verb(program, "merge",
+            "touchdown merge runs/stairs/latest\n\n"
+            "Merges the results of an experiment's shards in its run directory.");
+  const auto flags = std::make_shared<MergeFlags>();
+  verb.option("directory", &flags->directory, "Run directory that the shards share")
+      .required()
+      .value_name("DIR");
+  add_picture_flags(verb, &flags->pictures);
+  verb.action([flags, &session] { merge(*flags, session); });
 }
 
 }  // namespace touchdown::cli

@@ -5,9 +5,8 @@
 #include <unistd.h>
 #include <vector>
 
-#include "cli/verbs.hpp"
+#include "cli/verb.hpp"
 #include "core/error.hpp"
-#include "core/program/interrupt.hpp"
 
 namespace touchdown::cli {
 
@@ -24,7 +23,6 @@ namespace {
   std::vector<char*> arguments = {program.data()};
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  delay_interrupts();
   ::execv(program.c_str(), arguments.data());
   throw Error(program + " is missing: " + remedy);
 }

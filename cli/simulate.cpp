@@ -8,21 +8,20 @@
 
 #include <fmt/format.h>
 
-#include "cli/verbs.hpp"
+#include "cli/verb.hpp"
 #include "core/error.hpp"
 #include "core/fields.hpp"
-#include "core/program/outputs.hpp"
-#include "core/program/streams.hpp"
+#include "core/program.hpp"
 #include "core/progress.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"
-#include "noise/sensors/profile.hpp"
-#include "noise/sensors/reported.hpp"
+#include "noise/reported_signals.hpp"
+#include "noise/sensor_profile.hpp"
 #include "recordings/log/reader.hpp"
 #include "recordings/log/recording_file.hpp"
-#include "scenarios/ending.hpp"
 #include "scenarios/engine.hpp"
-#include "scenarios/generation/named.hpp"
+#include "scenarios/generation/generate.hpp"
+#include "scenarios/scenario.hpp"
 #include "scenarios/scenario_file.hpp"
 #include "scoring/labels.hpp"
 

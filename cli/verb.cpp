@@ -11,7 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "core/yaml_text.hpp"
+#include "core/yaml.hpp"
 
 namespace touchdown::cli {
 

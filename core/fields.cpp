@@ -2,18 +2,68 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
-#include "core/yaml_text.hpp"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/yaml.hpp"
 
 namespace touchdown {
 
 namespace {
+
+std::string scalar_text(const YAML::Node& value) {
+  double number = 0.0;
+  if (YAML::convert<double>::decode(value, number)) {
+    return std::isfinite(number) ? fmt::format("{}", number) : "none";
+  }
+  return value.Scalar().empty() ? "\"\"" : value.Scalar();
+}
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 }  // namespace
+
+std::size_t KeyCollection::add(Key key) {
+  if (required_.contains(key.path)) key.fallback = "required";
+  keys_.push_back(std::move(key));
+  return keys_.size() - 1;
+}
+
+std::string KeyCollection::path_of_open(std::type_index item) const {
+  const auto found = std::find_if(open_.begin(), open_.end(),
+                                  [&](const auto& list) { return list.first == item; });
+  return found == open_.end() ? "" : found->second;
+}
+
+const KeyNotes& KeyNotes::doc(std::string_view unit, std::string_view meaning) const {
+  set(&Key::unit, unit);
+  return doc(meaning);
+}
+
+const KeyNotes& KeyNotes::set(std::string Key::*member, std::string_view text) const {
+  if (keys_ != nullptr) (*keys_)[index_].*member = text;
+  return *this;
+}
+
+std::string value_text(const YAML::Node& value) {
+  if (value.IsScalar()) return scalar_text(value);
+  std::vector<std::string> parts;
+  for (const auto& part : value) {
+    parts.push_back(
+        value.IsMap() ? fmt::format("{}: {}", part.first.as<std::string>(), value_text(part.second))
+                      : value_text(part));
+  }
+  return fmt::format(fmt::runtime(value.IsMap() ? "{{{}}}" : "[{}]"), fmt::join(parts, ", "));
+}
+
+std::string range_text(double low, double high) {
+  if (std::isinf(high) || high >= 1e15) return fmt::format("≥ {}", low);
+  return fmt::format("{} to {}", low, high);
+}
 
 Fields::Fields(YAML::Node node, YamlDocument document, std::string path)
     : reading_(true), node_(node), document_(std::move(document)), path_(std::move(path)) {
@@ -135,10 +185,6 @@ bool Fields::present(std::string_view key, bool has_value) const {
 
 void Fields::know(std::string_view key) {
   if (reading()) (void)take(key);
-}
-
-void Fields::renamed(std::string_view old_key, std::string_view key) const {
-  check(!present(old_key, false), old_key, fmt::format("this key is now called '{}'", key));
 }
 
 std::size_t Fields::size() const { return node_.IsMap() ? node_.size() : 0; }

@@ -5,19 +5,74 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <typeindex>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
 
-#include "core/keys/key_collection.hpp"
-#include "core/keys/value_text.hpp"
+#include "core/key.hpp"
 #include "core/yaml.hpp"
 
 namespace touchdown {
+
+/// The keys of one kind of file, in the order of their description.
+class KeyCollection {
+ public:
+  /// Adds a key and returns its index. The fallback of a required key is "required".
+  std::size_t add(Key key);
+  /// Marks a key that is added later as required.
+  void require(std::string path) { required_.insert(std::move(path)); }
+
+  Key& operator[](std::size_t index) { return keys_[index]; }
+  const std::vector<Key>& keys() const { return keys_; }
+
+  /// Begins and ends the description of the items of a list. Lists that may contain lists of the
+  /// same items are described once.
+  void open(std::type_index item, std::string path) { open_.emplace_back(item, std::move(path)); }
+  void close() { open_.pop_back(); }
+  /// The path of the open list with these items; empty if there is none.
+  std::string path_of_open(std::type_index item) const;
+
+ private:
+  std::vector<Key> keys_;
+  std::set<std::string> required_;
+  std::vector<std::pair<std::type_index, std::string>> open_;
+};
+
+/// Completes the documentation of one key. Without effect when a file is read or written.
+class KeyNotes {
+ public:
+  KeyNotes() = default;
+  KeyNotes(KeyCollection& keys, std::size_t index) : keys_(&keys), index_(index) {}
+
+  /// The key's meaning in one sentence, with the unit of its value.
+  const KeyNotes& doc(std::string_view unit, std::string_view meaning) const;
+  const KeyNotes& doc(std::string_view meaning) const { return set(&Key::meaning, meaning); }
+
+  // Texts instead of those that follow from the description.
+  const KeyNotes& type(std::string_view text) const { return set(&Key::type, text); }
+  const KeyNotes& range(std::string_view text) const { return set(&Key::range, text); }
+  const KeyNotes& fallback(std::string_view text) const { return set(&Key::fallback, text); }
+
+ private:
+  const KeyNotes& set(std::string Key::*member, std::string_view text) const;
+
+  KeyCollection* keys_ = nullptr;
+  std::size_t index_ = 0;
+};
+
+/// A value as YAML on one line, each number by the shortest text that reads back to it. A number
+/// that is not finite is "none": such keys are not written.
+std::string value_text(const YAML::Node& value);
+
+/// "0 to 10", or "≥ 0" if the upper limit only excludes absurd numbers.
+std::string range_text(double low, double high);
 
 /// Reads, writes and documents the keys of a configuration struct. The `describe` function beside
 /// the struct names each key once, with its member, its range, its unit and its meaning:
@@ -157,8 +212,6 @@ class Fields {
   bool present(std::string_view key, bool has_value) const;
   /// Declares an optional key, so that it is suggested for a misspelt one.
   void know(std::string_view key);
-  /// Reading: rejects a key of an earlier version and names the key that replaced it.
-  void renamed(std::string_view old_key, std::string_view key) const;
   /// The number of keys.
   std::size_t size() const;
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/yaml_text.hpp"
+#include "core/yaml.hpp"
 
 namespace touchdown {
 

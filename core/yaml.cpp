@@ -2,18 +2,188 @@
 
 #include <algorithm>
 #include <charconv>
+#include <functional>
+#include <map>
 #include <numeric>
 #include <set>
 #include <sstream>
+#include <vector>
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 
+#include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/yaml_text.hpp"
 
 namespace touchdown {
 
 namespace {
+
+constexpr std::size_t most_levels = 64;
+constexpr std::size_t most_values = 1'000'000;
+
+using MarkFormatter = std::function<std::string(const YAML::Mark&)>;
+
+/// Bytes of the first UTF-8 character of the text; 0 if it is invalid (RFC 3629).
+std::size_t character_size(std::string_view text) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+  };
+  const auto follow = [&](std::size_t count) {
+    for (std::size_t i = 1; i <= count; ++i) {
+      if ((byte(i) & 0xc0U) != 0x80U) return std::size_t{0};
+    }
+    return count + 1;
+  };
+  const unsigned first = byte(0);
+  if (first < 0x80U) return 1;
+  if (first >= 0xc2U && first <= 0xdfU) return follow(1);
+  if (first == 0xe0U && byte(1) < 0xa0U) return 0;   // overlong encoding
+  if (first == 0xedU && byte(1) >= 0xa0U) return 0;  // UTF-16 surrogate
+  if (first >= 0xe0U && first <= 0xefU) return follow(2);
+  if (first == 0xf0U && byte(1) < 0x90U) return 0;
+  if (first == 0xf4U && byte(1) >= 0x90U) return 0;  // beyond Unicode
+  return first >= 0xf0U && first <= 0xf4U ? follow(3) : 0;
+}
+
+YAML::Mark mark_behind(std::string_view text) {
+  const std::size_t line_end = text.rfind('\n');
+  const std::string_view line =
+      line_end == std::string_view::npos ? text : text.substr(line_end + 1);
+  YAML::Mark mark;
+  mark.pos = static_cast<int>(text.size());
+  mark.line = static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+  mark.column = static_cast<int>(std::count_if(line.begin(), line.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U;
+  }));
+  return mark;
+}
+
+/// Counts values and nesting levels during parsing and rejects what exceeds the limits.
+class Checker : public YAML::EventHandler {
+ public:
+  explicit Checker(const MarkFormatter& place) : place_(place) {}
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (has_document_) complain(mark, "expected the end: one file holds one YAML document");
+    has_document_ = true;
+  }
+  void OnDocumentEnd() override {}
+
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    begin_value(mark, false);
+    end_value(mark, anchor, {});
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    begin_value(mark, false);
+    const auto size = sizes_.find(anchor);
+    if (size == sizes_.end()) complain(mark, "an alias is inside the value that it refers to");
+    if (open_.size() + size->second.levels > most_levels) complain_about_levels(mark);
+    end_value(mark, YAML::anchor_t{}, size->second);
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
+    const bool is_key = is_key_next();
+    begin_value(mark, true);
+    const bool is_quoted = tag == "!";
+    if (!is_key && !is_quoted && has_leading_zero(value)) {
+      complain(mark, fmt::format("{0}: a number has no leading zero; a text needs quotes: "
+                                 "\"{0}\"",
+                                 value));
+    }
+    end_value(mark, anchor, {});
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value /*style*/) override {
+    open(mark, anchor, false);
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value /*style*/) override {
+    open(mark, anchor, true);
+  }
+  void OnMapEnd() override { close(); }
+
+ private:
+  /// Size of a value, including everything nested in it.
+  struct Size {
+    std::size_t values = 1;
+    std::size_t levels = 1;
+  };
+  /// A list or mapping that has not ended yet.
+  struct Open {
+    YAML::Mark mark;
+    YAML::anchor_t anchor;
+    bool is_map;
+    bool is_key_next;
+    Size size;
+  };
+
+  [[noreturn]] void complain(const YAML::Mark& mark, const std::string& message) const {
+    throw InputError(place_(mark) + ": " + message);
+  }
+  [[noreturn]] void complain_about_levels(const YAML::Mark& mark) const {
+    complain(mark, fmt::format("nested deeper than {} levels", most_levels));
+  }
+
+  bool is_key_next() const { return !open_.empty() && open_.back().is_key_next; }
+
+  void begin_value(const YAML::Mark& mark, bool is_name) {
+    if (is_key_next() && !is_name) complain(mark, "expected a name as a key");
+    if (open_.size() >= most_levels) complain_about_levels(mark);
+  }
+
+  void end_value(const YAML::Mark& mark, YAML::anchor_t anchor, const Size& size) {
+    if (anchor != YAML::anchor_t{}) sizes_[anchor] = size;
+    if (open_.empty()) return;
+    Open& parent = open_.back();
+    parent.is_key_next = parent.is_map && !parent.is_key_next;
+    parent.size.values += size.values;
+    parent.size.levels = std::max(parent.size.levels, size.levels + 1);
+    if (parent.size.values > most_values) {
+      complain(mark, fmt::format("more than {} values, aliases expanded", most_values));
+    }
+  }
+
+  void open(const YAML::Mark& mark, YAML::anchor_t anchor, bool is_map) {
+    begin_value(mark, false);
+    open_.push_back({mark, anchor, is_map, is_map, {}});
+  }
+
+  void close() {
+    const Open ended = open_.back();
+    open_.pop_back();
+    end_value(ended.mark, ended.anchor, ended.size);
+  }
+
+  const MarkFormatter& place_;
+  bool has_document_ = false;
+  std::vector<Open> open_;
+  std::map<YAML::anchor_t, Size> sizes_;  ///< of the anchored values
+};
+
+/// Checks a YAML text before it becomes a node tree. The tree of a valid text has no cycles and a
+/// limited size. Errors: `InputError`, which begins with the result of `place` for the mark, for
+/// - bytes that are not UTF-8, and a second document;
+/// - an alias inside the value that it refers to;
+/// - more than 64 levels or a million values, aliases expanded;
+/// - a key that is not a name;
+/// - a number with a leading zero, such as 010, which some parsers read as octal and others as
+///   decimal. In quotes it is a text.
+/// Malformed YAML throws yaml-cpp's `ParserException`.
+void check_yaml_text(const std::string& text, const MarkFormatter& place) {
+  const std::size_t valid = utf8_size(text);
+  if (valid < text.size()) {
+    throw InputError(fmt::format("{}: not UTF-8: byte 0x{:02x}",
+                                 place(mark_behind(std::string_view(text).substr(0, valid))),
+                                 static_cast<unsigned char>(text[valid])));
+  }
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  Checker checker(place);
+  while (parser.HandleNextDocument(checker)) {
+  }
+}
 
 /// Rejects duplicate keys: yaml-cpp silently keeps the first and ignores the second.
 void refuse_duplicate_keys(const YAML::Node& node, const std::string& name) {
@@ -77,6 +247,22 @@ YAML::Node descend(YAML::Node parent, const std::string& key, std::string_view a
 }
 
 }  // namespace
+
+bool has_leading_zero(std::string_view number) {
+  if (number.starts_with('-') || number.starts_with('+')) number.remove_prefix(1);
+  return number.size() > 1 && number.starts_with('0') &&
+         std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+std::size_t utf8_size(std::string_view text) {
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t size = character_size(text.substr(at));
+    if (size == 0) break;
+    at += size;
+  }
+  return at;
+}
 
 YamlDocument YamlDocument::load(const std::filesystem::path& path) {
   return parse(read_file(path), path.string());

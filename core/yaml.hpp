@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -10,6 +11,12 @@
 #include "core/error.hpp"
 
 namespace touchdown {
+
+/// The number of bytes of the longest valid UTF-8 prefix; all bytes if the whole text is valid.
+std::size_t utf8_size(std::string_view text);
+
+/// Whether a text is a whole number with a leading zero, which some parsers read as octal.
+bool has_leading_zero(std::string_view number);
 
 /// A YAML document with the name of its file, so that every error names `file:line:column`.
 /// Overrides (`--set a.b=c`) are applied before any value is read.

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/file_names.hpp"
 #include "core/files.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/run_directory/own_files.hpp"

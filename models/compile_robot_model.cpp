@@ -5,21 +5,15 @@
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
-#include "models/contract/conventions.hpp"
-#include "models/contract/held.hpp"
-#include "models/contract/servos.hpp"
-#include "models/contract/stance.hpp"
-#include "models/contract/tyres.hpp"
-#include "models/mjcf/assets.hpp"
+#include "models/contract.hpp"
 #include "models/mjcf/compiler.hpp"
 #include "models/mjcf/parts.hpp"
-#include "models/mjcf/robot_only.hpp"
-#include "models/mjcf/scene.hpp"
-#include "models/mjcf/urdf.hpp"
+#include "models/mjcf/robot_file.hpp"
 #include "models/resizing.hpp"
 #include "models/robot_description.hpp"
 #include "models/robot_model.hpp"
-#include "models/terrain_mjcf.hpp"
+#include "models/scene_mjcf.hpp"
+#include "models/stance.hpp"
 
 namespace touchdown::models {
 namespace {
@@ -71,8 +65,7 @@ RobotFile robot_file(const RobotDescription& description, const RobotKeys& keys)
 }
 
 MjModelPtr compile(const RobotFile& robot, const Terrain& terrain) {
-  return compile_xml(robot.document.text(scene_mjcf + terrain_mjcf(terrain)),
-                     robot.document.file());
+  return compile_xml(robot.document.text(scene_mjcf(terrain)), robot.document.file());
 }
 
 /// Sets the actuators of the robot's file in the model. MuJoCo simulates the rotor inertia; the

@@ -37,7 +37,7 @@ struct HeldJoint {
 ///
 /// Any robot works if its file keeps the contract of docs/guides/robots.md, or if a YAML file names
 /// its parts. The model follows touchdown's conventions for axes, signs and zeros, whatever those
-/// of the file (models/contract/conventions.hpp).
+/// of the file (models/contract.hpp).
 struct RobotModel {
   MjModelPtr mj;
   std::string name;  ///< the MJCF's model name

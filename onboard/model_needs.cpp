@@ -33,8 +33,7 @@ NpzNeeds model_needs(const std::filesystem::path& path) {
     belongs = [](std::string_view /*name*/) { return true; };
   }
   return [belongs](std::string_view name) {
-    const bool is_metadata = name == metadata_array || name == former_metadata_array;
-    return is_metadata || belongs(name) ? any_array(name) : 0;
+    return name == metadata_array || belongs(name) ? any_array(name) : 0;
   };
 }
 

@@ -5,8 +5,7 @@
 #include <utility>
 
 #include "models/robot.hpp"
-#include "policies/crouching.hpp"
-#include "policies/driving.hpp"
+#include "policies/commands.hpp"
 
 namespace touchdown::policies {
 

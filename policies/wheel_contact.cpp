@@ -44,7 +44,6 @@ void describe(Fields& fields, PolicyConfig& policy) {
               {"upkie_observer", "always", "free_fall", "support_force", "truth", "script"},
               policy.contact)
       .doc("Contact source of the law; `truth` is an oracle, `script` repeats recorded contact.");
-  fields.renamed("late", "delay");
   fields("delay", policy.delay, 0.0, 1.0).doc("s", "Delay of the contact signal.");
   fields.list_if_any("contact_script", policy.contact_script, policy.contact_script)
       .doc("Recorded contact for `contact: script`.");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <pybind11/numpy.h>
@@ -8,6 +9,8 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "estimator/contact_estimator.hpp"
 
 namespace touchdown::python {
 
@@ -107,5 +110,19 @@ class ArrayMap {
   std::string what_;
   std::optional<std::size_t> steps_;
 };
+
+/// Arrays that view beliefs by step: `p_contact` and `contact` (left and right wheel),
+/// `p_any_wheel`, `p_both_wheels`, `status` (its number).
+py::dict arrays_of(std::vector<Belief> beliefs);
+
+/// The inverse. `given` holds such arrays (`p_contact` or `contact` suffices), or is one array of
+/// probabilities or decisions, per wheel or for the robot. By default, contact is p ≥ 0.5 and the
+/// wheels are independent. `source` names the estimator in error messages.
+/// Errors: `InputError` for other shapes, and for numbers that are no probabilities.
+std::vector<Belief> beliefs_of(const py::object& given, std::size_t steps,
+                               const std::string& source);
+
+/// Errors: `InputError` for what Python accepts in a path and no system does, such as "a\0".
+std::filesystem::path path_of(const py::object& object);
 
 }  // namespace touchdown::python

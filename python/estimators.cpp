@@ -1,8 +1,5 @@
-#include "python/estimators.hpp"
-
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
-#include <sstream>
 
 #include <fmt/format.h>
 
@@ -10,15 +7,11 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/logs/estimator.hpp"
 #include "experiments/logs/fit.hpp"
-#include "experiments/logs/log_steps.hpp"
-#include "python/belief_arrays.hpp"
+#include "python/arrays.hpp"
 #include "python/long_call.hpp"
+#include "python/module.hpp"
 #include "python/recording_arrays.hpp"
 #include "python/signal_arrays.hpp"
-#include "python/spine.hpp"
-#include "recordings/log/byte_source.hpp"
-#include "recordings/log/writer.hpp"
-#include "recordings/mapping/mapped_log.hpp"
 #include "recordings/sample_times.hpp"
 #include "recordings/signals_from.hpp"
 
@@ -42,28 +35,6 @@ struct Model {
     experiments::write_fitted_model(estimator.model, path);
   }
 };
-
-std::shared_ptr<const std::string> records_of(const py::object& recording) {
-  const recordings::Recording whole =
-      recording_of(recording, recording.attr("info").cast<py::dict>());
-  std::ostringstream stream;
-  recordings::LogWriter writer(stream, whole.info, recordings::truth_of(whole));
-  for (std::size_t k = 0; k < whole.steps(); ++k) {
-    writer.write(whole.observation[k], whole.action[k],
-                 whole.truth.empty() ? nullptr : &whole.truth[k]);
-  }
-  writer.finish();
-  return std::make_shared<const std::string>(stream.str());
-}
-
-/// Errors: `InputError` for what Python accepts in a path and no system does, such as "a\0".
-fs::path path_of(const py::object& object) {
-  try {
-    return object.cast<fs::path>();
-  } catch (const py::cast_error&) {
-    throw InputError(fmt::format("{}: expected a path", py::repr(object).cast<std::string>()));
-  }
-}
 
 using DeclaredRun = std::pair<py::object, std::optional<bool>>;
 
@@ -119,39 +90,6 @@ SignalNeeds needs_of(const experiments::EstimatorEntry& entry) {
           .angular_velocity = is_neural || uses_motion,
           .acceleration_vector = is_neural,
           .command = is_neural};
-}
-
-/// What is implausible about a recording in memory, or about a log by path, which a mapping file
-/// may convert.
-std::vector<std::string> check(const py::object& log, const std::string& robot,
-                               const std::optional<fs::path>& mapping) {
-  const bool in_memory = py::hasattr(log, "info");
-  if (in_memory && mapping) throw InputError("check: mapping is for logs by path");
-  const auto records = in_memory ? records_of(log) : nullptr;
-  const fs::path path = in_memory ? fs::path("recording") : path_of(log);
-  return long_call([&](const std::atomic<bool>& stop) {
-    std::optional<recordings::MappedLog> mapped;
-    if (mapping) {
-      mapped.emplace(path, *mapping, [&] {
-        if (stop) throw Stopped("stopped");
-      });
-    }
-    recordings::LogReader reader(
-        in_memory ? recordings::memory_source(records, &stop)
-                  : recordings::file_source(mapped ? mapped->path() : path, &stop),
-        path.string());
-    experiments::LogSteps steps(
-        reader, nullptr,
-        experiments::checked_robot(experiments::robot_of_file(robot), reader.info()));
-    while (steps.next() != nullptr) {
-    }
-    std::vector<std::string> lines;
-    if (mapped) lines = mapped->warnings();
-    lines.insert(lines.end(), reader.warnings().begin(), reader.warnings().end());
-    const std::vector<std::string> findings = steps.findings();
-    lines.insert(lines.end(), findings.begin(), findings.end());
-    return lines;
-  });
 }
 
 /// A running estimator. Only one thread at a time may use it, because `run` releases Python's lock.
@@ -403,7 +341,6 @@ void add_estimators(py::module_& module) {
   add_model(module);
   add_estimator(module);
   module.def("estimators", &estimators);
-  module.def("check", &check, py::arg("log"), py::arg("robot"), py::arg("mapping"));
 }
 
 }  // namespace touchdown::python

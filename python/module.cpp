@@ -1,13 +1,12 @@
 // The module `touchdown._touchdown`; touchdown/__init__.py exports its public part.
+#include "python/module.hpp"
+
 #include <exception>
 #include <pybind11/pybind11.h>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/terminal_text.hpp"
-#include "python/estimators.hpp"
-#include "python/experiments.hpp"
-#include "python/runs.hpp"
 
 PYBIND11_MODULE(_touchdown, module) {
   namespace py = pybind11;

@@ -1,5 +1,3 @@
-#include "python/runs.hpp"
-
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -11,16 +9,19 @@
 #include "core/error.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"
-#include "python/belief_arrays.hpp"
+#include "experiments/logs/log_steps.hpp"
+#include "experiments/logs/robot.hpp"
+#include "python/arrays.hpp"
 #include "python/long_call.hpp"
+#include "python/module.hpp"
 #include "python/recording_arrays.hpp"
 #include "recordings/log/byte_source.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "recordings/mapping/mapped_log.hpp"
 #include "scenarios/engine.hpp"
-#include "scenarios/generation/named.hpp"
+#include "scenarios/generation/generate.hpp"
 #include "scenarios/scenario_file.hpp"
-#include "scoring/metrics.hpp"
+#include "scoring/score.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::python {
@@ -131,6 +132,39 @@ py::dict score(const py::object& given_beliefs, const py::object& truth, double 
   return views;
 }
 
+/// What is implausible about a recording in memory, or about a log by path, which a mapping file
+/// may convert.
+std::vector<std::string> check(const py::object& log, const std::string& robot,
+                               const std::optional<fs::path>& mapping) {
+  const bool in_memory = py::hasattr(log, "info");
+  if (in_memory && mapping) throw InputError("check: mapping is for logs by path");
+  const auto records = in_memory ? records_of(log) : nullptr;
+  const fs::path path = in_memory ? fs::path("recording") : path_of(log);
+  return long_call([&](const std::atomic<bool>& stop) {
+    std::optional<recordings::MappedLog> mapped;
+    if (mapping) {
+      mapped.emplace(path, *mapping, [&] {
+        if (stop) throw Stopped("stopped");
+      });
+    }
+    recordings::LogReader reader(
+        in_memory ? recordings::memory_source(records, &stop)
+                  : recordings::file_source(mapped ? mapped->path() : path, &stop),
+        path.string());
+    experiments::LogSteps steps(
+        reader, nullptr,
+        experiments::checked_robot(experiments::robot_of_file(robot), reader.info()));
+    while (steps.next() != nullptr) {
+    }
+    std::vector<std::string> lines;
+    if (mapped) lines = mapped->warnings();
+    lines.insert(lines.end(), reader.warnings().begin(), reader.warnings().end());
+    const std::vector<std::string> findings = steps.findings();
+    lines.insert(lines.end(), findings.begin(), findings.end());
+    return lines;
+  });
+}
+
 }  // namespace
 
 void add_runs(py::module_& module) {
@@ -139,6 +173,7 @@ void add_runs(py::module_& module) {
              "assignments"_a);
   module.def("load", &load, "path"_a, "mapping"_a);
   module.def("save", &save, "arrays"_a, "info"_a, "path"_a);
+  module.def("check", &check, "log"_a, "robot"_a, "mapping"_a);
   module.def("find_resource", &find_resource, "path"_a);
   module.def("simulators", [] { return simulators::simulator_names(); });
   module.def(

@@ -128,9 +128,6 @@ SignalArrays::SignalArrays(const py::object& arrays, const SignalNeeds& needs, G
   for (std::size_t i = 0; i < target_.size(); ++i) {
     target_[i] = column(target_arrays[i].name, joint_count, false);
   }
-  if (map_.has("heard")) {
-    throw InputError("signals: 'heard' was renamed: expected 'has_record'");
-  }
   if (map_.has("has_record")) has_record_.emplace(map_.column("has_record"));
   has_layout_of_signals_ =
       position_ && velocity_ && torque_ && have_layout_of_signals(*position_, *velocity_, *torque_);

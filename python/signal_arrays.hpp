@@ -33,7 +33,7 @@ enum class GravityIn : int {
 /// `target_velocity`, `target_torque`, `target_kp`, `target_kd`.
 class SignalArrays {
  public:
-  /// Errors: `InputError` for arrays that are needed and missing, renamed or have another shape.
+  /// Errors: `InputError` for arrays that are needed and missing or have another shape.
   SignalArrays(const py::object& arrays, const SignalNeeds& needs, GravityIn gravity);
 
   std::size_t steps() const { return map_.steps(); }

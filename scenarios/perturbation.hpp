@@ -3,8 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "policies/crouching.hpp"
-#include "policies/driving.hpp"
+#include "policies/commands.hpp"
 #include "policies/forces.hpp"
 
 namespace touchdown::scenarios {

@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "core/keys/key.hpp"
+#include "core/key.hpp"
 #include "core/yaml.hpp"
 #include "models/robot_description.hpp"
 #include "models/terrain.hpp"
-#include "policies/crouching.hpp"
-#include "policies/driving.hpp"
+#include "policies/commands.hpp"
 #include "policies/forces.hpp"
 #include "policies/wheel_contact.hpp"
+#include "recordings/recording.hpp"
 #include "scenarios/perturbation.hpp"
 #include "simulators/options.hpp"
 
@@ -96,5 +96,12 @@ inline constexpr double least_bend = 0.03;
 /// The scenario of run `run`: the quantities of `perturbation` are drawn from (seed, run). Each has
 /// its own stream, so adding one changes no other. No draw bends knees backwards.
 Scenario perturbed(const Scenario& scenario, std::uint64_t seed, std::int64_t run);
+
+/// An outcome in running text: "timed out", "left the terrain".
+std::string outcome_text(recordings::Outcome outcome);
+
+/// How and when a run ended, and why if it ended early: "finished after 27.552 s", "fell after
+/// 1.048 s: pitch beyond 1 rad". `end` holds the limits of the run's scenario.
+std::string ending_text(const recordings::Recording& recording, const End& end);
 
 }  // namespace touchdown::scenarios

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/keys/key.hpp"
+#include "core/key.hpp"
 #include "core/yaml.hpp"
 #include "scenarios/scenario.hpp"
 
@@ -19,5 +19,14 @@ Scenario complete_scenario(const YamlDocument& document);
 
 /// The keys of a YAML file about a robot, those that its balancer reads included.
 std::vector<Key> robot_keys();
+
+/// The number under a dotted key of a scenario, with list items by index:
+/// `terrain.pieces.1.stairs.rise`. NaN if there is no such number.
+double number_at(const Scenario& scenario, const std::string& key);
+
+/// The scenario with another number under that key. Errors: `InputError` for an unknown key or a
+/// number out of range, reported for a scenario file called `name`.
+Scenario varied(const Scenario& scenario, const std::string& key, double value,
+                const std::string& name);
 
 }  // namespace touchdown::scenarios

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "models/contract/stance.hpp"
 #include "models/profile.hpp"
+#include "models/stance.hpp"
 
 namespace touchdown::scenarios {
 

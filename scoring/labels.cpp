@@ -45,10 +45,8 @@ ContactSequence combined(const std::array<ContactSequence, models::wheel_count>&
 void describe(Fields& fields, Annotator& annotator) {
   fields("frame", annotator.frame, 0.0, 1.0)
       .doc("s", "Time between the film's frames; 0: the annotator sees every step.");
-  fields.renamed("takeoffs_late", "takeoff_delay");
   fields("takeoff_delay", annotator.takeoff_delay, -1.0, 1.0)
       .doc("s", "Marked minus true time of takeoffs; negative: early.");
-  fields.renamed("landings_late", "landing_delay");
   fields("landing_delay", annotator.landing_delay, -1.0, 1.0)
       .doc("s", "Marked minus true time of landings; negative: early.");
 }

@@ -1,18 +1,77 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "estimator/contact_estimator.hpp"
-#include "scoring/calibration.hpp"
 #include "scoring/classification.hpp"
 #include "scoring/labels.hpp"
 #include "scoring/transitions.hpp"
 
 namespace touchdown::scoring {
+
+/// Calibration of the probability of contact: the Brier score and the reliability curve of
+/// docs/reference/metrics.md, "Calibration". All members are sums over steps, so they add.
+struct Calibration {
+  static constexpr std::size_t bins = 10;
+
+  /// Steps with a probability in [b/10, (b+1)/10); the last bin is closed.
+  struct Bin {
+    std::int64_t points = 0;
+    std::int64_t contact = 0;
+    double probability_sum = 0.0;
+
+    double mean_probability() const { return probability_sum / static_cast<double>(points); }
+    double contact_frequency() const {
+      return static_cast<double>(contact) / static_cast<double>(points);
+    }
+  };
+
+  std::array<Bin, bins> bin;
+  double squared_error = 0.0;
+  std::int64_t points = 0;
+
+  void add(bool truth, double p_contact) {
+    const double error = p_contact - (truth ? 1.0 : 0.0);
+    squared_error += error * error;
+    points += 1;
+    const auto b = std::min(static_cast<std::size_t>(std::max(p_contact, 0.0) * bins), bins - 1);
+    bin[b].points += 1;
+    bin[b].contact += truth ? 1 : 0;
+    bin[b].probability_sum += p_contact;
+  }
+
+  Calibration& operator+=(const Calibration& other) {
+    for (std::size_t b = 0; b < bins; ++b) {
+      bin[b].points += other.bin[b].points;
+      bin[b].contact += other.bin[b].contact;
+      bin[b].probability_sum += other.bin[b].probability_sum;
+    }
+    squared_error += other.squared_error;
+    points += other.points;
+    return *this;
+  }
+
+  /// Expected calibration error: mean |mean probability − share of contact| over the bins, weighted
+  /// by their points; NaN without points.
+  double expected_error() const {
+    double sum = 0.0;
+    for (const Bin& b : bin) {
+      if (b.points > 0) sum += std::abs(b.probability_sum - static_cast<double>(b.contact));
+    }
+    return sum / static_cast<double>(points);
+  }
+
+  /// Mean squared error of the probability; NaN without points.
+  double brier() const { return squared_error / static_cast<double>(points); }
+};
 
 /// An estimator's output for one view (a wheel, or both combined), one entry per step.
 struct Track {
@@ -89,5 +148,56 @@ std::vector<RobotScore> score(const std::array<ContactSequence, models::wheel_co
                               const Prediction& prediction,
                               const std::vector<std::size_t>& segments, std::int64_t period_us,
                               const ScoringConfig& config);
+
+/// `score` of a whole run for beliefs and forces that arrive one by one, with a memory that does
+/// not grow with the run. The run is scored in segments. Each ends where truth and decisions have
+/// been constant for longer than every window of docs/reference/metrics.md, so the sum is the score
+/// of the run. (Without such a place for five minutes, the segment ends anyway, and an event near
+/// its end is not counted.)
+class ScoreStream {
+ public:
+  ScoreStream(std::int64_t period_us, const LabelConfig& labels, const ScoringConfig& scoring);
+
+  /// Adds one step: normal force on both wheels (N) and the belief.
+  void add(const std::array<double, models::wheel_count>& normal_force, const Belief& belief);
+
+  /// Ends the run and returns its score.
+  RobotScore finish();
+
+ private:
+  void cut_if_quiet();
+  void score_until(std::size_t end);
+
+  std::int64_t period_us_;
+  ScoringConfig scoring_;
+  std::size_t margin_;
+  std::size_t next_attempt_;
+  std::size_t retry_after_;
+  std::size_t longest_;
+  std::array<LabelStream, models::wheel_count> labels_;
+  std::array<ContactSequence, models::wheel_count>
+      truth_;              ///< of the current segment, as far as it is known
+  Prediction prediction_;  ///< of the current segment
+  RobotScore total_;
+};
+
+/// A number computed from a score; NaN where it is not defined. docs/reference/metrics.md defines
+/// the counts.
+struct Metric {
+  std::string name;  ///< as in a CSV header, unit last
+  std::function<double(const Score&)> of;
+  /// The number of events in the denominator, if the metric is a share of events.
+  std::function<std::int64_t(const Score&)> events = {};
+};
+
+/// All metrics, in the order of the tables: classification, transitions, latency, calibration.
+const std::vector<Metric>& metrics();
+/// Index of the metric with this name. Errors: `InputError` naming the nearest one.
+std::size_t metric_index(std::string_view name);
+
+/// Names of the views that are scored: both wheels pooled, then the views of `RobotScore`.
+const std::vector<std::string>& scored_views();
+/// The score of a view, by its index in `scored_views()`.
+Score score_of_view(const RobotScore& robot, std::size_t view);
 
 }  // namespace touchdown::scoring

@@ -3,9 +3,30 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulators/servo.hpp"
-
 namespace touchdown::simulators {
+
+JointFriction::JointFriction(const models::Actuator& actuator, double inertia, double period)
+    : limit_(actuator.friction),
+      // The limit keeps the spring's oscillation with the joint's inertia below 0.5 rad per step.
+      stiffness_(std::min(actuator.presliding_stiffness, 0.25 * inertia / (period * period))),
+      damping_(2.0 * std::sqrt(stiffness_ * inertia)) {}
+
+double JointFriction::torque(double position, double velocity) {
+  torque_ = std::clamp(torque_ + stiffness_ * (position - position_), -limit_, limit_);
+  position_ = position;
+  return std::clamp(torque_ + damping_ * velocity, -limit_, limit_);
+}
+
+double servo_torque(const models::ServoCommand& command, double position, double velocity,
+                    double effort) {
+  double torque = command.feedforward_torque +
+                  models::servo_kd * command.kd_scale * (command.velocity - velocity);
+  if (!std::isnan(command.position)) {
+    torque += models::servo_kp * command.kp_scale * (command.position - position);
+  }
+  const double limit = std::max(0.0, std::min(command.maximum_torque, effort));
+  return std::clamp(torque, -limit, limit);
+}
 
 Actuators::Actuators(const models::RobotModel& model, const StepSizes& steps)
     : ideal_(std::all_of(model.actuator.begin(), model.actuator.end(),
@@ -70,6 +91,37 @@ Actuators::Torques Actuators::step(const models::Action& action, const JointTorq
   }
   started_ = true;
   return torques;
+}
+
+HeldServos::HeldServos(const models::RobotModel& model, const StepSizes& steps)
+    : torques_(model.held.size(), 0.0) {
+  const double period = 1e-6 * static_cast<double>(steps.physics_us);
+  for (const models::HeldJoint& held : model.held) {
+    const double inertia = 1.0 / model.mj->dof_invweight0[held.dof_address];
+    joints_.push_back({.reference = held.reference,
+                       .kp = std::min(held.kp, 0.25 * inertia / (period * period)),
+                       .kd = std::min(held.kd, 0.5 * inertia / period),
+                       .effort = held.effort,
+                       .viscous = std::min(held.actuator.viscous, 0.5 * inertia / period),
+                       .friction = JointFriction(held.actuator, inertia, period)});
+  }
+}
+
+void HeldServos::reset() {
+  started_ = false;
+  std::fill(torques_.begin(), torques_.end(), 0.0);
+  for (Joint& joint : joints_) joint.friction.reset();
+}
+
+void HeldServos::step(std::span<const double> position, std::span<const double> velocity) {
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    Joint& joint = joints_[i];
+    if (!started_) joint.friction.start_at(position[i]);
+    const double servo = joint.kp * (joint.reference - position[i]) - joint.kd * velocity[i];
+    torques_[i] = std::clamp(servo, -joint.effort, joint.effort) -
+                  joint.friction.torque(position[i], velocity[i]) - joint.viscous * velocity[i];
+  }
+  started_ = true;
 }
 
 }  // namespace touchdown::simulators

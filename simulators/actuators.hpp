@@ -2,13 +2,44 @@
 
 #include <array>
 #include <deque>
+#include <span>
+#include <vector>
 
+#include "models/actuator.hpp"
 #include "models/robot.hpp"
 #include "models/robot_model.hpp"
-#include "simulators/friction.hpp"
 #include "simulators/options.hpp"
 
 namespace touchdown::simulators {
+
+/// Coulomb friction of a joint, with elastic presliding (models/actuator.hpp).
+class JointFriction {
+ public:
+  JointFriction() = default;  ///< without friction
+  /// `inertia`: apparent inertia of the joint (kg·m²); `period`: physics step (s).
+  JointFriction(const models::Actuator& actuator, double inertia, double period);
+
+  /// Relaxes the presliding spring.
+  void reset() { torque_ = 0.0; }
+  /// The position at which the joint starts (rad).
+  void start_at(double position) { position_ = position; }
+  /// The torque that opposes the joint at `position` (rad) with `velocity` (rad/s), in N·m.
+  double torque(double position, double velocity);
+
+ private:
+  double limit_ = 0.0;      ///< N·m
+  double stiffness_ = 0.0;  ///< of presliding, limited by the time step (N·m/rad)
+  double damping_ = 0.0;    ///< of presliding, critical (N·m·s/rad)
+  double torque_ = 0.0;     ///< of the presliding spring (N·m)
+  double position_ = 0.0;   ///< at the last step (rad)
+};
+
+/// The torque that a moteus-like servo applies to its joint (N·m):
+///     clamp(feedforward + kd·kd_scale·(ω* − ω) + kp·kp_scale·(q* − q), ± limit),
+/// where a NaN target position q* drops the position term and the limit is the smaller of the
+/// command's maximum torque and the motor's effort.
+double servo_torque(const models::ServoCommand& command, double position, double velocity,
+                    double effort);
 
 /// One number per joint, in servo order.
 using JointTorques = std::array<double, models::servo_count>;
@@ -56,6 +87,36 @@ class Actuators {
   std::size_t longest_delay_ = 0;
   std::deque<models::Action> commands_;  ///< the last ones, oldest first
   models::Action executed_;
+};
+
+/// The servos of held joints (models/robot_model.hpp), the same in every engine. Gains are limited
+/// by the time step and the joint's inertia.
+class HeldServos {
+ public:
+  HeldServos(const models::RobotModel& model, const StepSizes& steps);
+
+  /// Clears the friction's state and the torques.
+  void reset();
+
+  /// Computes the torques of one physics step, at these positions (rad) and velocities (rad/s).
+  void step(std::span<const double> position, std::span<const double> velocity);
+
+  /// Torque of the last step on each joint (N·m).
+  std::span<const double> torques() const { return torques_; }
+
+ private:
+  struct Joint {
+    double reference = 0.0;
+    double kp = 0.0;
+    double kd = 0.0;
+    double effort = 0.0;
+    double viscous = 0.0;
+    JointFriction friction;
+  };
+
+  std::vector<Joint> joints_;
+  std::vector<double> torques_;
+  bool started_ = false;
 };
 
 }  // namespace touchdown::simulators

@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "core/yaml.hpp"
-#include "simulators/bullet/simulator.hpp"
+#include "simulators/bullet_simulator.hpp"
 #include "simulators/mujoco_simulator.hpp"
 
 namespace touchdown::simulators {

@@ -13,7 +13,6 @@
 #include "models/robot.hpp"
 #include "models/robot_model.hpp"
 #include "simulators/actuators.hpp"
-#include "simulators/held_servos.hpp"
 #include "simulators/options.hpp"
 
 namespace touchdown::simulators {

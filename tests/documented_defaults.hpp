@@ -7,7 +7,7 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include "core/keys/key.hpp"
+#include "core/key.hpp"
 
 namespace touchdown::tests {
 

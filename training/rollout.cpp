@@ -10,11 +10,11 @@
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "estimator/neural/input.hpp"
+#include "noise/reported_signals.hpp"
 #include "noise/sensor_noise.hpp"
-#include "noise/sensors/reported.hpp"
 #include "recordings/signals_from.hpp"
 #include "scenarios/engine.hpp"
-#include "scenarios/generation/named.hpp"
+#include "scenarios/generation/generate.hpp"
 
 namespace touchdown::training {
 

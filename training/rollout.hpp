@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "noise/sensors/profile.hpp"
+#include "noise/sensor_profile.hpp"
 #include "scenarios/scenario.hpp"
 #include "training/config/training.hpp"
 

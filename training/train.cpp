@@ -1,6 +1,9 @@
 #include "training/train.hpp"
 
 #include <chrono>
+#include <cmath>
+#include <dlfcn.h>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <torch/version.h>
@@ -14,17 +17,58 @@
 #include "core/files.hpp"
 #include "core/fingerprint.hpp"
 #include "core/progress.hpp"
+#include "core/random.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_directory/owner.hpp"
 #include "recordings/models/neural_network.hpp"
-#include "training/blas.hpp"
-#include "training/initial_weights.hpp"
 #include "training/rollout.hpp"
 
 namespace touchdown::training {
 
 namespace {
+
+constexpr std::uint64_t weights_stream = 0x77656967687473;  // "weights"
+
+/// Draws uniform weights, layer by layer, from one stream.
+class UniformWeights {
+ public:
+  explicit UniformWeights(std::uint64_t seed) : seed_(seed) {}
+
+  DenseLayer layer(Eigen::Index outputs, Eigen::Index inputs, Eigen::Index fan) {
+    const double bound = 1.0 / std::sqrt(static_cast<double>(fan));
+    DenseLayer dense{Eigen::MatrixXf(outputs, inputs), Eigen::VectorXf(outputs)};
+    for (float& weight : dense.weight.reshaped()) weight = draw(bound);
+    for (float& bias : dense.bias) bias = draw(bound);
+    return dense;
+  }
+
+ private:
+  float draw(double bound) {
+    return static_cast<float>(bound * (2.0 * uniform01(seed_, weights_stream, drawn_++) - 1.0));
+  }
+
+  std::uint64_t seed_;
+  std::uint64_t drawn_ = 0;
+};
+
+void standardise(NeuralNetwork& network, const std::vector<float>& inputs) {
+  using Rows = Eigen::Matrix<float, Eigen::Dynamic, neural_input_count, Eigen::RowMajor>;
+  const Eigen::Map<const Rows> rows(inputs.data(),
+                                    static_cast<Eigen::Index>(inputs.size()) / neural_input_count,
+                                    neural_input_count);
+  const Eigen::Matrix<double, 1, neural_input_count> mean = rows.cast<double>().colwise().mean();
+  const Eigen::Matrix<double, 1, neural_input_count> deviation =
+      (rows.cast<double>().rowwise() - mean).colwise().squaredNorm().cwiseSqrt() /
+      std::sqrt(static_cast<double>(rows.rows()));
+  constexpr double constant = 1e-6;
+  network.input_mean = mean.transpose().cast<float>();
+  network.input_scale = (deviation.array() > constant)
+                            .select(deviation.array().inverse(), 1.0)
+                            .transpose()
+                            .matrix()
+                            .cast<float>();
+}
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
@@ -241,6 +285,47 @@ class TrainingSession {
 };
 
 }  // namespace
+
+NeuralNetwork initial_network(const NetworkSize& size, std::uint64_t seed, const EpisodeBatch& data,
+                              double period) {
+  NeuralNetwork network;
+  network.period = period;
+  standardise(network, data.input);
+  UniformWeights weights(seed);
+  const Eigen::Index hidden = size.hidden;
+  network.gru_input = weights.layer(3 * hidden, neural_input_count, hidden);
+  network.gru_hidden = weights.layer(3 * hidden, hidden, hidden);
+  network.first = weights.layer(size.first, hidden, hidden);
+  network.second = weights.layer(size.second, size.first, size.first);
+  network.heads = weights.layer(neural_output_count, size.second, size.second);
+  return network;
+}
+
+std::string blas_warning(const std::string& library) {
+  const auto has = [&](const char* text) { return library.find(text) != std::string::npos; };
+  constexpr const char* advice =
+      "install the package libopenblas0-openmp, or choose it with "
+      "'update-alternatives --config libblas.so.3-x86_64-linux-gnu'";
+  if (has("/blas/libblas")) {
+    return fmt::format(
+        "libtorch uses the reference BLAS ({}): training will take about twenty times as long; {}",
+        library, advice);
+  }
+  if (has("openblas-pthread") || has("openblas-serial")) {
+    return fmt::format("libtorch uses {}, which does not share its threads with libtorch; {}",
+                       library, advice);
+  }
+  return "";
+}
+
+std::string blas_in_use() {
+  void* const symbol = ::dlsym(RTLD_DEFAULT, "sgemm_");
+  Dl_info info = {};
+  if (symbol == nullptr || ::dladdr(symbol, &info) == 0) return {};
+  std::error_code ignored;
+  const auto path = std::filesystem::canonical(info.dli_fname, ignored);
+  return ignored ? info.dli_fname : path.string();
+}
 
 TrainingResult train(const TrainingConfig& config, const TrainingRequest& request) {
   if (const std::string warning = blas_warning(blas_in_use()); !warning.empty()) {

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <thread>
 
+#include "estimator/neural/network.hpp"
 #include "training/config/training.hpp"
 #include "training/history.hpp"
+#include "training/rollout.hpp"
 
 namespace touchdown::training {
 
@@ -42,5 +45,20 @@ struct TrainingResult {
 /// `models/nmn.json`, `tables/training.csv` and `figures/training.png` into the run directory.
 /// Errors: `Stopped`; as `roll_out`.
 TrainingResult train(const TrainingConfig& config, const TrainingRequest& request);
+
+/// The initial network. Weights and biases are uniform within ±1/√n, where n is the hidden size for
+/// the GRU and the number of inputs for the other layers. They depend on the seed only. Inputs are
+/// standardised by the mean and standard deviation of `data`. Inputs that are constant up to
+/// rounding (joints that do not move) are only centred.
+NeuralNetwork initial_network(const NetworkSize& size, std::uint64_t seed, const EpisodeBatch& data,
+                              double period);
+
+/// The BLAS library that the dynamic linker gave to libtorch, links resolved; empty if unknown.
+std::string blas_in_use();
+
+/// A warning with advice about a BLAS library; empty for a good one. libtorch uses it for matrix
+/// products, which dominate training time: Debian's reference BLAS is about twenty times slower
+/// than OpenBLAS.
+std::string blas_warning(const std::string& library);
 
 }  // namespace touchdown::training

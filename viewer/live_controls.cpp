@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "recordings/log/recording_file.hpp"
-#include "scenarios/ending.hpp"
+#include "scenarios/scenario.hpp"
 
 namespace touchdown::viewer {
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "scenarios/ending.hpp"
+#include "scenarios/scenario.hpp"
 #include "viewer/screen/live_plots.hpp"
 
 namespace touchdown::viewer {

@@ -10,16 +10,16 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/progress.hpp"
+#include "core/program.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
-#include "noise/sensors/profile.hpp"
+#include "noise/sensor_profile.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "render/pictures/filmed_run.hpp"
 #include "render/report/subject.hpp"
-#include "scenarios/generation/named.hpp"
+#include "scenarios/generation/generate.hpp"
 #include "scenarios/scenario_file.hpp"
 #include "viewer/screen/live_plots.hpp"
 
@@ -119,9 +119,7 @@ void evaluate(const WatchRequest& request, LoggedRun& run) {
       contact = scoring::debounced(std::move(contact), shortest);
     }
   }
-  for (const std::string& finding : log.findings()) {
-    print_message(fmt::format("touchdown: {}\n", finding));
-  }
+  print_warnings(log.findings());
 }
 
 }  // namespace
@@ -171,9 +169,7 @@ LoggedRun logged_run(const WatchRequest& request, SubjectKind kind) {
   }
   std::vector<std::string> warnings;
   recordings::Recording recording = recordings::read_recording(request.subject, &warnings);
-  for (const std::string& warning : warnings) {
-    print_message(fmt::format("touchdown: {}\n", warning));
-  }
+  print_warnings(warnings);
   models::RobotModel robot = robot_of(recording, request.robot);
   LoggedRun run{.name = fs::path(request.subject).filename().string(),
                 .robot = std::move(robot),

@@ -10,7 +10,7 @@
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/studies/experiment_file.hpp"
-#include "noise/grid.hpp"
+#include "noise/sensor_noise.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 
 namespace touchdown::experiments {

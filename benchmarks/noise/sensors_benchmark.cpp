@@ -6,7 +6,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "noise/sensors/reported.hpp"
+#include "noise/reported_signals.hpp"
 #include "scenarios/engine.hpp"
 
 namespace touchdown::noise {

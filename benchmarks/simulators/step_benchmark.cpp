@@ -10,8 +10,8 @@
 
 #include "scenarios/engine.hpp"
 #include "scenarios/start_pose.hpp"
-#include "simulators/bullet/simulator.hpp"
-#include "simulators/bullet/world.hpp"
+#include "simulators/bullet_simulator.hpp"
+#include "simulators/bullet_world.hpp"
 #include "simulators/mujoco_simulator.hpp"
 
 namespace touchdown::simulators {

@@ -12,7 +12,6 @@
 #include "estimator/decision/filter.hpp"
 #include "estimator/evidence/filter.hpp"
 #include "estimator/models/configuration.hpp"
-#include "estimator/models/former_names.hpp"
 #include "estimator/models/measurement.hpp"
 #include "estimator/models/neural.hpp"
 #include "estimator/models/parameters.hpp"
@@ -175,10 +174,6 @@ std::string listed(const auto& all, const auto& name_of) {
 
 const Recipe& recipe(std::string_view name) {
   if (const Recipe* found = find_recipe(name)) return *found;
-  if (const std::string_view present = present_name(name); !present.empty()) {
-    throw InputError("a model of '" + std::string(name) + "', which is '" + std::string(present) +
-                     "' now: fit it again");
-  }
   throw InputError("no model is fitted for '" + std::string(name) + "': expected one of " +
                    listed(recipes(), [](const Recipe& each) { return each.name; }));
 }

@@ -112,12 +112,7 @@ std::string add_metadata(ModelArrays& arrays, const ModelMetadata& metadata) {
 
 std::optional<ModelMetadata> metadata_of(const ModelArrays& arrays) {
   const auto found = arrays.find(std::string(metadata_array));
-  if (found == arrays.end()) {
-    const std::string former(former_metadata_array);
-    if (!arrays.contains(former)) return {};
-    throw InputError("its array '" + former + "' is now called '" + std::string(metadata_array) +
-                     "': export the model or fit it again");
-  }
+  if (found == arrays.end()) return {};
   const std::string text = text_of_array(found->second, found->first);
   ModelMetadata metadata;
   for (std::size_t begin = 0; begin < text.size();) {

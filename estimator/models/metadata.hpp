@@ -31,9 +31,6 @@ struct ModelMetadata {
 /// throughout), the members of the above, the configuration's keys after "configuration.".
 inline constexpr std::string_view metadata_array = "metadata";
 
-/// The name that this array had in earlier versions.
-inline constexpr std::string_view former_metadata_array = "passport";
-
 /// The array of a grid file that follows from the others. Readers do not need it, and the
 /// fingerprint leaves it out.
 inline constexpr std::string_view derived_array = "P_contact";
@@ -42,9 +39,8 @@ inline constexpr std::string_view derived_array = "P_contact";
 std::string add_metadata(ModelArrays& arrays, const ModelMetadata& metadata);
 
 /// Reads the metadata among a model's arrays; nothing if the file has none, being older or from
-/// another program. Errors: `InputError` for another format or other units, an unknown line,
-/// numbers that do not match the fingerprint, and an array `former_metadata_array` in place of
-/// `metadata_array`.
+/// another program. Errors: `InputError` for another format or other units, an unknown line, and
+/// numbers that do not match the fingerprint.
 std::optional<ModelMetadata> metadata_of(const ModelArrays& arrays);
 
 /// What a program requires of a model. Empty or zero: no requirement, the model decides.

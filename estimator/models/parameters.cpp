@@ -144,8 +144,7 @@ EvidenceModel curves_of(const Parameters& parameters, const std::string& set) {
 }  // namespace
 
 bool is_text_array(std::string_view name) {
-  return name == estimator_array || name == provenance_array || name == metadata_array ||
-         name == former_metadata_array;
+  return name == estimator_array || name == provenance_array || name == metadata_array;
 }
 
 Parameters parameters_of(const ModelArrays& arrays) {

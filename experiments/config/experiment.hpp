@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "core/keys/key.hpp"
+#include "core/key.hpp"
 #include "core/yaml.hpp"
 #include "experiments/config/study_sections.hpp"
 #include "experiments/estimators/entry.hpp"
-#include "noise/grid.hpp"
+#include "noise/sensor_noise.hpp"
 #include "scoring/bootstrap.hpp"
 #include "scoring/labels.hpp"
 #include "scoring/transitions.hpp"

@@ -7,13 +7,13 @@
 #include <fmt/format.h>
 
 #include "core/fields.hpp"
-#include "core/file_names.hpp"
+#include "core/files.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/config/hyperparameter_keys.hpp"
 #include "experiments/config/picture_keys.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "scenarios/generation/named.hpp"
+#include "scenarios/generation/generate.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::experiments {
@@ -63,7 +63,6 @@ static void describe(Fields& fields, TrainingSegments& segments) {
   fields("after", segments.after, 0.0, 1e4).doc("s", "Earliest start of a segment.");
   fields("length", segments.length, 0.01, 1e4)
       .doc("s", "Length of a segment, less if the run ends earlier.");
-  fields.renamed("places", "offsets");
   fields("offsets", segments.offsets, 1, 1000)
       .doc("Number of evenly spaced start times; runs use them in turn.");
 }
@@ -95,7 +94,6 @@ static void describe(Fields& fields, TuningConfig& tuning, const Experiment& exp
 
 static void describe_fit(Fields& fit, Experiment& experiment) {
   describe(fit, experiment.fit);
-  fit.renamed("pieces", "segments");
   fit.list_if_any("segments", experiment.training_segments)
       .doc("Segments of runs: phase models are fitted to these instead, others to both.");
   fit.know("tuning");

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/keys/key.hpp"
+#include "core/key.hpp"
 #include "core/yaml.hpp"
 #include "experiments/config/experiment.hpp"
 

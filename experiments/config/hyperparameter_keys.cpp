@@ -60,7 +60,6 @@ void read_hyperparameters(const std::string& file, Experiment& experiment) {
 
 void describe_hyperparameters(Fields& fields, Experiment& experiment) {
   constexpr const char* key = "hyperparameters";
-  fields.renamed("constants", key);
   fields.know(key);
   auto& of_engines = experiment.engine_hyperparameters;
   if (!fields.present(key, !experiment.hyperparameters.empty() || !of_engines.empty())) return;

@@ -102,8 +102,6 @@ void describe(Fields& fields, VideoConfig& video, const Experiment& experiment) 
   own_estimators(fields, "estimators", experiment, video.estimators)
       .fallback("all of them")
       .doc("Estimators with probabilities shown.");
-  fields.renamed("torque_noise", "noise.torque");
-  fields.renamed("accelerometer_noise", "noise.accelerometer");
   fields.know("noise");
   if (fields.reading() && !fields.documenting()) video.noise = experiment.highlights.front();
   if (fields.present("noise", true)) {

@@ -7,7 +7,6 @@
 
 #include "core/error.hpp"
 #include "core/yaml.hpp"
-#include "estimator/models/former_names.hpp"
 #include "experiments/estimators/boosting.hpp"
 #include "experiments/estimators/decision.hpp"
 #include "experiments/estimators/filters.hpp"
@@ -69,9 +68,6 @@ const EstimatorEntry& estimator_entry(std::string_view name,
                                       std::span<const EstimatorEntry> external) {
   if (const EstimatorEntry* own = find(estimator_entries(), name)) return *own;
   if (const EstimatorEntry* entry = find(external, name)) return *entry;
-  if (const std::string_view present = present_name(name); !present.empty()) {
-    throw InputError(fmt::format("unknown estimator '{}': it is '{}' now", name, present));
-  }
   const std::vector<std::string> names = estimator_names(external);
   const std::string near = nearest(name, names);
   throw InputError(fmt::format("unknown estimator '{}': expected one of {}{}", name,

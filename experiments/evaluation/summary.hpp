@@ -8,7 +8,7 @@
 #include "experiments/evaluation/tasks.hpp"
 #include "experiments/plan/condition.hpp"
 #include "scoring/bootstrap.hpp"
-#include "scoring/metrics.hpp"
+#include "scoring/score.hpp"
 
 namespace touchdown::experiments {
 

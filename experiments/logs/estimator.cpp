@@ -130,16 +130,6 @@ std::string LogEstimator::model_text() const {
                      robot_text(metadata.robot), metadata.fingerprint);
 }
 
-std::filesystem::path find_model(const std::filesystem::path& path) {
-  try {
-    return find_resource(path);
-  } catch (const InputError& error) {
-    if (path.filename() != "touchdown.npz") throw;
-    throw InputError(
-        fmt::format("{} (the shipped model is '{}' now)", error.what(), shipped_file("shipped")));
-  }
-}
-
 LogEstimator log_estimator(LogEstimatorRequest request) {
   const bool is_shipped = request.name.empty() || request.name.starts_with("shipped");
   if (is_shipped && request.model.empty()) {
@@ -160,7 +150,7 @@ LogEstimator log_estimator(LogEstimatorRequest request) {
     check_names(request.hyperparameters, entry);
     return {with_hyperparameters(entry, request.hyperparameters), none, request};
   }
-  request.model = find_model(request.model);
+  request.model = find_resource(request.model);
   const ModelKind kind = kind_of_model_file(request.model);
   FittedModel model = read_fitted_model(kind, request.model);
   const EstimatorEntry& entry =

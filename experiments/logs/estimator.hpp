@@ -22,10 +22,6 @@ struct LogEstimatorRequest {
   HyperparameterValues hyperparameters = {};  ///< replace the model's; none that the fit uses
 };
 
-/// The file of a model, which may be one of the project's own (core/resources.hpp). Errors:
-/// `InputError` for a missing file, with its present name if it had another one before.
-std::filesystem::path find_model(const std::filesystem::path& path);
-
 /// An estimator for logs, with its fitted model.
 struct LogEstimator {
   EstimatorEntry entry;

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "experiments/logs/log_steps.hpp"
-#include "scoring/score_stream.hpp"
+#include "scoring/score.hpp"
 
 namespace touchdown::experiments {
 

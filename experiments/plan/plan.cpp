@@ -9,7 +9,7 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
-#include "noise/grid.hpp"
+#include "noise/sensor_noise.hpp"
 
 namespace touchdown::experiments {
 

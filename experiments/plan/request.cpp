@@ -15,7 +15,7 @@
 #include "experiments/config/experiment_yaml.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_directory/owner.hpp"
-#include "scenarios/generation/named.hpp"
+#include "scenarios/generation/generate.hpp"
 
 namespace touchdown::experiments {
 

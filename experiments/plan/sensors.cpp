@@ -7,7 +7,7 @@
 #include "core/fields.hpp"
 #include "core/files.hpp"
 #include "experiments/plan/condition.hpp"
-#include "noise/sensors/reported.hpp"
+#include "noise/reported_signals.hpp"
 
 namespace touchdown::experiments {
 

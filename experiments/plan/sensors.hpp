@@ -7,7 +7,7 @@
 
 #include "experiments/config/experiment.hpp"
 #include "noise/gaussian.hpp"
-#include "noise/sensors/profile.hpp"
+#include "noise/sensor_profile.hpp"
 #include "recordings/recording.hpp"
 
 namespace touchdown::experiments {

@@ -4,7 +4,7 @@
 
 #include "experiments/estimators/entry.hpp"
 #include "experiments/plan/plan.hpp"
-#include "scenarios/compiled_scenes.hpp"
+#include "scenarios/engine.hpp"
 
 namespace touchdown::experiments {
 

@@ -15,8 +15,7 @@
 #include "experiments/plan/sensors.hpp"
 #include "experiments/run_directory/saved_state.hpp"
 #include "recordings/log/recording_file.hpp"
-#include "scenarios/compiled_scenes.hpp"
-#include "scenarios/ending.hpp"
+#include "scenarios/scenario.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/leg_geometry.hpp"
 

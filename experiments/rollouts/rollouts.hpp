@@ -18,7 +18,7 @@ struct RunReport {
   double duration = 0.0;    ///< s
   int flights = 0;          ///< with both wheels off the ground for the scoring's minimum time
   std::string error = {};   ///< why there is no recording; the outcome is then `diverged`
-  std::string ending = {};  ///< outcome, time and reason (scenarios/ending.hpp)
+  std::string ending = {};  ///< outcome, time and reason (scenarios/scenario.hpp)
 };
 
 /// Whether studies exclude runs with this outcome.

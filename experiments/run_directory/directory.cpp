@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/file_names.hpp"
 #include "core/files.hpp"
 
 namespace touchdown::experiments {

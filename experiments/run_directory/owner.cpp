@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/file_names.hpp"
 #include "core/files.hpp"
 #include "core/yaml.hpp"
 #include "experiments/run_directory/lock.hpp"

@@ -8,7 +8,7 @@ double memory_in_use();
 double peak_memory();
 void reset_peak_memory();
 
-/// Returns freed memory to the system; programs keep it otherwise (core/program/memory.hpp).
+/// Returns freed memory to the system; programs keep it otherwise (cli/main.cpp).
 void release_free_memory();
 
 }  // namespace touchdown::experiments

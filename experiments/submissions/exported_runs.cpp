@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
-#include "core/file_names.hpp"
+#include "core/files.hpp"
 #include "core/tables/verbs.hpp"
 #include "core/yaml.hpp"
 #include "experiments/studies/benchmark/plan.hpp"

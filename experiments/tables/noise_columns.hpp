@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/tables/columns.hpp"
-#include "noise/grid.hpp"
+#include "noise/sensor_noise.hpp"
 
 namespace touchdown::experiments {
 

@@ -1,10 +1,9 @@
-#include "models/mjcf/assets.hpp"
-
 #include <system_error>
 
 #include <fmt/format.h>
 
-#include "models/mjcf/defaults.hpp"
+#include "models/mjcf/document.hpp"
+#include "models/mjcf/robot_file.hpp"
 
 namespace touchdown::models {
 

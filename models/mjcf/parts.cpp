@@ -8,11 +8,15 @@
 #include <fmt/ranges.h>
 
 #include "core/yaml.hpp"
-#include "models/mjcf/defaults.hpp"
+#include "models/mjcf/document.hpp"
 
 namespace touchdown::models {
 
 namespace {
+
+bool is_number(std::string_view part) {
+  return part.find_first_not_of("0123456789") == std::string_view::npos;
+}
 
 using tinyxml2::XMLElement;
 
@@ -271,6 +275,22 @@ std::string mirrored_name(std::string_view name) {
 }
 
 }  // namespace
+
+void RobotKeys::fail(std::string_view key, const std::string& message) const {
+  const YamlDocument document = YamlDocument::load(file_);
+  YAML::Node node = document.root();
+  std::string shown;
+  for (std::string_view rest = key; !rest.empty();) {
+    const std::string part(rest.substr(0, rest.find('.')));
+    rest.remove_prefix(std::min(rest.size(), part.size() + 1));
+    const YAML::Node inner = is_number(part) ? node[std::stoul(part)] : node[part];
+    if (!inner.IsDefined()) break;
+    node.reset(inner);
+    if (!is_number(part)) shown += (shown.empty() ? "" : ".") + part;
+  }
+  throw InputError(fmt::format("{}: {}: {}", document.place_of(node, key),
+                               shown.empty() ? key : shown, message));
+}
 
 void name_parts(MjcfDocument& document, const RobotDescription& description,
                 const std::map<std::string, double>& effort, const RobotKeys& keys) {

@@ -1,13 +1,26 @@
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "models/mjcf/document.hpp"
-#include "models/mjcf/robot_keys.hpp"
 #include "models/robot_description.hpp"
 
 namespace touchdown::models {
+
+/// The keys of a robot's YAML file, for errors at their values.
+class RobotKeys {
+ public:
+  explicit RobotKeys(std::filesystem::path file) : file_(std::move(file)) {}
+
+  /// Throws an `InputError` at a dotted key, such as `joints.left_hip` or `held.0`.
+  [[noreturn]] void fail(std::string_view key, const std::string& message) const;
+
+ private:
+  std::filesystem::path file_;
+};
 
 /// Gives the parts of an MJCF the names of the contract, as the robot's YAML file names them. Held
 /// joints and their motors get the names of `held_name`. A joint without a motor gets one, with the

@@ -1,5 +1,3 @@
-#include "models/mjcf/urdf.hpp"
-
 #include <set>
 #include <system_error>
 
@@ -8,6 +6,7 @@
 #include "core/files.hpp"
 #include "core/yaml.hpp"
 #include "models/mjcf/compiler.hpp"
+#include "models/mjcf/robot_file.hpp"
 
 namespace touchdown::models {
 

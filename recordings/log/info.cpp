@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/yaml_text.hpp"
+#include "core/yaml.hpp"
 
 namespace touchdown::recordings {
 

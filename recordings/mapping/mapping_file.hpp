@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/keys/key.hpp"
+#include "core/key.hpp"
 #include "recordings/mapping/mapping.hpp"
 
 namespace touchdown::recordings {

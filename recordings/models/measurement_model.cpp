@@ -10,7 +10,7 @@ namespace {
 std::size_t needed(std::string_view name) {
   constexpr std::size_t most_points = 20'000;
   constexpr std::size_t most_cells = std::size_t{1} << 25U;
-  if (name == metadata_array || name == former_metadata_array) return most_text;
+  if (name == metadata_array) return most_text;
   if (name == "wheel_torque" || name == "knee_torque") return most_points;
   return name == "contact_likelihood" || name == "no_contact_likelihood" ? most_cells : 0;
 }

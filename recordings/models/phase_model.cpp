@@ -10,9 +10,7 @@ namespace {
 std::size_t most_values(std::string_view name) {
   constexpr std::size_t most_cells = std::size_t{1} << 25U;
   constexpr std::size_t most_else = 1000;
-  if (name == provenance_array || name == metadata_array || name == former_metadata_array) {
-    return most_text;
-  }
+  if (name == provenance_array || name == metadata_array) return most_text;
   if (name == "sample_rate" || name == "seconds" || name == "transition") return most_else;
   if (!name.starts_with("torque_") && !name.starts_with("acceleration_")) return 0;
   return name.ends_with("_log_density") ? most_cells : most_else;

@@ -7,7 +7,7 @@
 
 #include "core/interval.hpp"
 #include "render/gnuplot/figure.hpp"
-#include "scoring/calibration.hpp"
+#include "scoring/score.hpp"
 #include "scoring/transitions.hpp"
 
 namespace touchdown::render {

@@ -10,7 +10,7 @@
 #include "recordings/mcap/writer.hpp"
 #include "render/film/pose.hpp"
 #include "render/mcap/messages.hpp"
-#include "scenarios/ending.hpp"
+#include "scenarios/scenario.hpp"
 #include "scoring/labels.hpp"
 
 namespace touchdown::render {

@@ -18,7 +18,7 @@
 #include "recordings/log/recording_file.hpp"
 #include "render/palette.hpp"
 #include "render/pictures/stop.hpp"
-#include "scenarios/compiled_scenes.hpp"
+#include "scenarios/engine.hpp"
 #include "scenarios/leg_geometry.hpp"
 #include "scenarios/scenario.hpp"
 

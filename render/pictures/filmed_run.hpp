@@ -9,7 +9,7 @@
 #include "experiments/estimators/fitted_model.hpp"
 #include "models/robot_model.hpp"
 #include "noise/sensor_noise.hpp"
-#include "noise/sensors/profile.hpp"
+#include "noise/sensor_profile.hpp"
 #include "recordings/recording.hpp"
 #include "render/film/video.hpp"
 #include "render/report/subject.hpp"

@@ -1,13 +1,176 @@
+#include "scenarios/generation/families.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/fingerprint.hpp"
+#include "core/random.hpp"
 #include "core/yaml.hpp"
-#include "scenarios/generation/family.hpp"
-#include "scenarios/generation/force_families.hpp"
-#include "scenarios/generation/motion_families.hpp"
-#include "scenarios/generation/terrain_families.hpp"
+#include "scenarios/scenario.hpp"
 
 namespace touchdown::scenarios {
+
+namespace {
+
+constexpr double highest_lift = 0.8;  // m: higher than that a hand does not carry a robot
+constexpr double longest_run = 90.0;  // s
+
+/// How far a robot flies that leaves the end of a ramp at this velocity (m).
+double flight_length(const models::Ramp& ramp, double velocity) {
+  const double angle = ramp.incline * std::numbers::pi / 180.0;
+  const double up = velocity * std::sin(angle);
+  const double time = (up + std::sqrt(up * up + 2.0 * scene_gravity * ramp.rise)) / scene_gravity;
+  return velocity * std::cos(angle) * time;
+}
+
+/// Whether a jump off a ramp ends behind the level ground that follows it.
+bool overshoots(const Scenario& scenario) {
+  const std::vector<models::TerrainPiece>& pieces = scenario.terrain.pieces;
+  const double velocity = scenario.velocity.empty() ? 0.0 : scenario.velocity.back().velocity;
+  for (std::size_t i = 0; i + 2 < pieces.size(); ++i) {
+    const auto* ramp = std::get_if<models::Ramp>(&pieces[i]);
+    const auto* step = std::get_if<models::Step>(&pieces[i + 1]);
+    const auto* landing = std::get_if<models::Flat>(&pieces[i + 2]);
+    constexpr double room = 0.5;  // m: to come to rest on the wheels before the next piece
+    if (ramp && step && landing && ramp->rise > 0.0 &&
+        flight_length(*ramp, velocity) + room > landing->length) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// On level ground, where only the robot itself acts.
+
+/// Bends and extends the legs in turn: `bend` and `extend` draw the rate of the hip (rad/s).
+template <typename Bend, typename Extend>
+Scenario crouching(const Draws& draws, Bend bend, Extend extend) {
+  Scenario scenario;
+  double time = 1.0;
+  const int count = draws.whole("count", 2, 4);
+  for (int i = 0; i < count; ++i) {
+    const Draws squat = draws.of("squat", i);
+    scenario.crouch.push_back(
+        {.time = time, .hip = squat.between("low", 0.75, 1.0), .rate = bend(squat)});
+    time += squat.between("low_hold", 1.2, 2.0);
+    scenario.crouch.push_back(
+        {.time = time, .hip = squat.between("high", 0.2, 0.4), .rate = extend(squat)});
+    time += squat.between("high_hold", 1.2, 2.0);
+  }
+  scenario.terrain.friction = draws.between("friction", 0.4, 1.0);
+  scenario.end.duration = time;
+  scenario.perturbation = {.yaw = 0.5, .mass_scale = 0.1, .servo_gain_scale = 0.2};
+  return scenario;
+}
+
+/// Random commands and crouches, always in contact.
+Scenario draw_drives(const Draws& draws) {
+  Scenario scenario;
+  scenario.terrain.width = 20.0;
+  scenario.terrain.friction = draws.between("friction", 0.4, 1.0);
+  scenario.end.duration = 20.0;
+  Perturbation& varied = scenario.perturbation;
+  varied.drive = RandomDrive{.velocity = draws.between("velocity", 0.2, 0.8),
+                             .yaw_rate = draws.between("yaw_rate", 0.0, 1.0),
+                             .standing = draws.between("standing", 0.1, 0.5),
+                             .hold = {0.7, draws.between("longest", 1.5, 4.0)}};
+  if (draws.happens("crouches", 0.5)) {
+    varied.crouching = RandomCrouches{.hip = {0.2, draws.between("deepest", 0.5, 0.9)},
+                                      .rate = draws.log_between("rate", 0.2, 1.0),
+                                      .start = 1.0};
+  }
+  varied.yaw = 0.5;
+  varied.crouch = 0.1;
+  varied.mass_scale = 0.1;
+  varied.servo_gain_scale = 0.2;
+  return scenario;
+}
+
+/// Legs that bend quickly: the torso falls.
+Scenario draw_squats(const Draws& draws) {
+  return crouching(
+      draws, [](const Draws& squat) { return squat.log_between("bend_rate", 1.0, 6.5); },
+      [](const Draws& squat) { return squat.log_between("extend_rate", 0.5, 1.5); });
+}
+
+/// Legs that extend quickly: small hops.
+Scenario draw_hops(const Draws& draws) {
+  return crouching(
+      draws, [](const Draws& squat) { return squat.log_between("bend_rate", 0.8, 2.0); },
+      [](const Draws& squat) { return squat.between("extend_rate", 6.0, 9.0); });
+}
+
+}  // namespace
+
+double greatest_height(const policies::ForceScript& forces, double mass, double duration) {
+  constexpr double step = 1e-3;  // s
+  double height = 0.0;
+  double velocity = 0.0;
+  double greatest = 0.0;
+  for (double time = 0.0; time < duration; time += step) {
+    double up = -mass * scene_gravity;
+    for (const policies::TimedForce& force : forces) up += force.share_at(time) * force.force.z();
+    velocity += step * up / mass;
+    height += step * velocity;
+    if (height <= 0.0) height = velocity = 0.0;
+    greatest = std::max(greatest, height);
+  }
+  return greatest;
+}
+
+std::optional<std::string> objection_to(const Scenario& scenario) {
+  if (scenario.end.duration > longest_run) {
+    return fmt::format("it lasts {:.0f} s, more than {:.0f}", scenario.end.duration, longest_run);
+  }
+  if (scenario.forces_for_mass) {
+    const double mass = *scenario.forces_for_mass * scenario.mass_scale;
+    const double height = greatest_height(scenario.forces, mass, scenario.end.duration);
+    if (height > highest_lift) {
+      return fmt::format("it lifts the robot by {:.2f} m, more than {}", height, highest_lift);
+    }
+  }
+  if (overshoots(scenario)) return "a jump ends behind the level ground that follows it";
+  return std::nullopt;
+}
+
+Draws::Draws(std::uint64_t seed, std::string_view family, std::uint64_t number,
+             std::uint64_t attempt)
+    : seed_(seed),
+      place_(Fingerprint()
+                 .add(family)
+                 .add(std::to_string(number))
+                 .add(std::to_string(attempt))
+                 .value()) {}
+
+double Draws::share(std::string_view quantity) const {
+  return uniform01(seed_, place_, Fingerprint().add(quantity).value());
+}
+
+double Draws::between(std::string_view quantity, double low, double high) const {
+  return low + (high - low) * share(quantity);
+}
+
+double Draws::log_between(std::string_view quantity, double low, double high) const {
+  return low * std::pow(high / low, share(quantity));
+}
+
+int Draws::whole(std::string_view quantity, int low, int high) const {
+  return low + static_cast<int>(std::floor((high - low + 1) * share(quantity)));
+}
+
+bool Draws::happens(std::string_view quantity, double probability) const {
+  return share(quantity) < probability;
+}
+
+Draws Draws::of(std::string_view list, int index) const {
+  return {seed_,
+          Fingerprint().add(std::to_string(place_)).add(list).add(std::to_string(index)).value()};
+}
 
 const std::vector<Family>& families() {
   static const std::vector<Family> all = {

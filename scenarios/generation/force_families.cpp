@@ -1,13 +1,14 @@
-#include "scenarios/generation/force_families.hpp"
-
 #include <cmath>
 #include <numbers>
 
-#include "scenarios/generation/rules.hpp"
+#include "scenarios/generation/families.hpp"
 
 namespace touchdown::scenarios {
 
 namespace {
+
+/// Upkie's mass (kg), for which the forces are written.
+constexpr double forces_mass = 5.33922;
 
 const Eigen::Vector3d handle(0.0, 0.0, 0.06);  // base frame (m)
 

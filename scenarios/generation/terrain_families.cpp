@@ -1,7 +1,7 @@
-#include "scenarios/generation/terrain_families.hpp"
-
 #include <cmath>
 #include <numbers>
+
+#include "scenarios/generation/families.hpp"
 
 namespace touchdown::scenarios {
 

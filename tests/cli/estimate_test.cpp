@@ -372,11 +372,5 @@ TEST_F(Estimate, AnswersWrongRequestsInOneLine) {
   EXPECT_FALSE(fs::exists(folder_ / "b.csv"));
 }
 
-TEST_F(Estimate, HelpBeginsWithAnExample) {
-  const Ended ended = touchdown_program("estimate --help", folder_.path());
-  EXPECT_EQ(ended.exit_code, 0);
-  EXPECT_THAT(ended.output, ::testing::StartsWith("touchdown estimate "));
-}
-
 }  // namespace
 }  // namespace touchdown::cli

@@ -302,11 +302,5 @@ TEST_F(Fit, RefusesNumbersThatWouldBeIgnored) {
   }
 }
 
-TEST_F(Fit, HelpBeginsWithAnExample) {
-  const Ended ended = touchdown_program("fit --help", folder_.path());
-  EXPECT_EQ(ended.exit_code, 0);
-  EXPECT_THAT(ended.output, ::testing::StartsWith("touchdown fit "));
-}
-
 }  // namespace
 }  // namespace touchdown::cli

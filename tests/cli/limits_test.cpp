@@ -94,23 +94,6 @@ TEST_F(Limits, AHangUpStopsARunUnlessItIsIgnored) {
   EXPECT_TRUE(program.is_running());
 }
 
-// Its libraries are loaded for a tenth of a second before its first line.
-TEST_F(Limits, ASignalWhileTheProgramIsLoadedStopsIt) {
-  write_long_experiment(folder_);
-  for (const std::string arguments : {"run x.yaml --out a", "simulate long.yaml -o l.mpack"}) {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-      StartedProgram program(arguments, folder_.path());
-      while (program.is_running() && program.executable() != "touchdown-main") {
-        program.let_run(0.0001);
-      }
-      program.send(signal);
-      const Ended ended = program.end();
-      EXPECT_EQ(ended.exit_code, 1) << arguments << ": " << signal;
-      EXPECT_THAT(ended.errors, HasSubstr("stopped")) << arguments;
-    }
-  }
-}
-
 TEST_F(Limits, SpecialFilesAreRefusedAtOnce) {
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   fs::create_symlink("/dev/zero", folder_ / "zero");

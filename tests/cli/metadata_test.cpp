@@ -139,21 +139,6 @@ TEST_F(Metadata, OfASimulatedLogsRobotHasTheLegsOfItsFile) {
   }
 }
 
-TEST_F(Metadata, OfFormerNamesIsReplacedByThePresentOnes) {
-  const std::string present = "(the shipped model is 'models/evidence_curves.npz' now)";
-  for (const char* verb :
-       {"estimate a.mpack --model models/touchdown.npz", "export models/touchdown.npz -o x.npz",
-        "export models/touchdown.npz -o x.hpp"}) {
-    EXPECT_THAT(complaint_about(verb), HasSubstr(present)) << verb;
-  }
-  EXPECT_THAT(complaint_about("estimate a.mpack --estimator touchdown"),
-              HasSubstr("unknown estimator 'touchdown': it is 'evidence_curves' now"));
-  EXPECT_THAT(complaint_about("fit a.mpack -o x.npz --estimator evidence_pairs"),
-              HasSubstr("it is 'evidence_curves' now"));
-  EXPECT_THAT(complaint_about("fit a.mpack -o x.npz --estimator load_logistic"),
-              HasSubstr("it is 'force_kinematics' now"));
-}
-
 TEST_F(Metadata, OfAModelExportedForAnotherRobotHasItsLegs) {
   const std::string shipped = "models/evidence_curves.npz";
   EXPECT_THAT(run("export " + shipped + " --robot models/upkie_long_legs.yaml -o long.npz"),

@@ -44,13 +44,6 @@ StartedProgram::~StartedProgram() {
   wait(0);
 }
 
-std::string StartedProgram::executable() const {
-  std::error_code ignored;
-  return std::filesystem::read_symlink("/proc/" + std::to_string(process_) + "/exe", ignored)
-      .filename()
-      .string();
-}
-
 void StartedProgram::send(int signal) const {
   if (!ended_) ::kill(process_, signal);
 }

@@ -22,8 +22,6 @@ class StartedProgram {
   ~StartedProgram();
 
   void send(int signal) const;
-  /// The name of the program that the process runs at the moment.
-  std::string executable() const;
   /// Whether the process has not ended yet.
   bool is_running();
   /// Waits until the process handles this signal, or has ended. Before, the signal kills it.

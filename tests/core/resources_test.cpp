@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "tests/complaint.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown {
@@ -18,13 +19,10 @@ using ::testing::ThrowsMessage;
 
 std::string missing_in(YamlDocument document, const std::string& assignment = "") {
   if (!assignment.empty()) document.override_value(assignment);
-  try {
+  return complaint_of([&] {
     require_resources(document, {"robot", "fit.scenarios", "fit.segments.scenario"},
                       [](const std::string& name) { (void)find_resource(name); });
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+  });
 }
 
 std::string missing_in(const std::string& text, const std::string& assignment = "") {
@@ -34,8 +32,8 @@ std::string missing_in(const std::string& text, const std::string& assignment = 
 TEST(RequiredResources, ThatAreThereOrNotAskedForAreNoComplaint) {
   EXPECT_EQ(missing_in("fit: {scenarios: [scenarios/stairs.yaml, scenarios/roam.yaml]}\n"
                        "robot: models/upkie_actuated.yaml\n"),
-            "");
-  EXPECT_EQ(missing_in("fits: {scenarios: [nowhere.yaml]}\nfit: {segments: []}\n"), "");
+            "no complaint");
+  EXPECT_EQ(missing_in("fits: {scenarios: [nowhere.yaml]}\nfit: {segments: []}\n"), "no complaint");
 }
 
 TEST(RequiredResources, ThatAreMissingAreNamedWhereTheyStand) {

@@ -20,7 +20,6 @@
 #include <linux/audit.h>
 #include <linux/filter.h>
 #include <linux/seccomp.h>
-#include <string_view>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
@@ -253,18 +252,10 @@ const char* value_of(const char* variable, char** environment) {
   return nullptr;
 }
 
-/// Whether this process runs `touchdown`, which only starts `touchdown-main`. That program would be
-/// killed while the filter exists and its handler does not.
-bool is_launcher() {
-  std::array<char, 4096> path = {};
-  const ssize_t length = ::readlink("/proc/self/exe", path.data(), path.size() - 1);
-  return length > 0 && std::string_view(path.data()).ends_with("/touchdown");
-}
-
 /// Runs before the constructors of other libraries (-z initfirst), which may make trapped calls.
 __attribute__((constructor)) void begin(int /*count*/, char** /*arguments*/, char** environment) {
   const char* const file = value_of(plan_variable, environment);
-  if (file == nullptr || is_launcher()) return;
+  if (file == nullptr) return;
   void* const code =
       ::mmap(reinterpret_cast<void*>(call_address), call_code.size(),  // NOLINT
              PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED_NOREPLACE, -1, 0);

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/file_names.hpp"
 #include "core/files.hpp"
 
 namespace touchdown::faults {

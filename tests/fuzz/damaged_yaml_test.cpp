@@ -19,7 +19,7 @@
 #include "core/files.hpp"
 #include "experiments/studies/experiment_file.hpp"
 #include "models/robot_description.hpp"
-#include "noise/sensors/profile.hpp"
+#include "noise/sensor_profile.hpp"
 #include "recordings/mapping/conversion.hpp"
 #include "scenarios/scenario.hpp"
 #include "tests/fuzz/entry.hpp"

@@ -1,11 +1,9 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "models/mjcf/assets.hpp"
 #include "models/mjcf/document.hpp"
 #include "models/mjcf/parts.hpp"
-#include "models/mjcf/robot_keys.hpp"
-#include "models/mjcf/robot_only.hpp"
+#include "models/mjcf/robot_file.hpp"
 #include "models/robot_description.hpp"
 #include "tests/fuzz/entry.hpp"
 #include "tests/fuzz/memory_file.hpp"

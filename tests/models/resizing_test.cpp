@@ -9,6 +9,7 @@
 #include "core/files.hpp"
 #include "models/robot_description.hpp"
 #include "models/robot_model.hpp"
+#include "tests/complaint.hpp"
 #include "tests/models/upkie_mjcf.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -28,12 +29,7 @@ class RobotOfAnotherSize : public ::testing::Test {
   }
 
   std::string complaint_about(const std::string& text) const {
-    try {
-      (void)with(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no complaint";
+    return complaint_of([&] { (void)with(text); });
   }
 
   ScratchFolder folder_;

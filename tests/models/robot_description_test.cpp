@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "models/robot_model.hpp"
+#include "tests/complaint.hpp"
 #include "tests/models/upkie_mjcf.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -27,12 +28,7 @@ class RobotFile : public ::testing::Test {
   }
 
   std::string complaint_about(const std::string& text) const {
-    try {
-      (void)compile_robot_model(with(text), Terrain{});
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no complaint";
+    return complaint_of([&] { (void)compile_robot_model(with(text), Terrain{}); });
   }
 
   ScratchFolder folder_;

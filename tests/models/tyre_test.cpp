@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "models/robot_model.hpp"
+#include "tests/complaint.hpp"
 #include "tests/models/upkie_mjcf.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -30,12 +31,7 @@ class TyreInARobotFile : public ::testing::Test {
   }
 
   std::string complaint_about(const std::string& tyre) const {
-    try {
-      (void)robot_with(tyre);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no complaint";
+    return complaint_of([&] { (void)robot_with(tyre); });
   }
 
   ScratchFolder folder_;

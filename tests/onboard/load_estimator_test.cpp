@@ -89,20 +89,6 @@ TEST_F(LoadEstimator, LoadsTheMetadata) {
   EXPECT_EQ(metadata.configuration, default_configuration("phase", 1000.0));
 }
 
-TEST_F(LoadEstimator, RefusesMetadataUnderTheirFormerName) {
-  for (const std::string name : {"robust", "phase", "force_kinematics"}) {
-    ModelArrays arrays = test::fitted_model(name);
-    auto metadata = arrays.extract(std::string(metadata_array));
-    metadata.key() = former_metadata_array;
-    arrays.insert(std::move(metadata));
-    const auto m = file("m.npz", arrays);
-    EXPECT_THAT(complaint([&] {
-                  load_estimator(m, {name, 1000.0, "upkie"});
-                }),
-                AllOf(HasSubstr("m.npz: its array"), HasSubstr("is now called 'metadata'")));
-  }
-}
-
 TEST_F(LoadEstimator, HeadersOfModelsAlwaysHaveMetadata) {
   const auto grid = file("grid.npz", test::fitted_arrays("robust"));
   EXPECT_THAT(complaint([&] { recordings::header_of_model(grid, "grid"); }),

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/fields.hpp"
+#include "tests/complaint.hpp"
 
 namespace touchdown::policies {
 namespace {
@@ -102,16 +103,6 @@ TEST(ForceScript, TurnsWithTheRobotWhenAsked) {
   expect_near(force_in_world(force, 0.0, M_PI / 2.0), {-1.0, 3.0, 2.0});
 }
 
-template <typename F>
-std::string complaint(F&& read) {
-  try {
-    read();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no complaint";
-}
-
 ForceScript forces(const std::string& text) {
   ForceScript script;
   Fields(YamlDocument::parse(text, "forces.yaml")).list("forces", script);
@@ -135,13 +126,13 @@ TEST(ForceScript, SurvivesTheRoundTrip) {
 }
 
 TEST(ForceScript, ComplainsOnTheLine) {
-  EXPECT_THAT(complaint([] { (void)forces("forces:\n  - {force: [1, 2]}\n"); }),
+  EXPECT_THAT(complaint_of([] { (void)forces("forces:\n  - {force: [1, 2]}\n"); }),
               AllOf(HasSubstr("forces.yaml:2:"), HasSubstr("three numbers")));
-  EXPECT_THAT(complaint([] { (void)forces("forces:\n  - {force: [1, 2, .inf]}\n"); }),
+  EXPECT_THAT(complaint_of([] { (void)forces("forces:\n  - {force: [1, 2, .inf]}\n"); }),
               HasSubstr("forces.0.force: expected a finite number"));
-  EXPECT_THAT(complaint([] { (void)forces("forces:\n  - {fource: [1, 2, 3]}\n"); }),
+  EXPECT_THAT(complaint_of([] { (void)forces("forces:\n  - {fource: [1, 2, 3]}\n"); }),
               HasSubstr("did you mean 'force'"));
-  EXPECT_THAT(complaint([] { (void)forces("forces:\n  - {duration: -1}\n"); }),
+  EXPECT_THAT(complaint_of([] { (void)forces("forces:\n  - {duration: -1}\n"); }),
               HasSubstr("duration: expected"));
 }
 
@@ -155,9 +146,9 @@ TEST(Tether, ReadsWhatItWrites) {
   EXPECT_EQ(again.length, 1.0);
   EXPECT_EQ(again.stiffness, 1000.0);
   EXPECT_EQ(again.damping, 50.0);
-  EXPECT_THAT(
-      complaint([] { (void)from_yaml<Tether>(YamlDocument::parse("lenght: 1", "tether.yaml")); }),
-      HasSubstr("tether.yaml:1:1: lenght: unknown key (did you mean 'length'?)"));
+  EXPECT_THAT(complaint_of(
+                  [] { (void)from_yaml<Tether>(YamlDocument::parse("lenght: 1", "tether.yaml")); }),
+              HasSubstr("tether.yaml:1:1: lenght: unknown key (did you mean 'length'?)"));
 }
 
 TEST(Guide, ReadsWhatItWrites) {

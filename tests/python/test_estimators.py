@@ -210,9 +210,6 @@ class Run(InFolder):
         with np.load("exported.npz") as arrays:
             np.testing.assert_array_equal(touchdown.Estimator("free_fall").run(arrays)["p_contact"],
                                           beliefs["p_contact"])
-        run["heard"] = run.pop("has_record")
-        with self.assertRaisesRegex(touchdown.InputError, "signals: 'heard' was renamed: expected 'has_record'"):
-            touchdown.Estimator("free_fall").run(run)
 
     def test_refuses_another_rate_and_arrays_that_do_not_fit(self):
         run = dict(hop())

@@ -1,10 +1,9 @@
-#include "scenarios/compiled_scenes.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/resources.hpp"
 #include "scenarios/engine.hpp"
-#include "scenarios/generation/named.hpp"
+#include "scenarios/generation/generate.hpp"
 #include "scenarios/scenario_file.hpp"
 #include "simulators/registry.hpp"
 

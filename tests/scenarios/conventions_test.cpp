@@ -2,9 +2,10 @@
 
 #include "core/resources.hpp"
 #include "policies/wheeled_pendulum.hpp"
-#include "scenarios/ending.hpp"
 #include "scenarios/leg_geometry.hpp"
+#include "scenarios/scenario.hpp"
 #include "scenarios/scenario_file.hpp"
+#include "tests/complaint.hpp"
 #include "tests/models/edited_upkie.hpp"
 #include "tests/scenarios/runs.hpp"
 #include "tests/scratch_folder.hpp"
@@ -225,13 +226,10 @@ INSTANTIATE_TEST_SUITE_P(Engine, AnotherRobot, ::testing::ValuesIn(simulators::s
 
 TEST(AnglesOfAScenario, AreWithinTheRangesOfItsRobot) {
   const auto complaint = [](const std::string& text) -> std::string {
-    try {
+    return complaint_of([&] {
       (void)complete_scenario(
           YamlDocument::parse("name: a\nrobot: " + upkie_mjcf + "\n" + text, "a.yaml"));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no complaint";
+    });
   };
   const std::string hip = "hip: expected -1.26 to 1.26, the range of joint 'left_hip'";
   const std::string knee = "knee: expected -2.51 to 2.51, the range of joint 'left_knee'";

@@ -2,7 +2,7 @@
 #include <set>
 
 #include "core/random.hpp"
-#include "policies/crouching.hpp"
+#include "policies/commands.hpp"
 #include "scenarios/scenario_file.hpp"
 #include "tests/scenarios/runs.hpp"
 

@@ -1,5 +1,11 @@
-#include "scenarios/policy_contact.hpp"
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "scenarios/rollout.hpp"
 #include "scenarios/start_pose.hpp"
+#include "tests/complaint.hpp"
 #include "tests/scenarios/runs.hpp"
 
 namespace touchdown::scenarios {
@@ -89,19 +95,30 @@ TEST(PolicyFile, IsReadBackAndOmittedForTheDefault) {
 
 TEST(PolicyFile, ComplainsOnTheLine) {
   const auto error_of = [](const std::string& text) -> std::string {
-    try {
-      (void)scenario_from_yaml(YamlDocument::parse("name: x\n" + text, "s.yaml"));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no complaint";
+    return complaint_of(
+        [&] { (void)scenario_from_yaml(YamlDocument::parse("name: x\n" + text, "s.yaml")); });
   };
   EXPECT_THAT(error_of("policy: {contact: trut}\n"),
               AllOf(HasSubstr("s.yaml:2:"), HasSubstr("did you mean 'truth'?")));
   EXPECT_THAT(error_of("policy: {law: soft}\n"), HasSubstr("soft_landing"));
   EXPECT_THAT(error_of("policy: {delay: -1}\n"), HasSubstr("policy.delay"));
-  EXPECT_THAT(error_of("policy: {late: 0.1}\n"),
-              AllOf(HasSubstr("policy.late"), HasSubstr("delay")));
+}
+
+/// The history is the oracle: step k − d, or contact before the first step.
+TEST(ContactDelay, ReturnsTheContactOfEarlierSteps) {
+  std::mt19937 random(3);
+  for (const std::size_t longest : {0U, 1U, 7U, 200U}) {
+    ContactDelay delay(longest);
+    std::vector<ContactDelay::WheelContacts> history;
+    for (std::size_t k = 0; k < 500; ++k) {
+      history.push_back({random() % 2 == 0, random() % 3 == 0});
+      const std::size_t asked = random() % (longest + 3);  // it may change, and be too long
+      const std::size_t steps = std::min(asked, longest);
+      const auto expected =
+          steps > k ? ContactDelay::WheelContacts{true, true} : history[k - steps];
+      EXPECT_EQ(delay.add(history.back(), asked), expected) << k << ", delayed by " << asked;
+    }
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "core/fields.hpp"
 #include "scenarios/perturbation.hpp"
 #include "scenarios/scenario_file.hpp"
+#include "tests/complaint.hpp"
 #include "tests/scenarios/runs.hpp"
 
 namespace touchdown::scenarios {
@@ -125,12 +126,8 @@ TEST(RandomScripts, ReplaceTheVelocitiesAndAddToTheForces) {
 }
 
 std::string complaint_about(const std::string& perturbation) {
-  try {
-    (void)from_yaml<Perturbation>(YamlDocument::parse(perturbation, "p.yaml"));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no complaint";
+  return complaint_of(
+      [&] { (void)from_yaml<Perturbation>(YamlDocument::parse(perturbation, "p.yaml")); });
 }
 
 TEST(RandomScripts, ComplainOnTheLine) {
@@ -149,20 +146,17 @@ TEST(RandomScripts, ComplainOnTheLine) {
 
 TEST(RandomCrouches, AreRefusedIfTheyBendKneesBothWays) {
   const auto complaint = [](const std::string& more) -> std::string {
-    try {
+    return complaint_of([&] {
       (void)complete_scenario(YamlDocument::parse(
           "name: both\nrobot: " TOUCHDOWN_SOURCE_DIR "/models/upkie.xml\n" + more, "s.yaml"));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    });
   };
   const auto crouching = [](const std::string& hip) {
     return "perturbation: {crouching: {hip: " + hip + "}}\n";
   };
-  EXPECT_EQ(complaint(crouching("[0.0, 0.6]")), "");
-  EXPECT_EQ(complaint(crouching("[0.03, 0.28]")), "");
-  EXPECT_EQ(complaint(crouching("[-0.4, -0.1]")), "");
+  EXPECT_EQ(complaint(crouching("[0.0, 0.6]")), "no complaint");
+  EXPECT_EQ(complaint(crouching("[0.03, 0.28]")), "no complaint");
+  EXPECT_EQ(complaint(crouching("[-0.4, -0.1]")), "no complaint");
   for (const char* hip : {"[-0.05, 0.27]", "[-0.001, 0.6]", "[-0.6, 0.001]"}) {
     EXPECT_THAT(complaint(crouching(hip)),
                 AllOf(HasSubstr("perturbation.crouching.hip: expected [low, high] on one side of"),

@@ -1,4 +1,4 @@
-#include "scenarios/robot_check/robot_check.hpp"
+#include "scenarios/robot_check.hpp"
 
 #include "core/error.hpp"
 #include "core/resources.hpp"

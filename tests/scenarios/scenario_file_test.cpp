@@ -1,9 +1,18 @@
 #include "scenarios/scenario_file.hpp"
 
+#include <cmath>
 #include <filesystem>
+#include <set>
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
 #include "core/files.hpp"
-#include "scenarios/generation/named.hpp"
+#include "scenarios/generation/generate.hpp"
+#include "scenarios/scenario.hpp"
+#include "tests/complaint.hpp"
+#include "tests/documented_defaults.hpp"
 #include "tests/scenarios/runs.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -12,6 +21,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::StartsWith;
 using ::testing::ThrowsMessage;
 
@@ -26,12 +36,7 @@ class ScenarioOfARobot : public ::testing::Test {
   }
 
   std::string complaint_about(const std::string& robot, const std::string& scenario) const {
-    try {
-      (void)with(robot, scenario);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no complaint";
+    return complaint_of([&] { (void)with(robot, scenario); });
   }
 
   ScratchFolder folder_;
@@ -154,6 +159,90 @@ TEST_F(ScenarioOfARobot, WithABadValueIsReportedWithTheFile) {
   EXPECT_THROW(
       (void)scenario_from_yaml(YamlDocument::parse("name: x\nbalancer: {gains: lqr}\n", "s")),
       InputError);
+}
+
+Scenario parse(const std::string& text) {
+  return scenario_from_yaml(YamlDocument::parse(text, "scene.yaml"));
+}
+
+std::string complaint(const std::string& text) {
+  return complaint_of([&] { (void)parse(text); });
+}
+
+TEST(ScenarioYaml, EveryScenarioOfTheProjectSurvivesTheRoundTrip) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(TOUCHDOWN_SOURCE_DIR "/scenarios")) {
+    if (entry.path().extension() != ".yaml") continue;
+    const Scenario scenario = load_scenario(entry.path());
+    EXPECT_EQ(scenario.name, entry.path().stem());
+    EXPECT_EQ(to_yaml(parse(to_yaml(scenario))), to_yaml(scenario)) << scenario.name;
+    const Scenario varied = perturbed(scenario, 3, 4);
+    EXPECT_EQ(to_yaml(parse(to_yaml(varied))), to_yaml(varied)) << scenario.name;
+    names.insert(scenario.name);
+  }
+  EXPECT_GE(names.size(), 8U);
+}
+
+TEST(ScenarioYaml, OnlyTheNameIsRequired) {
+  const Scenario scenario = parse("name: bare\n");
+  EXPECT_EQ(scenario.name, "bare");
+  EXPECT_EQ(scenario.end.duration, End{}.duration);
+  EXPECT_THAT(complaint("{}"), HasSubstr("name: is missing"));
+}
+
+TEST(ScenarioYaml, ComplainsOnTheLineWithTheNearestKey) {
+  EXPECT_THAT(complaint("name: x\nterain: {}\n"),
+              HasSubstr("scene.yaml:2:1: terain: unknown key (did you mean 'terrain'?)"));
+  EXPECT_THAT(complaint("name: x\nend:\n  durration: 3\n"),
+              AllOf(HasSubstr("scene.yaml:3:3:"), HasSubstr("did you mean 'duration'?")));
+  EXPECT_THAT(complaint("name: x\nperturbation: {yav: 3}\n"), HasSubstr("did you mean 'yaw'?"));
+  EXPECT_THAT(complaint("name: x\nguides: [{stifness: 3}]\n"),
+              HasSubstr("did you mean 'stiffness'?"));
+  EXPECT_THAT(complaint("name: x\nmass_scale: heavy\n"),
+              AllOf(HasSubstr("scene.yaml:2:13:"), HasSubstr("expected a number")));
+  EXPECT_THAT(complaint("name: x\nend: {duration: -3}\n"), HasSubstr("duration: expected"));
+  EXPECT_THAT(complaint("name: x\nend: {duration: .nan}\n"), HasSubstr("duration: expected"));
+}
+
+TEST(ScenarioYaml, AMissingFileIsOneLine) {
+  try {
+    (void)load_scenario("/nowhere/stairs.yaml");
+    FAIL() << "no complaint";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("/nowhere/stairs.yaml"));
+    EXPECT_THAT(error.what(), ::testing::Not(HasSubstr("\n")));
+  }
+}
+
+TEST(ScenarioKeys, HaveTheDefaultsOfAFileThatGivesNone) {
+  const Scenario read = scenario_from_yaml(YamlDocument::parse("name: a", "a.yaml"));
+  const auto compared = tests::compared_defaults(scenario_keys(), to_yaml(read));
+  EXPECT_THAT(compared.different, IsEmpty());
+  EXPECT_GT(compared.equal, 45U);
+}
+
+TEST(Varied, ChangesTheNumberUnderTheKeyAndNothingElse) {
+  const Scenario stairs = find_scenario("scenarios/stairs.yaml");
+  const std::string key = "terrain.pieces.1.stairs.rise";
+  EXPECT_EQ(number_at(stairs, key), 0.25);
+  Scenario higher = varied(stairs, key, 0.7, "stairs.yaml");
+  EXPECT_EQ(number_at(higher, key), 0.7);
+  EXPECT_EQ(to_yaml(varied(higher, key, 0.25, "stairs.yaml")), to_yaml(stairs));
+  EXPECT_EQ(number_at(varied(stairs, "velocity.0.velocity", 0.4, "x"), "velocity.0.velocity"), 0.4);
+}
+
+TEST(Varied, HasNoNumberForUnknownKeys) {
+  const Scenario stairs = find_scenario("scenarios/stairs.yaml");
+  for (const char* key : {"", "terrain", "terrain.pieces.7.stairs.rise", "terrain.pieces.-1",
+                          "name", "terrain.pieces.1.stairs.rise.more"}) {
+    EXPECT_TRUE(std::isnan(number_at(stairs, key))) << key;
+  }
+}
+
+TEST(Varied, RefusesValuesOutOfRange) {
+  const Scenario stairs = find_scenario("scenarios/stairs.yaml");
+  EXPECT_THAT([&] { (void)varied(stairs, "terrain.friction", -1.0, "stairs.yaml"); },
+              ThrowsMessage<InputError>(HasSubstr("terrain.friction")));
 }
 
 }  // namespace

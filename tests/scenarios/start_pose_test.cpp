@@ -1,6 +1,7 @@
 #include "scenarios/start_pose.hpp"
 
 #include "models/resizing.hpp"
+#include "tests/complaint.hpp"
 #include "tests/scenarios/runs.hpp"
 
 namespace touchdown::scenarios {
@@ -98,12 +99,8 @@ TEST(StartPose, RefusesLegsThatCannotShareOneAxle) {
   models::scale_leg(*model.mj, 0, 4.0);
   models::scale_leg(*model.mj, 1, 0.2);
   models::recompute(*model.mj);
-  try {
-    (void)start_pose(model, {}, {});
-    FAIL() << "no complaint";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("upkie: its legs"));
-  }
+  EXPECT_THAT(complaint_of([&] { (void)start_pose(model, {}, {}); }),
+              ::testing::HasSubstr("upkie: its legs"));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "scenarios/robot_check/robot_check.hpp"
+#include "scenarios/robot_check.hpp"
 #include "tests/scenarios/runs.hpp"
 #include "tests/scratch_folder.hpp"
 

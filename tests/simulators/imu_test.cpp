@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "simulators/bullet/world.hpp"
+#include "simulators/bullet_world.hpp"
 #include "tests/simulators/bodies.hpp"
 #include "tests/simulators/standing.hpp"
 

@@ -1,4 +1,4 @@
-#include "simulators/bullet/world.hpp"
+#include "simulators/bullet_world.hpp"
 #include "tests/simulators/upkie.hpp"
 
 namespace touchdown::simulators {

@@ -1,4 +1,4 @@
-#include "simulators/servo.hpp"
+#include "simulators/actuators.hpp"
 
 #include "tests/simulators/upkie.hpp"
 

@@ -18,6 +18,9 @@
 namespace touchdown::training {
 namespace {
 
+using testing::HasSubstr;
+using testing::IsEmpty;
+
 class Train : public testing::Test {
  protected:
   Train() {
@@ -122,6 +125,22 @@ TEST_F(Train, StopsEarlyWithoutImprovement) {
   config_.optimiser.iterations = 20;
   EXPECT_LT(run("early").history.size(), 20U);
 }
+
+TEST(Blas, WarnsOfTheReferenceLibraryAndNamesThePackage) {
+  EXPECT_THAT(blas_warning("/usr/lib/x86_64-linux-gnu/blas/libblas.so.3.11.0"),
+              HasSubstr("install the package libopenblas0-openmp"));
+}
+
+TEST(Blas, WarnsOfCompetingThreads) {
+  EXPECT_THAT(blas_warning("/usr/lib/x86_64-linux-gnu/openblas-pthread/libblas.so.3"),
+              HasSubstr("openblas-pthread"));
+}
+
+TEST(Blas, AcceptsTheRecommendedLibrary) {
+  EXPECT_THAT(blas_warning("/usr/lib/x86_64-linux-gnu/openblas-openmp/libblas.so.3"), IsEmpty());
+}
+
+TEST(Blas, FindsTheLoadedLibrary) { EXPECT_THAT(blas_in_use(), HasSubstr("blas")); }
 
 }  // namespace
 }  // namespace touchdown::training

@@ -12,7 +12,7 @@
 #include "estimator/neural/forward.hpp"
 #include "tests/scratch_folder.hpp"
 #include "toy_episodes.hpp"
-#include "training/initial_weights.hpp"
+#include "training/train.hpp"
 
 namespace touchdown::training {
 namespace {

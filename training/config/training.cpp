@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/fields.hpp"
-#include "core/file_names.hpp"
+#include "core/files.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::training {

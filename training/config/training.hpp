@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/keys/key.hpp"
+#include "core/key.hpp"
 #include "core/yaml.hpp"
 #include "noise/sensor_noise.hpp"
 #include "scoring/labels.hpp"

@@ -4,10 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/program/command_line.hpp"
-#include "core/program/interrupt.hpp"
-#include "core/program/outputs.hpp"
-#include "core/program/streams.hpp"
+#include "core/program.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"
 #include "training/train.hpp"

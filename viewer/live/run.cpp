@@ -11,7 +11,7 @@
 
 #include "recordings/signals_from.hpp"
 #include "scenarios/engine.hpp"
-#include "scenarios/policy_contact.hpp"
+#include "scenarios/rollout.hpp"
 #include "scoring/labels.hpp"
 
 namespace touchdown::viewer {

@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "experiments/logs/estimator.hpp"
+#include "noise/reported_signals.hpp"
 #include "noise/sensor_noise.hpp"
-#include "noise/sensors/reported.hpp"
 #include "recordings/recording.hpp"
-#include "scenarios/contact_delay.hpp"
 #include "scenarios/rollout.hpp"
 #include "scenarios/scenario.hpp"
 #include "simulators/simulator.hpp"

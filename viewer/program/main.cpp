@@ -8,10 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/program/command_line.hpp"
-#include "core/program/interrupt.hpp"
-#include "core/program/outputs.hpp"
-#include "core/program/streams.hpp"
+#include "core/program.hpp"
 #include "viewer/subject.hpp"
 #include "viewer/watch_live.hpp"
 #include "viewer/watch_log.hpp"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/file_names.hpp"
+#include "core/files.hpp"
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/config/optional_section.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/studies/benchmark/plan.hpp"
-#include "scoring/distributions/overlap.hpp"
+#include "scoring/histogram.hpp"
 
 namespace touchdown::experiments {
 

@@ -30,7 +30,6 @@ static void describe(Fields& fields, ClosedLoopScene& scene, const Experiment& e
   }
   fields.check(!scene.noise.empty(), "noise", "expected at least one noise setting");
   for (noise::NoiseCell& cell : scene.noise) cell = noise::as_on_grid(cell, experiment.noise);
-  fields.renamed("late", "delay");
   fields.in_line("delay", scene.delay)
       .range("0 to 1, increasing")
       .doc("s", "Delays of the contact signal.");

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiments/config/study_sections.hpp"
-#include "noise/grid.hpp"
+#include "noise/sensor_noise.hpp"
 
 namespace touchdown::experiments {
 

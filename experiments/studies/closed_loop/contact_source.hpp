@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "estimator/contact_estimator.hpp"
+#include "noise/reported_signals.hpp"
 #include "noise/sensor_noise.hpp"
-#include "noise/sensors/reported.hpp"
 #include "policies/wheel_contact.hpp"
 #include "scoring/labels.hpp"
 

@@ -10,7 +10,7 @@
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/plan/served_robots.hpp"
-#include "scenarios/varied.hpp"
+#include "scenarios/scenario_file.hpp"
 
 namespace touchdown::experiments {
 

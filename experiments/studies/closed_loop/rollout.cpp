@@ -9,7 +9,7 @@
 #include "experiments/plan/served_robots.hpp"
 #include "experiments/signals/motion.hpp"
 #include "scenarios/engine.hpp"
-#include "scenarios/policy_contact.hpp"
+#include "scenarios/rollout.hpp"
 
 namespace touchdown::experiments {
 

@@ -10,7 +10,7 @@
 #include "experiments/studies/closed_loop/contact_source.hpp"
 #include "experiments/studies/closed_loop/metrics.hpp"
 #include "experiments/studies/closed_loop/plan.hpp"
-#include "scenarios/compiled_scenes.hpp"
+#include "scenarios/engine.hpp"
 
 namespace touchdown::experiments {
 

@@ -12,7 +12,7 @@
 #include "experiments/odometry/contact_sources.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/tables/noise_columns.hpp"
-#include "scoring/exact_share.hpp"
+#include "scoring/bootstrap.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::experiments {

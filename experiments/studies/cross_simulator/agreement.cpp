@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scoring/distributions/overlap.hpp"
+#include "scoring/histogram.hpp"
 
 namespace touchdown::experiments {
 

@@ -8,7 +8,7 @@
 #include "experiments/config/experiment.hpp"
 #include "experiments/rollouts/rollouts.hpp"
 #include "scoring/bootstrap.hpp"
-#include "scoring/distributions/histogram.hpp"
+#include "scoring/histogram.hpp"
 
 namespace touchdown::experiments {
 

@@ -10,7 +10,7 @@
 #include "core/tables/table.hpp"
 #include "experiments/studies/cross_simulator/config.hpp"
 #include "scenarios/perturbation.hpp"
-#include "scenarios/varied.hpp"
+#include "scenarios/scenario_file.hpp"
 
 namespace touchdown::experiments {
 

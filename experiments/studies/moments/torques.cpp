@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-#include "scoring/distributions/overlap.hpp"
+#include "scoring/histogram.hpp"
 
 namespace touchdown::experiments {
 

@@ -10,7 +10,6 @@ namespace touchdown::experiments {
 
 static void describe(Fields& fields, OdometryStudyConfig& odometry,
                      const Experiment& /*experiment*/) {
-  fields.renamed("late", "delay");
   fields.in_line("delay", odometry.delay)
       .range("above 0, to 1")
       .doc("s", "Delays of true contact; odometry runs with each.");

@@ -1,7 +1,7 @@
 #include "experiments/studies/sensor_sweep/config.hpp"
 
 #include "experiments/config/optional_section.hpp"
-#include "noise/sensors/factor.hpp"
+#include "noise/sensor_profile.hpp"
 
 namespace touchdown::experiments {
 

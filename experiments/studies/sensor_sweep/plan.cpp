@@ -5,7 +5,7 @@
 #include "core/error.hpp"
 #include "core/tables/table.hpp"
 #include "experiments/studies/sensor_sweep/config.hpp"
-#include "noise/sensors/factor.hpp"
+#include "noise/sensor_profile.hpp"
 
 namespace touchdown::experiments {
 

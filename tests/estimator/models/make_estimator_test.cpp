@@ -128,20 +128,6 @@ TEST(MakeEstimator, RefusesInvalidMetadata) {
               HasSubstr("configuration.threshold: 'high' is no value for it"));
 }
 
-TEST(MakeEstimator, RefusesMetadataUnderTheirFormerName) {
-  for (const std::string name : {"robust", "phase", "nmn", "force_kinematics", "evidence_curves"}) {
-    ModelArrays arrays = test::fitted_model(name);
-    auto metadata = arrays.extract(std::string(metadata_array));
-    metadata.key() = former_metadata_array;
-    arrays.insert(std::move(metadata));
-    EXPECT_EQ(complaint([&] { metadata_of(arrays); }),
-              "its array '" + std::string(former_metadata_array) +
-                  "' is now called 'metadata': export the model or fit it again");
-    EXPECT_THAT(complaint_about(arrays, {.estimator = name, .sample_rate = 1000.0}),
-                HasSubstr("is now called 'metadata'"));
-  }
-}
-
 TEST(MakeEstimator, RefusesARobotNameOfSeveralLines) {
   EXPECT_THAT(complaint([] { test::fitted_model("force_kinematics", "a\nunits: kgf"); }),
               HasSubstr("expected a name of one line"));
@@ -370,23 +356,6 @@ TEST(EvidenceCurves, HaveTwoOperatingPointsOfOneModel) {
       EXPECT_EQ(beliefs_of(*make_estimator(arrays, {.estimator = made})), beliefs_of(expected))
           << name << " as " << made;
     }
-  }
-}
-
-TEST(MakeEstimator, NamesThePresentEstimatorOfAnEarlierOne) {
-  const std::vector<std::pair<const char*, const char*>> names = {
-      {"touchdown", "evidence_curves"},
-      {"evidence_pairs", "evidence_curves"},
-      {"load_logistic", "force_kinematics"}};
-  for (const auto& [former, present] : names) {
-    ModelArrays arrays = test::fitted_arrays(present);
-    arrays[std::string(estimator_array)] = array_of_text(former);
-    add_metadata(arrays, {former, 1000.0, "", {}, ""});
-    EXPECT_THAT(
-        complaint_about(arrays),
-        AllOf(HasSubstr(former), HasSubstr("'" + std::string(present) + "' now: fit it again")));
-    EXPECT_THAT(complaint_about(test::fitted_model(present), {.estimator = former}),
-                HasSubstr("'" + std::string(present) + "' now"));
   }
 }
 

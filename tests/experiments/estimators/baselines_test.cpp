@@ -10,7 +10,7 @@
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/signals/run_signals.hpp"
 #include "scenarios/engine.hpp"
-#include "scenarios/generation/named.hpp"
+#include "scenarios/generation/generate.hpp"
 #include "scenarios/scenario_file.hpp"
 #include "scoring/score.hpp"
 #include "simulators/registry.hpp"

@@ -11,7 +11,7 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "scenarios/engine.hpp"
-#include "scenarios/generation/named.hpp"
+#include "scenarios/generation/generate.hpp"
 #include "scenarios/scenario_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 

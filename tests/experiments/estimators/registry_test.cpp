@@ -46,25 +46,6 @@ TEST(Registry, StatesWhatEstimatorsAreGiven) {
   EXPECT_EQ(given("nmn", true), "signals; fitted elsewhere");
 }
 
-TEST(Registry, NamesThePresentEstimatorOfAnEarlierName) {
-  const std::vector<std::pair<const char*, const char*>> names = {
-      {"touchdown", "evidence_curves"},
-      {"touchdown_shipped", "shipped"},
-      {"evidence_pairs", "evidence_curves"},
-      {"load_logistic", "force_kinematics"},
-      {"gradient_boosting", "boosted_signals"}};
-  for (const auto& [former, present] : names) {
-    try {
-      (void)estimator_entry(former);
-      ADD_FAILURE() << former;
-    } catch (const InputError& error) {
-      EXPECT_EQ(error.what(), "unknown estimator '" + std::string(former) + "': it is '" +
-                                  std::string(present) + "' now");
-    }
-    EXPECT_NO_THROW((void)estimator_entry(present));
-  }
-}
-
 TEST(Registry, NoiseCountsOnlyOnTheSensorsThatAreUsed) {
   const noise::SensorNoise all{1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
   EXPECT_EQ(noise_of({}, all), noise::SensorNoise{});

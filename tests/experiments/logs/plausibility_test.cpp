@@ -14,11 +14,11 @@
 
 #include "core/resources.hpp"
 #include "models/robot_model.hpp"
-#include "noise/sensors/profile.hpp"
-#include "noise/sensors/reported.hpp"
+#include "noise/reported_signals.hpp"
+#include "noise/sensor_profile.hpp"
 #include "recordings/plausibility/check.hpp"
 #include "scenarios/engine.hpp"
-#include "scenarios/generation/named.hpp"
+#include "scenarios/generation/generate.hpp"
 #include "scenarios/leg_geometry.hpp"
 
 namespace touchdown::recordings {

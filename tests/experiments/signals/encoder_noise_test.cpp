@@ -5,7 +5,7 @@
 #include "experiments/fitting/make_estimator.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/studies/experiment_file.hpp"
-#include "noise/grid.hpp"
+#include "noise/sensor_noise.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 
 namespace touchdown::experiments {

@@ -4,7 +4,6 @@
 
 #include "core/resources.hpp"
 #include "experiments/odometry/dead_reckoning.hpp"
-#include "scenarios/compiled_scenes.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/scenario_file.hpp"
 

@@ -6,9 +6,8 @@
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "recordings/signals_from.hpp"
-#include "scenarios/compiled_scenes.hpp"
 #include "scenarios/engine.hpp"
-#include "scenarios/generation/named.hpp"
+#include "scenarios/generation/generate.hpp"
 #include "scenarios/leg_geometry.hpp"
 #include "scenarios/scenario_file.hpp"
 

@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "models/contract.hpp"
+
+namespace touchdown::models {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// The sign of the y axis about which a servo turns in touchdown's convention.
+double expected_sign(std::size_t servo) {
+  const double leg = servo < 3 ? -1.0 : 1.0;
+  return servo % 3 == 2 ? -leg : leg;
+}
+
+/// The sign that makes a hip's or knee's angle positive forward.
+double forward_sign(std::size_t servo) { return servo < 3 ? 1.0 : -1.0; }
+
+void check_axis(const Vector3d& axis, std::size_t servo, const Contract& contract) {
+  constexpr double least = 0.97;  // cosine of 14°
+  if (std::abs(axis.y()) >= least) return;
+  const auto rounded = [](double x) { return std::round(1e3 * x) / 1e3 + 0.0; };
+  contract.fail_at_servo(
+      servo,
+      fmt::format("its axis in the base is ({:g} {:g} {:g}), expected (0 {:g} 0) or its "
+                  "opposite: x is forward, y left, z up",
+                  rounded(axis.x()), rounded(axis.y()), rounded(axis.z()), expected_sign(servo)));
+}
+
+/// Whether body `below` is moved by what moves body `above`.
+bool is_below(const mjModel& model, int below, int above) {
+  for (int body = below; body > 0; body = model.body_parentid[body]) {
+    if (body == above) return true;
+  }
+  return false;
+}
+
+void check_chain(const RobotModel& robot, const Contract& contract) {
+  const mjModel& model = *robot.mj;
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    if (i % 3 == 2 || !robot.has(i)) continue;
+    const int above = model.jnt_bodyid[robot.joint[i]];
+    const int below = model.jnt_bodyid[robot.joint[i + 1]];
+    if (above != below && is_below(model, below, above)) continue;
+    contract.fail_at_servo(i + 1, fmt::format("expected it below joint '{}': each leg is one open "
+                                              "chain",
+                                              servo_names[i]));
+  }
+}
+
+/// Turns a joint's axis around, so that its angles change their sign.
+void reverse(mjModel& model, int joint) {
+  for (int k = 0; k < 3; ++k) {
+    // Adding zero avoids −0, which some products would carry on.
+    model.jnt_axis[3 * joint + k] = -model.jnt_axis[3 * joint + k] + 0.0;
+  }
+  mjtNum* const range = &model.jnt_range[2 * joint];
+  const mjtNum low = range[0];
+  range[0] = -range[1] + 0.0;
+  range[1] = -low + 0.0;
+  const int address = model.jnt_qposadr[joint];
+  model.qpos0[address] = -model.qpos0[address] + 0.0;
+  model.qpos_spring[address] = -model.qpos_spring[address] + 0.0;
+}
+
+/// The forward angle of a link from straight down, seen from the side (rad).
+double angle_of(const Vector3d& link) { return std::atan2(link.x(), -link.z()); }
+
+/// Lets a joint have the angle `straight` at the reference pose. Whole turns are chosen so that the
+/// joint's range is around zero.
+void set_reference(RobotModel& robot, std::size_t servo, double angle) {
+  mjModel& model = *robot.mj;
+  const int joint = robot.joint[servo];
+  mjtNum& reference = model.qpos0[robot.qpos_address[servo]];
+  mjtNum* const range = &model.jnt_range[2 * joint];
+  constexpr double none = 1e-9;
+  if (std::abs(angle) < none) angle = 0.0;
+  double shift = angle - reference;
+  constexpr double turn = 2.0 * std::numbers::pi;
+  if (model.jnt_limited[joint] != 0) {
+    const double middle = 0.5 * (range[0] + range[1]) + shift;
+    shift -= turn * std::round(middle / turn);
+  }
+  if (shift == 0.0) return;
+  reference += shift;
+  range[0] += shift;
+  range[1] += shift;
+  robot.zero[servo] = shift;
+}
+
+/// Moves the zeros of hips and knees to straight legs, and those of the wheels to no `ref`.
+void set_zeros(RobotModel& robot, const Contract& contract) {
+  const MjDataPtr data = at_reference(robot);
+  for (std::size_t leg = 0; leg < wheel_count; ++leg) {
+    const std::size_t hip = 3 * leg;
+    const auto anchor = [&](std::size_t servo) {
+      return vector_at(data->xanchor, robot.joint[servo]);
+    };
+    double above = 0.0;
+    for (std::size_t servo = robot.has(hip) ? hip : hip + 1; servo < hip + 2; ++servo) {
+      const Vector3d link = anchor(servo + 1) - anchor(servo);
+      constexpr double shortest = 1e-3;  // m
+      if (std::hypot(link.x(), link.z()) < shortest) {
+        contract.fail_at_servo(servo + 1,
+                               "expected it away from the joint above it, seen from the "
+                               "side");
+      }
+      const double angle = angle_of(link);
+      set_reference(robot, servo, forward_sign(servo) * (angle - above));
+      above = angle;
+    }
+    set_reference(robot, hip + 2, 0.0);
+  }
+}
+
+void set_imu(RobotModel& robot, const Contract& contract) {
+  mjModel& model = *robot.mj;
+  robot.imu_site = contract.find(mjOBJ_SITE, "site", "imu");
+  const int body = model.site_bodyid[robot.imu_site];
+  if (model.body_weldid[body] != model.body_weldid[robot.base_body]) {
+    contract.fail_at_site(robot.imu_site, "site 'imu': expected it on the base body");
+  }
+  robot.imu_position = vector_at(at_reference(robot)->site_xpos, robot.imu_site);
+  const Eigen::Quaterniond imu_in_base = imu_convention();
+  const mjtNum orientation[] = {imu_in_base.w(), imu_in_base.x(), imu_in_base.y(), imu_in_base.z()};
+  mjtNum* const own = &model.site_quat[4 * robot.imu_site];
+  if (body != robot.base_body || std::equal(own, own + 4, orientation)) return;
+  std::copy_n(orientation, 4, own);
+  model.site_sameframe[robot.imu_site] = 0;
+}
+
+void set_contacts(RobotModel& robot, const Contract& contract) {
+  mjModel& model = *robot.mj;
+  for (int geom = 0; geom < model.ngeom; ++geom) {
+    if (model.body_rootid[model.geom_bodyid[geom]] != robot.base_body) continue;
+    const bool is_tyre = std::any_of(
+        robot.tyre_strips.begin(), robot.tyre_strips.end(), [&](const std::vector<int>& strips) {
+          return std::find(strips.begin(), strips.end(), geom) != strips.end();
+        });
+    if (!is_tyre && model.geom_contype[geom] == 0 && model.geom_conaffinity[geom] == 0) continue;
+    const int type = model.geom_type[geom];
+    if (type == mjGEOM_ELLIPSOID || type == mjGEOM_HFIELD || type == mjGEOM_PLANE) {
+      contract.fail_at_geom(
+          geom, fmt::format("geom {}: expected a sphere, capsule, cylinder, box or mesh: "
+                            "Bullet has no counterpart of this shape",
+                            contract.name_of(mjOBJ_GEOM, geom)));
+    }
+    model.geom_contype[geom] = robot_contype;
+    model.geom_conaffinity[geom] = robot_conaffinity;
+    model.geom_margin[geom] = model.geom_gap[geom] = 0.0;
+    model.geom_priority[geom] = 0;
+  }
+}
+
+/// MuJoCo's default softness of joint limits, and no margin.
+void set_limits(mjModel& model) {
+  constexpr mjtNum solref[mjNREF] = {0.02, 1.0};
+  constexpr mjtNum solimp[mjNIMP] = {0.9, 0.95, 0.001, 0.5, 2.0};
+  for (int joint = 0; joint < model.njnt; ++joint) {
+    std::copy_n(solref, mjNREF, &model.jnt_solref[mjNREF * joint]);
+    std::copy_n(solimp, mjNIMP, &model.jnt_solimp[mjNIMP * joint]);
+    model.jnt_margin[joint] = 0.0;
+  }
+}
+
+}  // namespace
+
+bool sides_are_swapped(const RobotModel& robot, const Contract& contract) {
+  const MjDataPtr data = at_reference(robot);
+  const double left = vector_at(data->geom_xpos, robot.tyre_geom[0]).y();
+  const double right = vector_at(data->geom_xpos, robot.tyre_geom[1]).y();
+  if (std::abs(left - right) < 0.5 * robot.wheel_radius) {
+    contract.fail_at_geom(robot.tyre_geom[1],
+                          "expected the tyres side by side, the left one at larger y");
+  }
+  return left < right;
+}
+
+void apply_conventions(RobotModel& robot, const Contract& contract) {
+  mjModel& model = *robot.mj;
+  check_chain(robot, contract);
+  const MjDataPtr data = at_reference(robot);
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    if (!robot.has(i)) continue;
+    const Vector3d axis = vector_at(data->xaxis, robot.joint[i]);
+    check_axis(axis, i, contract);
+    if (axis.y() * expected_sign(i) > 0.0) continue;
+    reverse(model, robot.joint[i]);
+    robot.is_reversed[i] = true;
+  }
+  set_zeros(robot, contract);
+  set_imu(robot, contract);
+  set_contacts(robot, contract);
+  set_limits(model);
+}
+
+}  // namespace touchdown::models

@@ -1,0 +1,318 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "models/contract.hpp"
+#include "models/mjcf/parts.hpp"
+
+namespace touchdown::models {
+
+namespace {
+
+/// Throws an `InputError` about a motor.
+using FailAtMotor = std::function<void(const std::string& message)>;
+
+/// The upper end of a range that must be symmetric.
+double symmetric(const mjtNum* range, const char* what, const FailAtMotor& fail) {
+  constexpr double close = 1e-6;
+  if (!(range[1] > 0.0) || std::abs(range[0] + range[1]) > close * range[1]) {
+    fail(fmt::format("expected a symmetric {}, found {:g} to {:g}", what, range[0], range[1]));
+  }
+  return range[1];
+}
+
+/// The torque limit of a motor on its joint (N·m): the control range times the gain, within the
+/// force range, times the gear. Position and velocity servos count with their force range. Errors:
+/// `fail` for activations, limits that are not symmetric, and motors without a limit.
+double torque_limit(const mjModel& model, int motor, const FailAtMotor& fail) {
+  if (model.actuator_dyntype[motor] != mjDYN_NONE) {
+    fail("expected a motor, found an activation (dyntype)");
+  }
+  if (model.actuator_gaintype[motor] != mjGAIN_FIXED ||
+      (model.actuator_biastype[motor] != mjBIAS_NONE &&
+       model.actuator_biastype[motor] != mjBIAS_AFFINE)) {
+    fail("expected a motor");
+  }
+  const bool is_motor = model.actuator_biastype[motor] == mjBIAS_NONE;
+  const bool has_force = model.actuator_forcelimited[motor] != 0;
+  const bool has_control = is_motor && model.actuator_ctrllimited[motor] != 0;
+  if (!is_motor && !has_force) {
+    fail("expected a motor, or a forcerange, its torque limit (N·m)");
+  }
+  if (!has_force && !has_control) {
+    fail("expected a ctrlrange or forcerange, its torque limit (N·m)");
+  }
+  double limit = std::numeric_limits<double>::infinity();
+  if (has_control) {
+    limit = std::abs(model.actuator_gainprm[mjNGAIN * motor]) *
+            symmetric(&model.actuator_ctrlrange[2 * motor], "ctrlrange", fail);
+  }
+  if (has_force) {
+    limit = std::min(limit, symmetric(&model.actuator_forcerange[2 * motor], "forcerange", fail));
+  }
+  limit *= std::abs(model.actuator_gear[6 * motor]);
+  if (!(limit > 0.0)) fail("expected a torque limit above 0 N·m");
+  return limit;
+}
+
+/// Removes the law of a position or velocity servo: MuJoCo must not add it to touchdown's. Returns
+/// whether there was one.
+bool remove_law(mjModel& model, int motor) {
+  if (model.actuator_biastype[motor] == mjBIAS_NONE) return false;
+  std::fill_n(&model.actuator_gainprm[mjNGAIN * motor], mjNGAIN, 0.0);
+  std::fill_n(&model.actuator_biasprm[mjNBIAS * motor], mjNBIAS, 0.0);
+  return true;
+}
+
+/// Finds the floating base body, the root of the robot.
+int find_base(const mjModel& model, const Contract& contract) {
+  int base = -1;
+  for (int joint = 0; joint < model.njnt; ++joint) {
+    if (model.jnt_type[joint] != mjJNT_FREE) continue;
+    if (base >= 0) contract.fail_at_joint(joint, "expected one free joint, found several");
+    base = model.jnt_bodyid[joint];
+  }
+  if (base < 0) contract.fail("expected a base body with a <freejoint/>");
+  const int dof = model.jnt_dofadr[model.body_jntadr[base]];
+  for (int i = dof; i < dof + 6; ++i) {
+    if (model.dof_damping[i] != 0.0 || model.dof_armature[i] != 0.0 ||
+        model.dof_frictionloss[i] != 0.0) {
+      contract.fail_at_joint(model.body_jntadr[base],
+                             "free joint: expected no damping, armature or frictionloss on it");
+    }
+  }
+  return base;
+}
+
+/// The names of all hinges, for a message.
+std::string found_joints(const mjModel& model) {
+  std::vector<std::string> names;
+  for (int joint = 0; joint < model.njnt; ++joint) {
+    const char* const name = mj_id2name(&model, mjOBJ_JOINT, joint);
+    if (model.jnt_type[joint] == mjJNT_FREE || name == nullptr || is_held_name(name)) continue;
+    names.emplace_back(name);
+  }
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+int find_joint(const mjModel& model, const Contract& contract, std::size_t servo) {
+  const std::string name(servo_names[servo]);
+  const int joint = mj_name2id(&model, mjOBJ_JOINT, name.c_str());
+  if (joint < 0) {
+    contract.fail(
+        fmt::format("expected a hinge joint named '{}', found {} (a YAML file about this "
+                    "robot may name others: joints, hip: none, held)",
+                    name, found_joints(model)));
+  }
+  if (model.jnt_type[joint] != mjJNT_HINGE) contract.fail_at_servo(servo, "expected a hinge");
+  if (model.jnt_stiffness[joint] != 0.0) {
+    contract.fail_at_servo(
+        servo, fmt::format("expected no spring, found stiffness {:g}", model.jnt_stiffness[joint]));
+  }
+  return joint;
+}
+
+void refuse_other_joints(const RobotModel& robot, const Contract& contract) {
+  const mjModel& model = *robot.mj;
+  for (int joint = 0; joint < model.njnt; ++joint) {
+    const char* const name = mj_id2name(&model, mjOBJ_JOINT, joint);
+    const bool is_known =
+        model.jnt_type[joint] == mjJNT_FREE || is_held_name(name) ||
+        std::find(robot.joint.begin(), robot.joint.end(), joint) != robot.joint.end();
+    if (is_known) continue;
+    contract.fail_at_joint(
+        joint,
+        fmt::format("joint {}: expected the servos' joints alone (a YAML file about this robot may "
+                    "list it under `held`)",
+                    contract.name_of(mjOBJ_JOINT, joint)));
+  }
+}
+
+int find_motor(const RobotModel& robot, const Contract& contract, std::size_t servo) {
+  const mjModel& model = *robot.mj;
+  const int motor = contract.find(mjOBJ_ACTUATOR, "motor", servo_names[servo]);
+  if ((model.actuator_trntype[motor] != mjTRN_JOINT &&
+       model.actuator_trntype[motor] != mjTRN_JOINTINPARENT) ||
+      model.actuator_trnid[2 * motor] != robot.joint[servo]) {
+    contract.fail_at_motor(servo,
+                           fmt::format("expected it to drive joint '{}'", servo_names[servo]));
+  }
+  return motor;
+}
+
+/// Gains of a servo on its joint; zero where a motor has none.
+struct Gains {
+  double kp = 0.0;
+  double kd = 0.0;
+};
+
+/// The gains of a position or velocity servo: force = gain·control − kp·length − kv·velocity, with
+/// gear × angle as length.
+Gains own_gains(const mjModel& model, int motor) {
+  if (motor < 0 || model.actuator_biastype[motor] != mjBIAS_AFFINE) return {};
+  const double gear = model.actuator_gear[6 * motor];
+  const mjtNum* const bias = &model.actuator_biasprm[mjNBIAS * motor];
+  return {-bias[1] * gear * gear, -bias[2] * gear * gear};
+}
+
+/// Length of the left leg seen from the side, from its first joint over the knee to the axle (m).
+double leg_length(const RobotModel& robot) {
+  const MjDataPtr data = at_reference(robot);
+  const auto distance = [&](Servo from, Servo to) {
+    const Eigen::Vector3d link = vector_at(data->xanchor, robot.joint[index(to)]) -
+                                 vector_at(data->xanchor, robot.joint[index(from)]);
+    return std::hypot(link.x(), link.z());
+  };
+  const double lower = distance(Servo::left_knee, Servo::left_wheel);
+  if (!robot.has(index(Servo::left_hip))) return lower;
+  return lower + distance(Servo::left_hip, Servo::left_knee);
+}
+
+/// Gains that follow from the robot: three times the stiffness with which gravity topples it.
+Gains gains_for(const RobotModel& robot) {
+  constexpr double gravity = 9.81;
+  const double length = leg_length(robot);
+  const double toppling = mj_getTotalmass(robot.mj.get()) * gravity * length;
+  return {3.0 * toppling, 0.73 * toppling * std::sqrt(length / gravity)};
+}
+
+class Held {
+ public:
+  Held(RobotModel& robot, const Contract& contract, std::size_t number)
+      : model_(*robot.mj), contract_(contract), name_(held_name(number)) {
+    held_.name = contract.parts().held[number];
+    held_.joint = contract.find(mjOBJ_JOINT, "joint", name_);
+    motor_ = mj_name2id(&model_, mjOBJ_ACTUATOR, name_.c_str());
+  }
+
+  HeldJoint held(const HeldServo& given, const Gains& robots) {
+    check_joint();
+    held_.qpos_address = model_.jnt_qposadr[held_.joint];
+    held_.dof_address = model_.jnt_dofadr[held_.joint];
+    held_.reference = model_.qpos0[held_.qpos_address];
+    set_gains(given, robots);
+    set_limit(given);
+    set_actuator();
+    if (motor_ >= 0) (void)remove_law(model_, motor_);
+    return held_;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    contract_.fail_at_joint(held_.joint, fmt::format("joint '{}': {}", held_.name, message));
+  }
+
+  void check_joint() const {
+    if (model_.jnt_type[held_.joint] != mjJNT_HINGE) fail("expected a hinge, as it is held");
+    if (model_.body_jntnum[model_.jnt_bodyid[held_.joint]] > 1) {
+      fail("expected no other joint on its body, as it is held");
+    }
+    if (const double stiffness = model_.jnt_stiffness[held_.joint]; stiffness != 0.0) {
+      fail(fmt::format("expected no spring, found stiffness {:g}", stiffness));
+    }
+  }
+
+  void set_gains(const HeldServo& given, const Gains& robots) {
+    const Gains own = own_gains(model_, motor_);
+    if (given.kp) {
+      held_.kp = *given.kp;
+      held_.kp_source = "held_servo";
+    } else if (own.kp > 0.0) {
+      held_.kp = own.kp;
+      held_.kp_source = "the file's position servo";
+    } else {
+      held_.kp = robots.kp;
+      held_.kp_source = "weight and leg length";
+    }
+    held_.kd = given.kd.value_or(own.kd > 0.0 ? own.kd : robots.kd * held_.kp / robots.kp);
+  }
+
+  void set_limit(const HeldServo& given) {
+    if (given.maximum_torque) {
+      held_.effort = *given.maximum_torque;
+      return;
+    }
+    if (motor_ < 0) {
+      fail(
+          "expected a motor that holds it, an effort limit in the URDF, or 'held_servo: "
+          "{maximum_torque: …}' in the YAML file");
+    }
+    held_.effort = torque_limit(model_, motor_, [&](const std::string& message) {
+      contract_.fail_at_actuator(
+          motor_, fmt::format("motor of joint '{}': {}, or 'held_servo: {{maximum_torque: …}}' in "
+                              "the YAML file",
+                              held_.name, message));
+    });
+  }
+
+  void set_actuator() {
+    const int dof = held_.dof_address;
+    held_.actuator = {.friction = model_.dof_frictionloss[dof],
+                      .viscous = model_.dof_damping[dof],
+                      .armature = model_.dof_armature[dof]};
+    model_.dof_frictionloss[dof] = model_.dof_damping[dof] = 0.0;
+  }
+
+  mjModel& model_;
+  const Contract& contract_;
+  std::string name_;
+  HeldJoint held_;
+  int motor_ = -1;
+};
+
+}  // namespace
+
+void find_servos(RobotModel& robot, const Contract& contract) {
+  mjModel& model = *robot.mj;
+  robot.base_body = find_base(model, contract);
+  std::array<int, servo_count> motor = {-1, -1, -1, -1, -1, -1};
+  robot.joint.fill(-1);
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    if (i % 3 == 0 && !contract.parts().has_hips) continue;
+    robot.joint[i] = find_joint(model, contract, i);
+    motor[i] = find_motor(robot, contract, i);
+  }
+  refuse_other_joints(robot, contract);
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    robot.qpos_address[i] = robot.dof_address[i] = -1;
+    if (!robot.has(i)) continue;
+    const int joint = robot.joint[i];
+    robot.qpos_address[i] = model.jnt_qposadr[joint];
+    robot.dof_address[i] = model.jnt_dofadr[joint];
+    robot.effort[i] = torque_limit(
+        model, motor[i], [&](const std::string& message) { contract.fail_at_motor(i, message); });
+    robot.actuator[i] = {.friction = model.dof_frictionloss[robot.dof_address[i]],
+                         .viscous = model.dof_damping[robot.dof_address[i]],
+                         .armature = model.dof_armature[robot.dof_address[i]]};
+  }
+  for (int i = 0; i < model.nu; ++i) {
+    const char* const name = mj_id2name(&model, mjOBJ_ACTUATOR, i);
+    if (is_held_name(name)) continue;
+    if (std::find(motor.begin(), motor.end(), i) == motor.end()) {
+      contract.fail_at_actuator(
+          i, fmt::format("actuator {}: expected one motor for each servo, and no other",
+                         name == nullptr ? "without a name" : fmt::format("'{}'", name)));
+    }
+    // The servos' law is touchdown's: MuJoCo must not add that of the file.
+    if (remove_law(model, i)) {
+      robot.ignored.push_back(fmt::format("{}: actuator '{}': its own law; its forcerange counts",
+                                          contract.place_of_actuator(i), name));
+    }
+  }
+}
+
+void find_held(RobotModel& robot, const RobotDescription& description, const Contract& contract) {
+  robot.held.clear();
+  if (contract.parts().held.empty()) return;
+  const Gains robots = gains_for(robot);
+  std::vector<HeldJoint> held;
+  for (std::size_t i = 0; i < contract.parts().held.size(); ++i) {
+    held.push_back(Held(robot, contract, i).held(description.held_servo, robots));
+  }
+  robot.held = std::move(held);
+}
+
+}  // namespace touchdown::models

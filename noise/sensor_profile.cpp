@@ -1,0 +1,337 @@
+#include "noise/sensor_profile.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/error.hpp"
+#include "core/fields.hpp"
+#include "core/resources.hpp"
+
+namespace touchdown::noise {
+
+namespace {
+
+/// A disturbance that a study can vary, with the number that sets its size.
+struct VariedDisturbance {
+  const char* name;
+  double& (*of)(SensorChannel& channel);
+  bool has_no_unit;  ///< may be set for all sensors at once
+  bool on_joints = true;
+  bool on_attitude = true;
+  bool is_shared_by_axes = false;
+};
+constexpr std::array disturbances = {
+    VariedDisturbance{"scale", [](SensorChannel& c) -> double& { return c.scale.sd; }, true, true,
+                      false},
+    VariedDisturbance{"bias", [](SensorChannel& c) -> double& { return c.bias.sd; }, false},
+    VariedDisturbance{"walk", [](SensorChannel& c) -> double& { return c.walk; }, false},
+    VariedDisturbance{"vibration",
+                      [](SensorChannel& c) -> double& { return c.vibration.amplitude; }, false,
+                      false, false},
+    VariedDisturbance{"coloured", [](SensorChannel& c) -> double& { return c.coloured.sd; }, false},
+    VariedDisturbance{"low_pass", [](SensorChannel& c) -> double& { return c.low_pass; }, true,
+                      true, false},
+    VariedDisturbance{"white", [](SensorChannel& c) -> double& { return c.white; }, false},
+    VariedDisturbance{"degrees_of_freedom",
+                      [](SensorChannel& c) -> double& { return c.degrees_of_freedom; }, true},
+    VariedDisturbance{"range", [](SensorChannel& c) -> double& { return c.range; }, false, true,
+                      false},
+    VariedDisturbance{"resolution", [](SensorChannel& c) -> double& { return c.resolution; }, false,
+                      true, false},
+    VariedDisturbance{"rate", [](SensorChannel& c) -> double& { return c.rate; }, true, true, true,
+                      true},
+    VariedDisturbance{"delay", [](SensorChannel& c) -> double& { return c.delay; }, true, true,
+                      true, true},
+    VariedDisturbance{"dropout", [](SensorChannel& c) -> double& { return c.dropout.rate; }, true,
+                      true, true, true}};
+
+struct VariedSensor {
+  const char* name;
+  std::array<SensorChannel, 3> SensorProfile::*channels;
+  bool is_joint;
+  bool is_attitude;
+
+  bool has(const VariedDisturbance& disturbance) const {
+    return (disturbance.on_joints || !is_joint) && (disturbance.on_attitude || !is_attitude);
+  }
+};
+constexpr std::array sensors = {
+    VariedSensor{"torque", &SensorProfile::torque, true, false},
+    VariedSensor{"position", &SensorProfile::position, true, false},
+    VariedSensor{"velocity", &SensorProfile::velocity, true, false},
+    VariedSensor{"accelerometer", &SensorProfile::accelerometer, false, false},
+    VariedSensor{"gyroscope", &SensorProfile::gyroscope, false, false},
+    VariedSensor{"orientation", &SensorProfile::orientation, false, true}};
+
+constexpr std::array joints = {"hip", "knee", "wheel"};
+constexpr std::array axes = {"x", "y", "z"};
+
+/// Finds the entry named `word` among those that `is_known` accepts. Errors: `InputError`.
+template <typename Named, typename Known>
+const Named& find(const std::string& word, const Named& first, std::size_t count,
+                  const Known& is_known) {
+  std::vector<std::string> names;
+  for (const Named* one = &first; one != &first + count; ++one) {
+    if (!is_known(*one)) continue;
+    if (one->name == word) return *one;
+    names.emplace_back(one->name);
+  }
+  throw InputError(fmt::format("'{}' is not one of {}{}", word, fmt::join(names, ", "),
+                               did_you_mean(word, names)));
+}
+
+std::size_t channel_number(const std::string& word, const std::array<const char*, 3>& names) {
+  const auto found = std::find(names.begin(), names.end(), word);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  throw InputError(fmt::format("'{}' is not one of {}{}", word, fmt::join(names, ", "),
+                               did_you_mean(word, {names.begin(), names.end()})));
+}
+
+/// The numbers of the profile that a key names.
+std::vector<double*> numbers_of(SensorProfile& profile, std::string_view key) {
+  std::vector<std::string> words;
+  std::istringstream parts{std::string(key)};
+  for (std::string word; std::getline(parts, word, '.');) words.push_back(word);
+  if (words.empty() || words.size() > 3) {
+    throw InputError("expected a disturbance, of all sensors, one sensor or one channel");
+  }
+  std::vector<double*> numbers;
+  if (words.size() == 1) {
+    const VariedDisturbance& disturbance =
+        find(words[0], disturbances.front(), disturbances.size(),
+             [](const VariedDisturbance& one) { return one.has_no_unit; });
+    for (const VariedSensor& sensor : sensors) {
+      if (!sensor.has(disturbance)) continue;
+      for (SensorChannel& channel : profile.*sensor.channels) {
+        numbers.push_back(&disturbance.of(channel));
+      }
+    }
+    return numbers;
+  }
+  const VariedSensor& sensor = find(words[0], sensors.front(), sensors.size(),
+                                    [](const VariedSensor& /*any*/) { return true; });
+  const bool whole = words.size() == 2;
+  const VariedDisturbance& disturbance = find(
+      words.back(), disturbances.front(), disturbances.size(), [&](const VariedDisturbance& one) {
+        return sensor.has(one) && (whole || sensor.is_joint || !one.is_shared_by_axes);
+      });
+  auto& channels = profile.*sensor.channels;
+  if (!whole) {
+    return {&disturbance.of(channels[channel_number(words[1], sensor.is_joint ? joints : axes)])};
+  }
+  for (SensorChannel& channel : channels) numbers.push_back(&disturbance.of(channel));
+  return numbers;
+}
+
+constexpr double largest = 1e4;  ///< limit of biases, standard deviations and resolutions
+
+/// Kind of sensor; it determines which disturbances apply.
+enum class SensorKind { joint, imu, attitude };
+
+/// A sensor with its unit, as in the reference of keys.
+struct Sensor {
+  SensorKind kind;
+  const char* unit;
+  const char* meaning;
+};
+
+void describe_low_pass(Fields& fields, double& time_constant) {
+  const auto describe_time_constant = [&](Fields& filter) {
+    filter.know("cut_off");
+    filter("time_constant", time_constant, 0.0, 100.0).doc("s", "Time constant; 0: none.");
+  };
+  const auto describe_cut_off = [&](Fields& filter) {
+    double cut_off = 0.0;
+    filter("cut_off", cut_off, 1e-3, 1e6)
+        .fallback("none")
+        .doc("Hz", "Cut-off frequency instead of the time constant.");
+    filter.check(!filter.present("time_constant", false), "cut_off",
+                 "expected either a cut-off frequency (Hz) or a time constant (s)");
+    if (!filter.documenting()) time_constant = 1.0 / (2.0 * std::numbers::pi * cut_off);
+  };
+  fields
+      .within("low_pass",
+              [&](Fields& filter) {
+                const bool has_cut_off = filter.present("cut_off", false);
+                if (!has_cut_off || filter.documenting()) describe_time_constant(filter);
+                if (has_cut_off) describe_cut_off(filter);
+              })
+      .doc("First-order low-pass of the instrument.");
+}
+
+/// Disturbances of the value.
+void describe_values(Fields& fields, SensorChannel& channel, const Sensor& sensor) {
+  const SensorKind kind = sensor.kind;
+  const std::string unit = sensor.unit;
+  if (kind != SensorKind::attitude) {
+    fields
+        .within("scale",
+                [&](Fields& scale) {
+                  scale("value", channel.scale.value, -1.0, 10.0).doc("Fixed relative error.");
+                  scale("sd", channel.scale.sd, 0.0, 1.0)
+                      .doc("Standard deviation of a draw per run that is added.");
+                })
+        .doc("Relative error of the values.");
+  }
+  fields
+      .within("bias",
+              [&](Fields& bias) {
+                bias("value", channel.bias.value, -largest, largest).doc(unit, "Fixed offset.");
+                bias("sd", channel.bias.sd, 0.0, largest)
+                    .doc(unit, "Standard deviation of a draw per run that is added.");
+                bias("walk", channel.walk, 0.0, largest)
+                    .doc(unit + "/√s", "Standard deviation of its random walk after one second.");
+              })
+      .doc("Offset of the values.");
+  if (kind == SensorKind::imu) {
+    fields
+        .within("vibration",
+                [&](Fields& vibration) {
+                  vibration("amplitude", channel.vibration.amplitude, 0.0, largest)
+                      .doc(unit + " per rad/s", "Amplitude per wheel speed.");
+                  vibration("order", channel.vibration.order, 1e-3, 1e3)
+                      .doc("Frequency per turning frequency of the wheel.");
+                })
+        .doc("A sine for each wheel, with its turning frequency.");
+  }
+  fields
+      .within("coloured",
+              [&](Fields& coloured) {
+                coloured("sd", channel.coloured.sd, 0.0, largest)
+                    .doc(unit, "Standard deviation of the noise.");
+                coloured("time_constant", channel.coloured.time_constant, 1e-6, 1e6)
+                    .doc("s", "Time constant of its autocorrelation.");
+              })
+      .doc("First-order Gauss-Markov noise.");
+  if (kind != SensorKind::attitude) describe_low_pass(fields, channel.low_pass);
+  fields("white", channel.white, 0.0, largest).doc(unit, "Standard deviation of the white noise.");
+  if (fields.reading() || std::isfinite(channel.degrees_of_freedom)) {
+    fields("degrees_of_freedom", channel.degrees_of_freedom, 2.1, 1e6)
+        .fallback("none: a normal distribution")
+        .doc(
+            "Heavy tails: the white noise has Student's t distribution with these degrees of "
+            "freedom, scaled to the same standard deviation.");
+  }
+  if (kind == SensorKind::attitude) return;
+  if (fields.reading() || std::isfinite(channel.range)) {
+    fields("range", channel.range, 1e-9, 1e9).doc(unit, "Values are clipped to ± this.");
+  }
+  fields("resolution", channel.resolution, 0.0, largest).doc(unit, "Step of the values; 0: none.");
+}
+
+/// Disturbances of the timing.
+void describe_clock(Fields& fields, SensorChannel& channel) {
+  fields("rate", channel.rate, 0.0, 1e6)
+      .doc("Hz", "Sample rate; samples are held; 0: one per step.");
+  fields("delay", channel.delay, 0.0, 10.0).doc("s", "Delay, rounded to whole steps.");
+  fields
+      .within("dropout",
+              [&](Fields& dropout) {
+                dropout.choose("kind", {"missing", "frozen", "nan"}, channel.dropout.kind)
+                    .doc("Output during a dropout: no record, the last value, or not a number.");
+                dropout("rate", channel.dropout.rate, 0.0, 1.0)
+                    .doc("Probability per step that a dropout begins.");
+                dropout("length", channel.dropout.length, 1e-6, 1e3).doc("s", "Mean length.");
+              })
+      .doc("Times without a new value.");
+}
+
+/// Keys of a sensor apply to all three of its channels. Keys under a channel's name override them
+/// for this channel.
+void describe_sensor(Fields& fields, std::string_view key, std::array<SensorChannel, 3>& channels,
+                     const std::array<const char*, 3>& names, const Sensor& sensor) {
+  const bool is_joint = sensor.kind == SensorKind::joint;
+  const auto describe_channel = [&](Fields& one, SensorChannel& channel) {
+    // The reference of keys lists those of a sensor once.
+    if (one.documenting()) return;
+    describe_values(one, channel, sensor);
+    if (is_joint) describe_clock(one, channel);
+  };
+  const auto describe_all = [&](Fields& all) {
+    const bool alike = channels[0] == channels[1] && channels[0] == channels[2];
+    SensorChannel common = channels[0];
+    if (all.reading() || alike) describe_values(all, common, sensor);
+    if (all.reading() || alike || !is_joint) describe_clock(all, common);
+    if (all.reading()) channels.fill(common);
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      if (!all.present(names[i], !alike)) {
+        all.know(names[i]);
+        continue;
+      }
+      all.within(names[i], [&](Fields& one) { describe_channel(one, channels[i]); })
+          .type(is_joint ? "section with the keys of its sensor"
+                         : "section with the keys of its sensor but rate, delay and dropout")
+          .doc("Replaces values of its sensor for this channel.");
+    }
+  };
+  fields.within(key, describe_all).doc(sensor.meaning);
+}
+
+}  // namespace
+
+SensorProfile with_value(SensorProfile profile, std::string_view key, double value) {
+  for (double* number : numbers_of(profile, key)) *number = value;
+  // Reading the profile back checks the range of the value.
+  from_yaml<SensorProfile>(YamlDocument::parse(to_yaml(profile), fmt::format("{}={}", key, value)));
+  return profile;
+}
+
+void describe(Fields& fields, SensorProfile& profile) {
+  describe_sensor(fields, "torque", profile.torque, joints,
+                  {SensorKind::joint, "N·m", "Joint torques, reported by the servos."});
+  describe_sensor(fields, "position", profile.position, joints,
+                  {SensorKind::joint, "rad", "Joint positions."});
+  describe_sensor(fields, "velocity", profile.velocity, joints,
+                  {SensorKind::joint, "rad/s", "Joint velocities."});
+  describe_sensor(fields, "accelerometer", profile.accelerometer, axes,
+                  {SensorKind::imu, "m/s²", "Acceleration of the IMU, gravity included."});
+  describe_sensor(fields, "gyroscope", profile.gyroscope, axes,
+                  {SensorKind::imu, "rad/s", "Angular velocity of the IMU."});
+  describe_sensor(fields, "orientation", profile.orientation, axes,
+                  {SensorKind::attitude, "rad", "Error of the IMU's attitude, about its axes."});
+  const auto describe_misalignment = [&](Fields& misalignment) {
+    constexpr double pi = std::numbers::pi;
+    Misalignment& angle = profile.misalignment;
+    misalignment("roll", angle.roll, -pi, pi).range("-π to π").doc("rad", "About x.");
+    misalignment("pitch", angle.pitch, -pi, pi).range("-π to π").doc("rad", "About y, after roll.");
+    misalignment("yaw", angle.yaw, -pi, pi).range("-π to π").doc("rad", "About z, after pitch.");
+    misalignment("sd", angle.sd, 0.0, 1.0)
+        .doc("rad", "Standard deviation of a draw per run that is added to each angle.");
+  };
+  fields.within("misalignment", describe_misalignment)
+      .doc("Rotation of the IMU from its nominal frame.");
+}
+
+bool is_ideal(const SensorChannel& channel) {
+  return channel.scale == Constant() && channel.bias == Constant() && channel.walk == 0.0 &&
+         channel.vibration.amplitude == 0.0 && channel.coloured.sd == 0.0 &&
+         channel.low_pass == 0.0 && channel.white == 0.0 && std::isinf(channel.range) &&
+         channel.resolution == 0.0 && channel.rate == 0.0 && channel.delay == 0.0 &&
+         channel.dropout.rate == 0.0;
+}
+
+bool is_ideal(const AxisChannels& channels) {
+  return std::all_of(channels.begin(), channels.end(),
+                     [](const SensorChannel& channel) { return is_ideal(channel); });
+}
+
+bool is_ideal(const SensorProfile& profile) {
+  return is_ideal(profile.torque) && is_ideal(profile.position) && is_ideal(profile.velocity) &&
+         is_ideal(profile.accelerometer) && is_ideal(profile.gyroscope) &&
+         is_ideal(profile.orientation) && profile.misalignment == Misalignment();
+}
+
+SensorProfile find_sensor_profile(const std::filesystem::path& path) {
+  return from_yaml<SensorProfile>(YamlDocument::load(find_resource(path)));
+}
+
+std::string to_yaml(const SensorProfile& profile) { return YAML::Dump(to_node(profile)) + "\n"; }
+
+}  // namespace touchdown::noise

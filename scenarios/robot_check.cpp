@@ -1,0 +1,232 @@
+#include "scenarios/robot_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/resources.hpp"
+#include "estimator/force/leg_geometry.hpp"
+#include "models/robot_description.hpp"
+#include "models/robot_model.hpp"
+#include "scenarios/engine.hpp"
+#include "scenarios/leg_geometry.hpp"
+#include "scenarios/scenario.hpp"
+#include "scenarios/scenario_file.hpp"
+#include "simulators/registry.hpp"
+
+namespace touchdown::scenarios {
+
+namespace {
+
+std::string actuator_text(const models::Actuator& actuator) {
+  std::string text;
+  const auto add = [&](const char* what, double value) {
+    if (value != 0.0) text += fmt::format("{}{} {:g}", text.empty() ? "" : ", ", what, value);
+  };
+  add("friction", actuator.friction);
+  add("viscous", actuator.viscous);
+  add("armature", actuator.armature);
+  return text;
+}
+
+CheckedJoint checked(const models::RobotModel& robot, const mjData& data, std::size_t servo) {
+  const int joint = robot.joint[servo];
+  const mjtNum* const range = &robot.mj->jnt_range[2 * joint];
+  CheckedJoint checked{.servo = std::string(models::servo_names[servo]),
+                       .joint = robot.joint_name[servo],
+                       .axis = models::vector_at(data.xaxis, joint),
+                       .is_reversed = robot.is_reversed[servo],
+                       .zero = robot.zero[servo],
+                       .is_limited = robot.mj->jnt_limited[joint] != 0,
+                       .low = range[0],
+                       .high = range[1],
+                       .torque_limit = robot.effort[servo],
+                       .actuator = actuator_text(robot.actuator[servo])};
+  if (checked.is_reversed) checked.axis = -checked.axis + Eigen::Vector3d::Zero();
+  return checked;
+}
+
+/// The mass that a leg's first joint moves.
+double mass_below(const models::RobotModel& robot, std::size_t leg) {
+  const std::size_t top = robot.has(3 * leg) ? 3 * leg : 3 * leg + 1;
+  return robot.mj->body_subtreemass[robot.mj->jnt_bodyid[robot.joint[top]]];
+}
+
+/// Knee torque per newton of load, in the stance: the distance of the axle from the knee, level.
+double lever_of(const models::RobotModel& robot, double hip, double knee) {
+  LegSignals leg;
+  leg.hip.position = hip;
+  leg.knee.position = -knee;
+  return std::abs(foot_jacobian(leg_geometry(robot), leg, false).lower_z);
+}
+
+bool has_shape(const models::RobotModel& robot, int type) {
+  const mjModel& mj = *robot.mj;
+  for (int geom = 0; geom < mj.ngeom; ++geom) {
+    if (mj.body_rootid[mj.geom_bodyid[geom]] == robot.base_body && mj.geom_contype[geom] != 0 &&
+        mj.geom_type[geom] == type) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::vector<std::string> differences(const models::RobotModel& robot) {
+  std::vector<std::string> all;
+  if (robot.tyre.law == models::Tyre::Law::engine) {
+    all.emplace_back(
+        "tyres: each engine has its own contact model (tyre: {law: spring_damper} is "
+        "the same in both)");
+  }
+  if (robot.mj->geom_type[robot.tyre_geom[0]] == mjGEOM_CYLINDER) {
+    all.emplace_back(
+        "tyres: cylinders have several contact points on flat ground, and their number "
+        "differs; spheres have one");
+  }
+  if (has_shape(robot, mjGEOM_MESH)) {
+    all.emplace_back("meshes: both engines use the convex hull, Bullet with a rounding margin");
+  }
+  const bool has_rotors = std::any_of(robot.actuator.begin(), robot.actuator.end(),
+                                      [](const auto& a) { return a.armature != 0.0; });
+  if (has_rotors) {
+    all.emplace_back("armature: in Bullet, contacts see the rotor as a part of its link");
+  }
+  return all;
+}
+
+/// The largest angle of a held joint from its reference during a run (rad).
+double given_way(const recordings::Recording& recording,
+                 const std::vector<CheckedHeldJoint>& held) {
+  double largest = 0.0;
+  for (const models::GroundTruth& truth : recording.truth) {
+    for (std::size_t i = 0; i < std::min(held.size(), truth.held.size()); ++i) {
+      largest = std::max(largest, std::abs(truth.held[i].position - held[i].reference));
+    }
+  }
+  return largest;
+}
+
+CheckedStand stand(const Scenario& scenario, const std::string& engine, const RobotCheck& check,
+                   const std::function<bool()>& should_continue) {
+  const auto is_wanted = [&](double /*time*/ = 0.0) {
+    return !should_continue || should_continue();
+  };
+  const recordings::Recording recording = play(scenario, engine, 0, 0, is_wanted);
+  if (!is_wanted()) throw Stopped("stopped");
+  CheckedStand stand{.engine = engine, .ending = ending_text(recording, scenario.end)};
+  stand.given_way = given_way(recording, check.held);
+  stand.stands = recording.info.outcome == recordings::Outcome::finished;
+  stand.moved = (recording.truth.back().base_position - recording.truth.front().base_position)
+                    .head<2>()
+                    .norm();
+  constexpr double averaged = 0.5;  // s
+  const auto steps = std::min(recording.steps(),
+                              static_cast<std::size_t>(std::lround(averaged / recording.period())));
+  for (std::size_t k = recording.steps() - steps; k < recording.steps(); ++k) {
+    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+      stand.load[wheel] +=
+          recording.truth[k].wheel_normal_force[wheel] / static_cast<double>(steps);
+    }
+  }
+  return stand;
+}
+
+/// Complaints about a stand that ended well: a robot that rolls away, wheels that carry nothing, or
+/// not the weight.
+void check_loads(const CheckedStand& stand, double weight, std::vector<std::string>& complaints) {
+  constexpr double farthest = 0.4;  // m
+  if (stand.moved > farthest) {
+    complaints.push_back(fmt::format("{}: standing: rolled {:.2f} m away within two seconds",
+                                     stand.engine, stand.moved));
+  }
+  constexpr double farthest_held = 0.2;  // rad
+  if (stand.given_way > farthest_held) {
+    complaints.push_back(
+        fmt::format("{}: standing: a held joint gives way by {:.2f} rad: its servo is too weak "
+                    "(held_servo)",
+                    stand.engine, stand.given_way));
+  }
+  const double sum = stand.load[0] + stand.load[1];
+  constexpr double tolerance = 0.2;
+  if (std::abs(sum - weight) > tolerance * weight) {
+    complaints.push_back(
+        fmt::format("{}: standing: the tyres carry {:.1f} N, expected the weight, "
+                    "{:.1f} N",
+                    stand.engine, sum, weight));
+  } else if (std::min(stand.load[0], stand.load[1]) < tolerance * weight) {
+    complaints.push_back(
+        fmt::format("{}: standing: {:.1f} N on the left tyre, {:.1f} N on the right", stand.engine,
+                    stand.load[0], stand.load[1]));
+  }
+}
+
+/// The way out for a robot that falls: its file does not choose gains, so they are Upkie's.
+std::string hint_about_gains(const std::filesystem::path& file) {
+  const bool has_gains =
+      models::is_about_an_mjcf(file) && YamlDocument::load(file).root()["balancer"].IsDefined();
+  return has_gains ? ""
+                   : " (with the gains of Upkie: a YAML file about this robot may have 'balancer: "
+                     "{gains: lqr}')";
+}
+
+void read_robot(const Scenario& scenario, RobotCheck& check) {
+  const models::RobotModel robot = models::compile_robot_model(scenario.robot, {});
+  const models::MjDataPtr data = models::at_reference(robot);
+  check.name = robot.name;
+  check.mass = mj_getTotalmass(robot.mj.get());
+  check.leg_mass = {mass_below(robot, 0), mass_below(robot, 1)};
+  check.wheel_radius = robot.wheel_radius;
+  check.track = (models::vector_at(data->geom_xpos, robot.tyre_geom[0]) -
+                 models::vector_at(data->geom_xpos, robot.tyre_geom[1]))
+                    .norm();
+  check.imu = robot.imu_position;
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
+    if (robot.has(i)) check.joints.push_back(checked(robot, *data, i));
+  }
+  for (const models::HeldJoint& held : robot.held) {
+    check.held.push_back({.joint = held.name,
+                          .reference = held.reference,
+                          .kp = held.kp,
+                          .kd = held.kd,
+                          .torque_limit = held.effort,
+                          .kp_source = held.kp_source,
+                          .actuator = actuator_text(held.actuator)});
+  }
+  check.hip = robot.has(0) ? scenario.start.hip : 0.0;
+  check.knee = scenario.start.knee;
+  check.lever = lever_of(robot, check.hip, check.knee);
+  check.ignored = robot.ignored;
+  check.differences = differences(robot);
+}
+
+}  // namespace
+
+RobotCheck check_robot(const std::filesystem::path& file,
+                       const std::function<bool()>& should_continue) {
+  RobotCheck check;
+  try {
+    const Scenario scenario = complete_scenario(
+        YamlDocument::parse(fmt::format("name: stand\nrobot: {}\nend: {{duration: 2}}\n",
+                                        YAML::Dump(YAML::Node(file.string()))),
+                            "stand"));
+    read_robot(scenario, check);
+    constexpr double gravity = 9.81;
+    for (const std::string& engine : simulators::simulator_names()) {
+      check.stands.push_back(stand(scenario, engine, check, should_continue));
+      const CheckedStand& last = check.stands.back();
+      if (!last.stands) {
+        check.complaints.push_back(fmt::format("{}: standing: {}{}", engine, last.ending,
+                                               hint_about_gains(scenario.robot)));
+      } else {
+        check_loads(last, gravity * check.mass, check.complaints);
+      }
+    }
+  } catch (const InputError& error) {
+    check.complaints.emplace_back(error.what());
+  }
+  return check;
+}
+
+}  // namespace touchdown::scenarios

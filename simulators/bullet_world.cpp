@@ -1,0 +1,315 @@
+#include "simulators/bullet_world.hpp"
+
+#include <algorithm>
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "simulators/collision_model.hpp"
+#include "simulators/tyres.hpp"
+
+namespace touchdown::simulators {
+
+namespace {
+
+constexpr int robot_group = 1;
+constexpr int terrain_group = 2;
+/// Rounding radius of box edges (m). Bullet's default of 4 cm makes a groove where two boxes meet,
+/// which excites tyres that are springs.
+constexpr double edge_radius = 1e-4;
+
+std::unique_ptr<btCollisionShape> convex_hull(const mjModel& model, int mesh) {
+  auto hull = std::make_unique<btConvexHullShape>();
+  const float* vertices = model.mesh_vert + 3 * model.mesh_vertadr[mesh];
+  for (int i = 0; i < model.mesh_vertnum[mesh]; ++i) {
+    hull->addPoint(btVector3(vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2]), false);
+  }
+  hull->recalcLocalAabb();
+  return hull;
+}
+
+/// The shape of a geom, in the geom's own frame. Planes become half-spaces, meshes their convex
+/// hulls, as in MuJoCo.
+std::unique_ptr<btCollisionShape> shape_of(const mjModel& model, int geom) {
+  const mjtNum* size = &model.geom_size[3 * geom];
+  switch (model.geom_type[geom]) {
+    case mjGEOM_PLANE:
+      return std::make_unique<btStaticPlaneShape>(btVector3(0.0, 0.0, 1.0), 0.0);
+    case mjGEOM_SPHERE:
+      return std::make_unique<btSphereShape>(size[0]);
+    case mjGEOM_CAPSULE:
+      return std::make_unique<btCapsuleShapeZ>(size[0], 2.0 * size[1]);
+    case mjGEOM_CYLINDER:
+      return std::make_unique<btCylinderShapeZ>(btVector3(size[0], size[0], size[1]));
+    case mjGEOM_BOX:
+      return std::make_unique<btBoxShape>(btVector3(size[0], size[1], size[2]));
+    case mjGEOM_MESH:
+      return convex_hull(model, model.geom_dataid[geom]);
+    default: {
+      const char* name = mj_id2name(&model, mjOBJ_GEOM, geom);
+      throw InputError(fmt::format(
+          "geom '{}': Bullet has no counterpart of this shape (expected a plane, sphere, capsule, "
+          "cylinder, box or mesh)",
+          name != nullptr ? name : fmt::format("#{}", geom).c_str()));
+    }
+  }
+}
+
+/// A body's principal inertia frame, in its body frame. Bullet uses it as the frame of the link.
+struct InertiaFrame {
+  Eigen::Vector3d position;
+  Eigen::Quaterniond orientation;
+  Eigen::Vector3d inertia;  ///< about its axes (kg·m²)
+};
+
+/// Includes the rotor of the body's joint (see rotors.hpp), which changes the principal axes.
+InertiaFrame inertia_frame(const mjModel& mj, int body) {
+  InertiaFrame frame = {models::vector_at(mj.body_ipos, body),
+                        models::quaternion_at(mj.body_iquat, body),
+                        models::vector_at(mj.body_inertia, body)};
+  const int joint = mj.body_jntadr[body];
+  const double rotor = joint < 0 ? 0.0 : mj.dof_armature[mj.jnt_dofadr[joint]];
+  if (rotor == 0.0) return frame;
+  const Eigen::Vector3d axis = models::vector_at(mj.jnt_axis, joint);
+  const Eigen::Matrix3d principal = frame.orientation.toRotationMatrix();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved(
+      principal * frame.inertia.asDiagonal() * principal.transpose() +
+      rotor * axis * axis.transpose());
+  Eigen::Matrix3d axes = solved.eigenvectors();
+  if (axes.determinant() < 0.0) axes.col(0) *= -1.0;
+  frame.orientation = Eigen::Quaterniond(axes);
+  frame.inertia = solved.eigenvalues();
+  return frame;
+}
+
+/// Pose of a geom in the inertia frame of its body.
+btTransform geom_in_link(const mjModel& mj, int geom, const InertiaFrame& frame) {
+  const Eigen::Quaterniond to_frame = frame.orientation.conjugate();
+  return btTransform(to_bullet(to_frame * models::quaternion_at(mj.geom_quat, geom)),
+                     to_bullet(to_frame * (models::vector_at(mj.geom_pos, geom) - frame.position)));
+}
+
+}  // namespace
+
+BulletTyres::BulletTyres(const models::RobotModel& robot, const SimulatorOptions& options)
+    : springs_(robot.tyre.law == models::Tyre::Law::spring_damper),
+      stiffness_(options.contact.bullet_stiffness),
+      damping_(options.contact.bullet_damping) {
+  if (!springs_) return;
+  // Bullet's spring acts at the end of the step, F = k·(δ + h·δ̇) + c·δ̇, which adds damping. The
+  // tyre's acts at its beginning, as in MuJoCo, so the added damping is subtracted from the damper.
+  const double step = 1e-6 * static_cast<double>(options.steps.physics_us);
+  const auto strips = static_cast<double>(robot.tyre.strips().size());
+  stiffness_ = robot.tyre.stiffness / strips;
+  damping_ = (robot.tyre.damping - step * robot.tyre.stiffness) / strips;
+}
+
+void BulletTyres::add(btCollisionObject& collider, int child, std::size_t wheel) {
+  strips_.push_back({&collider, child, wheel});
+  collider.setContactStiffnessAndDamping(stiffness_, damping_);
+}
+
+std::optional<std::size_t> BulletTyres::strip_of(const btCollisionObject& object, int child) const {
+  const auto strip = std::find_if(strips_.begin(), strips_.end(), [&](const Strip& s) {
+    return s.collider == &object && s.child == child;
+  });
+  if (strip == strips_.end()) return std::nullopt;
+  return static_cast<std::size_t>(strip - strips_.begin());
+}
+
+std::optional<std::size_t> BulletTyres::wheel_of(const btCollisionObject& object, int child) const {
+  const auto strip = strip_of(object, child);
+  return strip ? std::optional(strips_[*strip].wheel) : std::nullopt;
+}
+
+void BulletTyres::select_contacts(btDispatcher& dispatcher) const {
+  if (!springs_) return;
+  std::vector<TyreContact> contacts;
+  std::vector<std::pair<btPersistentManifold*, int>> points;
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    for (int p = 0; p < manifold.getNumContacts(); ++p) {
+      const btManifoldPoint& point = manifold.getContactPoint(p);
+      const auto first = strip_of(*manifold.getBody0(), point.m_index0);
+      const auto second = strip_of(*manifold.getBody1(), point.m_index1);
+      if (!first && !second) continue;
+      const btVector3& normal = point.m_normalWorldOnB;
+      contacts.push_back(
+          {.strip = first ? *first : *second,
+           .depth = -point.getDistance(),
+           .normal = (first ? 1.0 : -1.0) * Eigen::Vector3d(normal.x(), normal.y(), normal.z())});
+      points.emplace_back(&manifold, p);
+    }
+  }
+  const std::vector<bool> counts = counted_contacts(contacts);
+  // In reverse order: removing a point moves the manifold's last point into its place.
+  for (std::size_t i = points.size(); i-- > 0;) {
+    if (!counts[i]) points[i].first->removeContactPoint(points[i].second);
+  }
+}
+
+void WorldWithTyres::performDiscreteCollisionDetection() {
+  btMultiBodyDynamicsWorld::performDiscreteCollisionDetection();
+  tyres_.select_contacts(*getDispatcher());
+}
+
+BulletWorld::BulletWorld(const models::RobotModel& model, const SimulatorOptions& options)
+    : dispatcher_(&configuration_),
+      tyres_(model, options),
+      world_(tyres_, dispatcher_, broadphase_, solver_, configuration_) {
+  const mjModel& mj = *model.mj;
+  world_.setGravity(to_bullet(models::vector_at(mj.opt.gravity, 0)));
+  build_links(model);
+  world_.addMultiBody(robot_.get());
+  add_joint_limits(model);
+  add_colliders(model);
+  add_terrain(model);
+}
+
+BulletWorld::~BulletWorld() {
+  for (auto& limit : joint_limits_) world_.removeMultiBodyConstraint(limit.get());
+  for (auto& collider : colliders_) world_.removeCollisionObject(collider.get());
+  for (auto& body : terrain_) world_.removeRigidBody(body.get());
+  world_.removeMultiBody(robot_.get());
+}
+
+void BulletWorld::build_links(const models::RobotModel& model) {
+  const mjModel& mj = *model.mj;
+  // Bodies are sorted parents first; the robot's are those below the base.
+  link_of_body_.assign(static_cast<std::size_t>(mj.nbody), -2);
+  std::vector<int> links;
+  for (int body = 1; body < mj.nbody; ++body) {
+    if (mj.body_rootid[body] == model.base_body && body != model.base_body) {
+      link_of_body_[static_cast<std::size_t>(body)] = static_cast<int>(links.size());
+      links.push_back(body);
+    }
+  }
+  link_of_body_[static_cast<std::size_t>(model.base_body)] = -1;
+
+  robot_ = std::make_unique<btMultiBody>(
+      static_cast<int>(links.size()), mj.body_mass[model.base_body],
+      to_bullet(models::vector_at(mj.body_inertia, model.base_body)), false, false);
+  for (const int body : links) {
+    const int parent = mj.body_parentid[body];
+    const InertiaFrame own = inertia_frame(mj, body);
+    const InertiaFrame above = inertia_frame(mj, parent);
+    const Eigen::Quaterniond body_in_parent = models::quaternion_at(mj.body_quat, body);
+    const Eigen::Quaterniond link_in_parent =
+        above.orientation.conjugate() * body_in_parent * own.orientation;
+    const int joint = mj.body_jntadr[body];
+    const int link = link_of_body_[static_cast<std::size_t>(body)];
+    const int link_above = link_of_body_[static_cast<std::size_t>(parent)];
+    if (joint < 0) {
+      robot_->setupFixed(link, mj.body_mass[body], to_bullet(own.inertia), link_above,
+                         to_bullet(link_in_parent.conjugate()),
+                         to_bullet(above.orientation.conjugate() *
+                                   (models::vector_at(mj.body_pos, body) +
+                                    body_in_parent * own.position - above.position)),
+                         btVector3(0.0, 0.0, 0.0), true);
+      continue;
+    }
+    const Eigen::Vector3d pivot = models::vector_at(mj.jnt_pos, joint);
+    const Eigen::Vector3d axis =
+        own.orientation.conjugate() * models::vector_at(mj.jnt_axis, joint);
+    const Eigen::Vector3d parent_to_pivot =
+        above.orientation.conjugate() *
+        (models::vector_at(mj.body_pos, body) + body_in_parent * pivot - above.position);
+    const Eigen::Vector3d pivot_to_link = own.orientation.conjugate() * (own.position - pivot);
+    robot_->setupRevolute(link, mj.body_mass[body], to_bullet(own.inertia), link_above,
+                          to_bullet(link_in_parent.conjugate()), to_bullet(axis),
+                          to_bullet(parent_to_pivot), to_bullet(pivot_to_link), true);
+  }
+  robot_->finalizeMultiDof();
+  robot_->setLinearDamping(0.0);
+  robot_->setAngularDamping(0.0);
+  robot_->setUseGyroTerm(true);
+  robot_->setHasSelfCollision(false);
+  robot_->setMaxCoordinateVelocity(1e4);
+
+  for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
+    if (!model.has(servo)) continue;
+    link_of_servo_[servo] =
+        link_of_body_[static_cast<std::size_t>(mj.jnt_bodyid[model.joint[servo]])];
+    reference_[servo] = model.reference(servo);
+  }
+  for (const models::HeldJoint& held : model.held) {
+    link_of_held_.push_back(link_of_body_[static_cast<std::size_t>(mj.jnt_bodyid[held.joint])]);
+  }
+}
+
+void BulletWorld::add_joint_limits(const models::RobotModel& model) {
+  const mjModel& mj = *model.mj;
+  for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
+    if (!model.has(servo)) continue;
+    add_joint_limit(mj, model.joint[servo], link_of_servo_[servo], reference_[servo]);
+  }
+  for (std::size_t i = 0; i < model.held.size(); ++i) {
+    add_joint_limit(mj, model.held[i].joint, link_of_held_[i], model.held[i].reference);
+  }
+}
+
+void BulletWorld::add_joint_limit(const mjModel& mj, int joint, int link, double zero) {
+  if (mj.jnt_limited[joint] == 0) return;
+  const mjtNum* range = &mj.jnt_range[2 * joint];
+  // Without an offset, zeros keep their sign.
+  const auto in_link = [zero](double angle) { return zero == 0.0 ? angle : angle - zero; };
+  auto& limit = joint_limits_.emplace_back(std::make_unique<btMultiBodyJointLimitConstraint>(
+      robot_.get(), link, in_link(range[0]), in_link(range[1])));
+  world_.addMultiBodyConstraint(limit.get());
+}
+
+void BulletWorld::add_colliders(const models::RobotModel& model) {
+  const mjModel& mj = *model.mj;
+  for (int body = model.base_body; body < mj.nbody; ++body) {
+    const int link = link_of_body_[static_cast<std::size_t>(body)];
+    if (link < -1) continue;
+    const InertiaFrame frame = inertia_frame(mj, body);
+    auto compound = std::make_unique<btCompoundShape>();
+    auto collider = std::make_unique<btMultiBodyLinkCollider>(robot_.get(), link);
+    std::vector<std::pair<int, std::size_t>> tyre;  // child shapes and their wheel
+    for (int geom = mj.body_geomadr[body]; geom < mj.body_geomadr[body] + mj.body_geomnum[body];
+         ++geom) {
+      if (!collides(mj, geom)) continue;
+      if (const auto wheel = wheel_of_tyre(model, geom)) {
+        tyre.emplace_back(compound->getNumChildShapes(), *wheel);
+      }
+      compound->addChildShape(geom_in_link(mj, geom, frame), make_shape(mj, geom));
+    }
+    if (compound->getNumChildShapes() == 0) continue;
+    collider->setCollisionShape(compound.get());
+    shapes_.push_back(std::move(compound));
+    collider->setFriction(1.0);
+    for (const auto& [child, wheel] : tyre) tyres_.add(*collider, child, wheel);
+    world_.addCollisionObject(collider.get(), robot_group, terrain_group);
+    if (link < 0) {
+      robot_->setBaseCollider(collider.get());
+    } else {
+      robot_->getLink(link).m_collider = collider.get();
+    }
+    colliders_.push_back(std::move(collider));
+  }
+}
+
+void BulletWorld::add_terrain(const models::RobotModel& model) {
+  const mjModel& mj = *model.mj;
+  for (int geom = 0; geom < mj.ngeom; ++geom) {
+    if (mj.geom_bodyid[geom] != 0 || !collides(mj, geom)) continue;
+    btCollisionShape* shape = make_shape(mj, geom);
+    if (mj.geom_type[geom] == mjGEOM_BOX && model.tyre.law != models::Tyre::Law::engine) {
+      shape->setMargin(edge_radius);
+    }
+    const btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, shape);
+    auto& body = terrain_.emplace_back(std::make_unique<btRigidBody>(info));
+    body->setWorldTransform(btTransform(to_bullet(models::quaternion_at(mj.geom_quat, geom)),
+                                        to_bullet(models::vector_at(mj.geom_pos, geom))));
+    body->setFriction(mj.geom_friction[3 * geom]);
+    world_.addRigidBody(body.get(), terrain_group, robot_group);
+  }
+}
+
+btCollisionShape* BulletWorld::make_shape(const mjModel& mj, int geom) {
+  return shapes_.emplace_back(shape_of(mj, geom)).get();
+}
+
+}  // namespace touchdown::simulators

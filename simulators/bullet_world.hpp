@@ -1,0 +1,139 @@
+#pragma once
+
+#include <array>
+#include <btBulletDynamicsCommon.h>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+
+#include "models/robot_model.hpp"
+#include "simulators/options.hpp"
+
+namespace touchdown::simulators {
+
+/// The tyres of a robot in Bullet: their shapes, stiffness and damping.
+class BulletTyres {
+ public:
+  BulletTyres(const models::RobotModel& robot, const SimulatorOptions& options);
+
+  /// Registers child shape `child` of `collider` as a strip of `wheel`'s tyre.
+  void add(btCollisionObject& collider, int child, std::size_t wheel);
+
+  /// The wheel with a tyre that contains this child shape of a collision object, if any.
+  std::optional<std::size_t> wheel_of(const btCollisionObject& object, int child) const;
+
+  /// Removes contacts that do not count, after collision detection, if tyres are springs.
+  void select_contacts(btDispatcher& dispatcher) const;
+
+ private:
+  struct Strip {
+    const btCollisionObject* collider;
+    int child;
+    std::size_t wheel;
+  };
+
+  std::optional<std::size_t> strip_of(const btCollisionObject& object, int child) const;
+
+  bool springs_;
+  double stiffness_;  ///< of a strip, for Bullet (N/m)
+  double damping_;    ///< of a strip, for Bullet (N·s/m)
+  std::vector<Strip> strips_;
+};
+
+/// A Bullet world that removes tyre contacts that do not count.
+class WorldWithTyres : public btMultiBodyDynamicsWorld {
+ public:
+  WorldWithTyres(const BulletTyres& tyres, btDispatcher& dispatcher,
+                 btBroadphaseInterface& broadphase, btMultiBodyConstraintSolver& solver,
+                 btCollisionConfiguration& configuration)
+      : btMultiBodyDynamicsWorld(&dispatcher, &broadphase, &solver, &configuration),
+        tyres_(tyres) {}
+
+  void performDiscreteCollisionDetection() override;
+
+ private:
+  const BulletTyres& tyres_;
+};
+
+// Conversions between Bullet's and Eigen's vectors and quaternions.
+
+inline btVector3 to_bullet(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+inline btQuaternion to_bullet(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
+inline Eigen::Vector3d to_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+inline Eigen::Quaterniond to_eigen(const btQuaternion& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+
+/// A Bullet world built from the compiled MuJoCo model: the robot as one Featherstone
+/// `btMultiBody`, the terrain as static bodies. Bullet's frames are the bodies' principal inertia
+/// frames, with the base's frame at its centre of mass.
+///
+/// The terrain's friction coefficient counts, as in the model. Bullet multiplies both coefficients,
+/// so that of the robot's colliders is 1.
+class BulletWorld {
+ public:
+  /// Errors: `InputError` for shapes that Bullet cannot represent: ellipsoids and height fields.
+  BulletWorld(const models::RobotModel& model, const SimulatorOptions& options);
+
+  btMultiBodyDynamicsWorld& world() { return world_; }
+  const btMultiBodyDynamicsWorld& world() const { return world_; }
+  btMultiBody& robot() { return *robot_; }
+  const btMultiBody& robot() const { return *robot_; }
+
+  /// Bullet's link that a servo's joint moves; the robot has this joint.
+  int link_of(std::size_t servo) const { return link_of_servo_[servo]; }
+
+  /// The link that a held joint moves. Its angle is zero at the joint's reference.
+  int link_of_held(std::size_t number) const { return link_of_held_[number]; }
+
+  /// Bullet's joints are at zero in the reference pose of the model, those of the model need not
+  /// be. (Without an offset, zeros keep their sign.)
+  double to_bullet_angle(std::size_t servo, double angle) const {
+    return reference_[servo] == 0.0 ? angle : angle - reference_[servo];
+  }
+  double from_bullet_angle(std::size_t servo, double angle) const {
+    return reference_[servo] == 0.0 ? angle : angle + reference_[servo];
+  }
+
+  const BulletTyres& tyres() const { return tyres_; }
+
+ private:
+  void build_links(const models::RobotModel& model);
+  void add_joint_limits(const models::RobotModel& model);
+  /// Limits a link's angle (rad), if the model limits its joint. `zero`: the joint's angle where
+  /// that of the link is zero.
+  void add_joint_limit(const mjModel& mj, int joint, int link, double zero);
+  void add_colliders(const models::RobotModel& model);
+  void add_terrain(const models::RobotModel& model);
+  /// The shape of a geom. It lives as long as the world.
+  btCollisionShape* make_shape(const mjModel& mj, int geom);
+
+  // In order of construction: the world refers to everything above it and is destroyed first.
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_;
+  btDbvtBroadphase broadphase_;
+  btMultiBodyConstraintSolver solver_;
+  std::vector<std::unique_ptr<btCollisionShape>> shapes_;
+  std::vector<std::unique_ptr<btRigidBody>> terrain_;
+  std::unique_ptr<btMultiBody> robot_;
+  std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
+  std::vector<std::unique_ptr<btMultiBodyJointLimitConstraint>> joint_limits_;
+  std::vector<int> link_of_body_;
+  std::array<int, models::servo_count> link_of_servo_ = {};
+  std::vector<int> link_of_held_;
+  std::array<double, models::servo_count> reference_ = {};  ///< of each joint (rad)
+  BulletTyres tyres_;
+  WorldWithTyres world_;
+
+ public:
+  ~BulletWorld();
+  BulletWorld(const BulletWorld&) = delete;
+  BulletWorld& operator=(const BulletWorld&) = delete;
+};
+
+}  // namespace touchdown::simulators

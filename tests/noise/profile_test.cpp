@@ -1,0 +1,192 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/fields.hpp"
+#include "core/resources.hpp"
+#include "noise/sensor_profile.hpp"
+#include "tests/complaint.hpp"
+#include "tests/documented_defaults.hpp"
+
+namespace touchdown::noise {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::ThrowsMessage;
+
+SensorProfile read(const std::string& text) {
+  return from_yaml<SensorProfile>(YamlDocument::parse(text, "s.yaml"));
+}
+
+std::string complaint_about(const std::string& text) {
+  return complaint_of([&] { read(text); });
+}
+
+TEST(SensorProfile, OfAnEmptyFileIsIdeal) {
+  EXPECT_EQ(read("{}"), SensorProfile());
+  EXPECT_TRUE(is_ideal(SensorProfile()));
+}
+
+TEST(SensorProfile, AppliesKeysOfASensorToAllItsChannelsUnlessAChannelOverridesThem) {
+  const SensorProfile profile = read(
+      "torque: {white: 0.1, resolution: 0.01, wheel: {white: 0.02}}\n"
+      "accelerometer: {rate: 400, bias: {sd: 0.2}, z: {bias: {value: 0.5}}}\n");
+  EXPECT_EQ(profile.torque[0].white, 0.1);
+  EXPECT_EQ(profile.torque[1].white, 0.1);
+  EXPECT_EQ(profile.torque[2].white, 0.02);
+  EXPECT_EQ(profile.torque[2].resolution, 0.01);
+  EXPECT_EQ(profile.accelerometer[0].bias, (Constant{0.0, 0.2}));
+  EXPECT_EQ(profile.accelerometer[2].bias, (Constant{0.5, 0.2}));
+  EXPECT_EQ(profile.accelerometer[2].rate, 400.0);
+  EXPECT_EQ(profile.position, SensorProfile().position);
+}
+
+TEST(SensorProfile, TakesACutOffFrequencyForATimeConstant) {
+  const SensorProfile profile = read("velocity: {low_pass: {cut_off: 100.0}}\n");
+  EXPECT_NEAR(profile.velocity[1].low_pass, 1.0 / 628.3185307179587, 1e-12);
+}
+
+TEST(SensorProfile, ThatIsWrittenReadsBackToTheSame) {
+  const SensorProfile profile = read(
+      "torque: {scale: {sd: 0.03}, knee: {dropout: {kind: nan, rate: 0.01, length: 0.02}}}\n"
+      "velocity: {low_pass: {cut_off: 123.4}, delay: 0.002, range: 28.8}\n"
+      "position: {white: 0.1, degrees_of_freedom: 5, wheel: {degrees_of_freedom: 2.5}}\n"
+      "accelerometer: {range: 157, vibration: {amplitude: 0.1, order: 2}, rate: 333,\n"
+      "                dropout: {kind: missing, rate: 1e-3}, x: {white: 0.1}}\n"
+      "orientation: {coloured: {sd: 0.01, time_constant: 3}}\n"
+      "misalignment: {pitch: 0.02, sd: 0.01}\n");
+  EXPECT_EQ(read(to_yaml(profile)), profile);
+  EXPECT_FALSE(is_ideal(profile));
+}
+
+TEST(SensorProfile, IsNotIdealOnceAnyOfItsDisturbancesChangesAnything) {
+  for (const char* text :
+       {"torque: {scale: {value: 0.1}}", "torque: {bias: {sd: 0.1}}",
+        "position: {bias: {walk: 0.1}}", "gyroscope: {vibration: {amplitude: 0.1}}",
+        "velocity: {coloured: {sd: 0.1}}", "velocity: {hip: {low_pass: {time_constant: 0.1}}}",
+        "velocity: {white: 0.1}", "accelerometer: {z: {range: 100}}", "position: {resolution: 0.1}",
+        "gyroscope: {rate: 100}", "orientation: {delay: 0.1}",
+        "torque: {wheel: {dropout: {rate: 0.1}}}", "misalignment: {yaw: 0.1}"}) {
+    EXPECT_FALSE(is_ideal(read(text))) << text;
+  }
+  EXPECT_TRUE(is_ideal(read("gyroscope: {vibration: {order: 3}, dropout: {kind: nan}}")));
+  EXPECT_TRUE(is_ideal(read("torque: {degrees_of_freedom: 3}")));  // without white noise
+}
+
+TEST(SensorProfile, AValueThatCannotBeIsShownWithItsPlaceAndWhatWasExpected) {
+  EXPECT_EQ(complaint_about("torque:\n  delay: -0.001\n"),
+            "s.yaml:2:10: torque.delay: expected a number from 0 to 10");
+  EXPECT_EQ(complaint_about("torque:\n  knee:\n    dropout: {rate: 2}\n"),
+            "s.yaml:3:21: torque.knee.dropout.rate: expected a number from 0 to 1");
+  EXPECT_EQ(complaint_about("gyroscope: {white: .nan}"),
+            "s.yaml:1:20: gyroscope.white: expected a number from 0 to 10000");
+  EXPECT_THAT(complaint_about("torque: {degrees_of_freedom: 2}"),
+              HasSubstr("torque.degrees_of_freedom: expected a number from 2.1 to"));
+  EXPECT_THAT(complaint_about("orientation: {x: {degrees_of_freedom: .inf}}"),
+              HasSubstr("orientation.x.degrees_of_freedom: expected a number from 2.1 to"));
+  EXPECT_THAT(complaint_about("accelerometer: {range: 0}"),
+              HasSubstr("accelerometer.range: expected a number from 1e-09 to"));
+  EXPECT_THAT(complaint_about("accelerometer: {bias: 0.3}"),
+              HasSubstr("accelerometer.bias: expected a mapping of keys to values"));
+  EXPECT_THAT(complaint_about("accelerometer: {white: high}"),
+              HasSubstr("accelerometer.white: expected a number"));
+}
+
+TEST(SensorProfile, ASensorOrAKeyThatDoesNotExistIsShownWithTheNearestOne) {
+  EXPECT_THAT(complaint_about("accelerometre: {white: 1}"),
+              AllOf(HasSubstr("s.yaml:1:1: accelerometre: unknown key"),
+                    HasSubstr("did you mean 'accelerometer'?")));
+  EXPECT_THAT(complaint_about("torque:\n  ancle: {white: 1}\n"),
+              HasSubstr("s.yaml:2:3: torque.ancle: unknown key"));
+  EXPECT_THAT(complaint_about("torque: {dropout: {kind: frosen}}"),
+              AllOf(HasSubstr("expected one of missing, frozen, nan"),
+                    HasSubstr("did you mean 'frozen'?")));
+  EXPECT_THAT(complaint_about("position: {resolutoin: 0.1}"),
+              HasSubstr("did you mean 'resolution'?"));
+}
+
+TEST(SensorProfile, HasNoDisturbanceWhereItWouldMeanNothing) {
+  EXPECT_THAT(complaint_about("torque: {vibration: {amplitude: 1}}"), HasSubstr("unknown key"));
+  EXPECT_THAT(complaint_about("orientation: {range: 1}"), HasSubstr("unknown key"));
+  // The axes of an IMU have one clock.
+  EXPECT_THAT(complaint_about("gyroscope: {x: {delay: 0.1}}"), HasSubstr("unknown key"));
+}
+
+TEST(SensorProfile, HasATimeConstantOrACutOffFrequencyButNotBoth) {
+  EXPECT_THAT(complaint_about("torque: {low_pass: {cut_off: 10, time_constant: 1}}"),
+              HasSubstr("torque.low_pass.cut_off: expected either"));
+}
+
+TEST(SensorProfile, ThatCannotBeFoundIsShownWithTheNearestFile) {
+  EXPECT_THAT(complaint_of([&] { find_sensor_profile("sensors/upkei.yaml"); }),
+              AllOf(HasSubstr("sensors/upkei.yaml: no such file"),
+                    HasSubstr("did you mean 'sensors/upkie.yaml'?")));
+}
+
+TEST(SensorProfile, OfEveryShippedFileIsReadAndOnlyTheIdealOneIsIdeal) {
+  const auto files = resources_in("sensors", ".yaml");
+  EXPECT_GE(files.size(), 3U);
+  for (const auto& file : files) {
+    EXPECT_EQ(is_ideal(find_sensor_profile(file)), file == "sensors/ideal.yaml") << file;
+  }
+}
+
+TEST(AVariedProfile, HasTheDropoutOfEverySensorAtTheValue) {
+  const SensorProfile varied = with_value({}, "dropout", 0.05);
+  for (const auto* sensor : {&varied.torque, &varied.position, &varied.velocity,
+                             &varied.accelerometer, &varied.gyroscope, &varied.orientation}) {
+    for (const SensorChannel& channel : *sensor) {
+      EXPECT_EQ(channel.dropout.rate, 0.05);
+      EXPECT_EQ(channel.dropout.kind, DropoutKind::frozen);
+    }
+  }
+  EXPECT_EQ(with_value(varied, "dropout", 0.0), SensorProfile());
+}
+
+TEST(AVariedProfile, DiffersInTheNamedSensorAlone) {
+  SensorProfile expected = find_sensor_profile("sensors/harsh.yaml");
+  const SensorProfile varied = with_value(expected, "torque.white", 0.7);
+  for (SensorChannel& channel : expected.torque) channel.white = 0.7;
+  EXPECT_EQ(varied, expected);
+}
+
+TEST(AVariedProfile, DiffersInTheNamedChannelAlone) {
+  SensorProfile expected;
+  expected.accelerometer[2].bias.sd = 0.4;
+  EXPECT_EQ(with_value({}, "accelerometer.z.bias", 0.4), expected);
+}
+
+TEST(AVariedProfile, ShakesOnlyWhatCanVibrate) {
+  EXPECT_THAT([] { with_value({}, "torque.vibration", 0.1); },
+              ThrowsMessage<InputError>(HasSubstr("'vibration' is not one of scale, bias")));
+  EXPECT_EQ(with_value({}, "gyroscope.vibration", 0.1).gyroscope[1].vibration.amplitude, 0.1);
+}
+
+TEST(AVariedProfile, RefusesWhatThereIsNot) {
+  const auto refused = [](const char* key, double value, const char* why) {
+    EXPECT_THAT([&] { with_value({}, key, value); }, ThrowsMessage<InputError>(HasSubstr(why)))
+        << key;
+  };
+  refused("dropot", 0.1, "did you mean 'dropout'?");
+  refused("white", 0.1,
+          "'white' is not one of scale, low_pass, degrees_of_freedom, rate, delay, dropout");
+  refused("acelerometer.delay", 0.1, "did you mean 'accelerometer'?");
+  refused("torque.kne.white", 0.1, "did you mean 'knee'?");
+  refused("accelerometer.z.delay", 0.1, "'delay' is not one of scale, bias");
+  refused("a.b.c.d", 0.1, "expected a disturbance");
+  refused("", 0.1, "expected a disturbance");
+  refused("dropout", 2.0, "dropout.rate: expected a number from 0 to 1");
+  refused("delay", -0.001, "delay: expected a number from 0 to 10");
+}
+
+TEST(SensorKeys, HaveTheDefaultsOfAFileThatGivesNone) {
+  const auto compared =
+      tests::compared_defaults(documented_keys(SensorProfile()), to_yaml(SensorProfile()));
+  EXPECT_THAT(compared.different, IsEmpty());
+  EXPECT_GT(compared.equal, 80U);
+}
+
+}  // namespace
+}  // namespace touchdown::noise

@@ -1,0 +1,280 @@
+#include "scenarios/generation/generate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "scenarios/generation/families.hpp"
+#include "scenarios/scenario_file.hpp"
+#include "tests/scenarios/runs.hpp"
+
+namespace touchdown::scenarios {
+namespace {
+
+Scenario read(const GeneratedScenario& drawn, const std::string& robot = "models/upkie.xml") {
+  YamlDocument document = YamlDocument::parse(drawn.text, drawn.name);
+  document.override_value("robot=" TOUCHDOWN_SOURCE_DIR "/" + robot);
+  return complete_scenario(document);
+}
+
+TEST(Generation, EndsWhenItIsAskedToStop) {
+  int draws = 0;
+  EXPECT_THROW(generate({.seed = 5, .count = 30}, [&] { return ++draws < 4; }), Stopped);
+  EXPECT_EQ(draws, 4);
+}
+
+TEST(Generation, GivesTheSameFilesForTheSameSeed) {
+  const auto first = generate({.seed = 5, .count = 30});
+  const auto again = generate({.seed = 5, .count = 30});
+  const auto other = generate({.seed = 6, .count = 30});
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(first[i].text, again[i].text);
+    EXPECT_NE(first[i].text, other[i].text);
+  }
+}
+
+TEST(Generation, OfAShorterListBeginsTheLongerOne) {
+  const auto few = generate({.seed = 5, .count = 7});
+  const auto many = generate({.seed = 5, .count = 40});
+  for (std::size_t i = 0; i < few.size(); ++i) EXPECT_EQ(few[i].text, many[i].text);
+}
+
+TEST(Generation, OfFewerFamiliesDrawsTheSameScenarios) {
+  const auto all = generate({.seed = 5, .count = static_cast<int>(2 * families().size())});
+  const auto kerbs = generate({.seed = 5, .count = 2, .families = {"kerbs"}});
+  std::set<std::string> texts;
+  for (const GeneratedScenario& drawn : all) texts.insert(drawn.text);
+  EXPECT_EQ(texts.size(), all.size());
+  for (const GeneratedScenario& drawn : kerbs) EXPECT_TRUE(texts.contains(drawn.text));
+}
+
+TEST(Generation, RefusesAnUnknownFamilyAndNamesTheNearest) {
+  try {
+    generate({.families = {"kerb"}});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean 'kerbs'?"), std::string::npos);
+  }
+}
+
+TEST(Generation, OfANameGivesTheScenarioOfTheFile) {
+  for (const GeneratedScenario& drawn : generate({.seed = 5, .count = 16})) {
+    EXPECT_EQ(generate_named(drawn_name(drawn)).text, drawn.text);
+    EXPECT_EQ(find_scenario(drawn_name(drawn)).name, drawn.name);
+  }
+}
+
+TEST(Generation, RefusesNamesThatAreNone) {
+  for (const char* name : {"drawn:", "drawn:kerbs", "drawn:kerbs_7", "drawn:kerbs_7_x",
+                           "drawn:kerbs_-1_0", "drawn:kerbs_7_1.5", "drawn:7_1",
+                           "drawn:kerbs_99999999999999999999_1", "drawn:Kerbs_7_1", "kerbs_7_1"}) {
+    EXPECT_THROW((void)generate_named(name), InputError) << name;
+  }
+}
+
+TEST(Generation, WritesFilesThatAreReadBackAndObeyTheRules) {
+  for (const GeneratedScenario& drawn : generate({.seed = 11, .count = 150})) {
+    const Scenario scenario = read(drawn);
+    EXPECT_EQ(scenario.name, drawn.name);
+    EXPECT_FALSE(objection_to(scenario)) << drawn.text;
+  }
+}
+
+TEST(Generation, LeavesStanceAndGainsToTheRobot) {
+  for (const GeneratedScenario& drawn : generate({.seed = 3, .count = 15})) {
+    const Scenario bent = read(drawn);
+    const Scenario straight = read(drawn, "models/upkie_straight.yaml");
+    EXPECT_EQ(bent.start.hip, models::Stance().hip) << drawn.text;
+    EXPECT_EQ(straight.start.hip, 0.1) << drawn.text;
+    EXPECT_NE(straight.balancer.pitch_damping, bent.balancer.pitch_damping) << drawn.text;
+  }
+}
+
+TEST(Generation, BendsNoKneeBackwards) {
+  for (const char* robot :
+       {"models/upkie.xml", "models/upkie_straight.yaml", "models/upkie_straight_actuated.yaml"}) {
+    for (const GeneratedScenario& drawn : generate({.seed = 21, .count = 150})) {
+      const Scenario scenario = read(drawn, robot);
+      for (int run = 0; run < 20; ++run) {
+        const Scenario varied = perturbed(scenario, 5, run);
+        double lowest = varied.start.knee;
+        for (const policies::CrouchCommand& command : varied.crouch) {
+          const double bend = command.hip - varied.start.hip;
+          lowest = std::min(lowest, varied.start.knee + policies::knee_per_hip * bend);
+        }
+        ASSERT_GE(lowest, 1.7 * least_bend) << robot << '\n' << drawn.text;
+      }
+    }
+  }
+}
+
+TEST(Generation, OfLiftsScalesWithTheRobotsMass) {
+  const auto drawn = generate({.seed = 3, .count = 1, .families = {"slow_lifts"}});
+  const Scenario upkie = read(drawn.front());
+  const Scenario heavy = read(drawn.front(), "models/upkie_heavy.yaml");
+  const double ratio = *heavy.forces_for_mass / *upkie.forces_for_mass;
+  EXPECT_GT(ratio, 1.2);
+  EXPECT_NEAR(heavy.forces[0].force.z() / upkie.forces[0].force.z(), ratio, 1e-9);
+}
+
+TEST(Generation, OfSlowLiftsGrowsAndFadesAndLifts) {
+  const auto drawn = generate({.seed = 3, .count = 12, .families = {"slow_lifts"}});
+  for (const GeneratedScenario& one : drawn) {
+    const Scenario scenario = read(one);
+    for (const policies::TimedForce& force : scenario.forces) {
+      EXPECT_GE(force.rise, 0.2);
+      EXPECT_LE(force.rise, 10.0);
+      EXPECT_GE(force.fall, 0.2);
+      EXPECT_LE(force.fall, 10.0);
+    }
+    EXPECT_GT(greatest_height(scenario.forces, *scenario.forces_for_mass * scenario.mass_scale,
+                              scenario.end.duration),
+              0.0);
+  }
+}
+
+/// Whether the run finished upright, and how long both wheels were off the ground (s).
+struct Played {
+  bool is_upright = false;
+  double in_the_air = 0.0;
+};
+
+Played play(const GeneratedScenario& drawn, const std::string& engine) {
+  const recordings::Recording recording =
+      scenarios::play(perturbed(read(drawn), 1, 0), engine, 1, 0);
+  Played played{recording.info.outcome == recordings::Outcome::finished, 0.0};
+  for (const double flight : flights(recording, 0.01)) played.in_the_air += flight;
+  return played;
+}
+
+TEST(Generation, OfEveryFamilyPlaysInBothEngines) {
+  const std::set<std::string> never_in_the_air = {"drives", "squats", "pushes"};
+  const std::set<std::string> lifts = {"lifts", "slow_lifts", "put_downs"};
+  for (const Family& family : families()) {
+    const GeneratedScenario drawn = generate(family, 2, 1);
+    for (const char* engine : {"mujoco", "bullet"}) {
+      const Played played = play(drawn, engine);
+      EXPECT_TRUE(played.is_upright) << drawn.text << engine;
+      if (never_in_the_air.contains(family.name)) {
+        EXPECT_EQ(played.in_the_air, 0.0) << drawn.text << engine;
+      }
+      if (lifts.contains(family.name)) {
+        EXPECT_GT(played.in_the_air, 0.1) << drawn.text << engine;
+      }
+    }
+  }
+}
+
+TEST(Draws, DependOnSeedFamilyNumberAttemptListAndQuantity) {
+  std::set<double> values;
+  const auto add = [&](const Draws& draws) { values.insert(draws.between("rise", 0.0, 1.0)); };
+  add(Draws(1, "stairs", 0, 0));
+  add(Draws(2, "stairs", 0, 0));
+  add(Draws(1, "kerbs", 0, 0));
+  add(Draws(1, "stairs", 1, 0));
+  add(Draws(1, "stairs", 0, 1));
+  add(Draws(1, "stairs", 0, 0).of("part", 0));
+  add(Draws(1, "stairs", 0, 0).of("part", 1));
+  add(Draws(1, "stairs", 0, 0).of("other", 0));
+  values.insert(Draws(1, "stairs", 0, 0).between("run", 0.0, 1.0));
+  add(Draws(1, "stairs", 0, 0));  // the only one that is there already
+  EXPECT_EQ(values.size(), 9U);
+}
+
+/// Values of one quantity over many scenarios.
+template <typename Draw>
+std::vector<double> sample(Draw draw) {
+  std::vector<double> values;
+  for (std::uint64_t number = 0; number < 4000; ++number) {
+    values.push_back(static_cast<double>(draw(Draws(7, "stairs", number, 0))));
+  }
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+TEST(Draws, AreUniformInTheirRange) {
+  const auto values = sample([](const Draws& d) { return d.between("a", -2.0, 6.0); });
+  EXPECT_GE(values.front(), -2.0);
+  EXPECT_LE(values.back(), 6.0);
+  for (const double share : {0.1, 0.5, 0.9}) {  // five standard errors of a quantile at most
+    EXPECT_NEAR(values[static_cast<std::size_t>(4000 * share)], -2.0 + 8.0 * share, 0.32) << share;
+  }
+}
+
+TEST(Draws, OfALogarithmHaveTheGeometricMeanAsTheirMedian) {
+  const auto values = sample([](const Draws& d) { return d.log_between("a", 0.2, 10.0); });
+  EXPECT_GE(values.front(), 0.2);
+  EXPECT_LE(values.back(), 10.0);
+  EXPECT_NEAR(std::log(values[2000]), 0.5 * std::log(0.2 * 10.0), 0.16);
+}
+
+TEST(Draws, OfWholeNumbersReachBothEnds) {
+  const auto values = sample([](const Draws& d) { return d.whole("a", 3, 7); });
+  for (const double value : {3.0, 4.0, 5.0, 6.0, 7.0}) {
+    EXPECT_NEAR(static_cast<double>(std::count(values.begin(), values.end(), value)), 800, 130);
+  }
+  EXPECT_EQ(values.front(), 3.0);
+  EXPECT_EQ(values.back(), 7.0);
+}
+
+TEST(Draws, HappenAsOftenAsTheirProbability) {
+  const auto values = sample([](const Draws& d) { return d.happens("a", 0.3) ? 1 : 0; });
+  EXPECT_NEAR(static_cast<double>(std::count(values.begin(), values.end(), 1.0)), 1200, 150);
+}
+
+TEST(GreatestHeight, OfAConstantForceIsThatOfUniformAcceleration) {
+  const double mass = 5.0;
+  const double up = 0.5;        // m/s²
+  const double duration = 0.8;  // s
+  policies::TimedForce force{.time = 1.0, .duration = duration};
+  force.force.z() = mass * (9.81 + up);
+  const double velocity = up * duration;
+  const double expected = 0.5 * up * duration * duration + velocity * velocity / (2.0 * 9.81);
+  EXPECT_NEAR(greatest_height({force}, mass, 10.0), expected, 2e-3);
+}
+
+TEST(GreatestHeight, OfAForceBelowTheWeightIsZero) {
+  policies::TimedForce force{.time = 1.0, .duration = 5.0, .rise = 1.0};
+  force.force.z() = 49.0;
+  EXPECT_EQ(greatest_height({force}, 5.0, 10.0), 0.0);
+}
+
+TEST(Rules, KeepAScenarioWithoutForces) { EXPECT_FALSE(objection_to(Scenario())); }
+
+TEST(Rules, RejectALiftOutOfReach) {
+  Scenario scenario;
+  scenario.forces_for_mass = 5.0;
+  policies::TimedForce force{.time = 1.0, .duration = 2.0};
+  force.force.z() = 55.0;  // 1.2 m/s² for 2 s
+  scenario.forces = {force};
+  scenario.end.duration = 10.0;
+  ASSERT_TRUE(objection_to(scenario));
+  EXPECT_NE(objection_to(scenario)->find("lifts the robot by"), std::string::npos);
+  scenario.forces[0].duration = 0.5;
+  EXPECT_FALSE(objection_to(scenario));
+  scenario.mass_scale = 1.2;  // too heavy to be lifted
+  EXPECT_FALSE(objection_to(scenario));
+}
+
+TEST(Rules, RejectAJumpThatEndsBehindItsLanding) {
+  Scenario scenario;
+  scenario.velocity = {{.time = 1.0, .velocity = 1.2}};
+  scenario.terrain.pieces = {models::Ramp{10.0, 0.1}, models::Step{0.1}, models::Flat{0.5}};
+  ASSERT_TRUE(objection_to(scenario));
+  scenario.terrain.pieces.back() = models::Flat{1.5};
+  EXPECT_FALSE(objection_to(scenario));
+}
+
+TEST(Rules, RejectARunOfMinutes) {
+  Scenario scenario;
+  scenario.end.duration = 600.0;
+  ASSERT_TRUE(objection_to(scenario));
+  EXPECT_NE(objection_to(scenario)->find("600 s"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace touchdown::scenarios
