@@ -7,7 +7,7 @@
 #include "core/files.hpp"
 #include "core/program/streams.hpp"
 #include "core/resources.hpp"
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "scenarios/generation/family.hpp"
 #include "simulators/registry.hpp"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 
 namespace touchdown::scenarios {
 

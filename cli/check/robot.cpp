@@ -10,7 +10,7 @@
 
 #include "core/program/streams.hpp"
 #include "core/resources.hpp"
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "scenarios/robot_check/robot_check.hpp"
 
 namespace touchdown::cli {

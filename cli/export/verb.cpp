@@ -12,9 +12,9 @@
 #include "core/program/streams.hpp"
 #include "core/progress.hpp"
 #include "core/resources.hpp"
-#include "experiments/export_benchmark.hpp"
 #include "experiments/logs/estimator.hpp"
 #include "experiments/logs/robot.hpp"
+#include "experiments/submissions/export.hpp"
 #include "recordings/models/header.hpp"
 #include "recordings/models/model_file.hpp"
 

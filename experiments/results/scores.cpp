@@ -7,7 +7,6 @@
 #include <tbb/parallel_for.h>
 
 #include "experiments/estimators/registry.hpp"
-#include "experiments/tables/noise_columns.hpp"
 
 namespace touchdown::experiments {
 
@@ -39,6 +38,18 @@ Columns<ScoreSummary> columns_of(const std::vector<std::string>& metrics,
 }
 
 }  // namespace
+
+Columns<noise::NoiseCell> noise_columns() {
+  return Columns<noise::NoiseCell>()
+      .level("torque_noise_nm", &noise::NoiseCell::torque)
+      .level("accelerometer_noise_mps2", &noise::NoiseCell::accelerometer);
+}
+
+Columns<noise::NoiseCell> knee_wheel_columns() {
+  return Columns<noise::NoiseCell>()
+      .level("knee_noise_nm", &noise::NoiseCell::knee)
+      .level("wheel_noise_nm", &noise::NoiseCell::wheel);
+}
 
 std::vector<CellSummary> summarise(const std::vector<ConditionCounts>& counts,
                                    const std::vector<noise::NoiseCell>& cells,

@@ -4,11 +4,19 @@
 #include <string>
 #include <vector>
 
-#include "core/tables/columns.hpp"
+#include "core/columns.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/evaluation/summary.hpp"
+#include "noise/grid.hpp"
 
 namespace touchdown::experiments {
+
+/// The columns of a noise setting: `torque_noise_nm`, `accelerometer_noise_mps2`.
+Columns<noise::NoiseCell> noise_columns();
+
+/// The separate levels of a setting, for tables of the knee × wheel grid: `knee_noise_nm`,
+/// `wheel_noise_nm`.
+Columns<noise::NoiseCell> knee_wheel_columns();
 
 /// Scores of one condition in one noise cell, with intervals over runs or drops.
 struct CellSummary {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/tables/columns.hpp"
+#include "core/columns.hpp"
 #include "experiments/run_directory/lock.hpp"
 #include "experiments/run_directory/recorded_files.hpp"
 #include "experiments/run_directory/table_columns.hpp"

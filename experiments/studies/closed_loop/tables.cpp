@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/tables/verbs.hpp"
-#include "experiments/odometry/contact_sources.hpp"
+#include "core/rows.hpp"
 #include "experiments/results/captions.hpp"
-#include "experiments/tables/noise_columns.hpp"
+#include "experiments/results/scores.hpp"
+#include "experiments/results/odometry.hpp"
 #include "scoring/exact_share.hpp"
 #include "simulators/registry.hpp"
 

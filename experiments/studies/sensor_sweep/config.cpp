@@ -1,6 +1,6 @@
 #include "experiments/studies/sensor_sweep/config.hpp"
 
-#include "experiments/config/optional_section.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "noise/sensors/factor.hpp"
 
 namespace touchdown::experiments {

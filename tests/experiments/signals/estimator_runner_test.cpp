@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "estimator/free_fall.hpp"
-#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/config/experiment.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/make_estimator.hpp"
 #include "experiments/plan/request.hpp"

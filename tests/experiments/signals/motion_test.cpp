@@ -1,9 +1,9 @@
-#include "experiments/signals/motion.hpp"
+#include "experiments/signals/run_signals.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/resources.hpp"
-#include "experiments/odometry/dead_reckoning.hpp"
+#include "experiments/results/odometry.hpp"
 #include "scenarios/compiled_scenes.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/scenario_file.hpp"
