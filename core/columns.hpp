@@ -5,26 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/interval.hpp"
 #include "core/table.hpp"
 
 namespace touchdown {
-
-/// What a column contributes to a long table, which has one row per number.
-enum class ColumnRole : int {
-  key,     ///< identifies the row: a name, a level, a threshold
-  metric,  ///< a measured number or count
-  runs,    ///< the number of runs behind the metrics of its row
-  note     ///< a remark; long tables omit it
-};
-
-/// A column without its cells.
-struct ColumnInfo {
-  std::string name;  ///< a metric's name ends with its unit (`_ms`, `_nm`)
-  ColumnRole role = ColumnRole::key;
-  std::string as = name;    ///< its name in long tables
-  bool has_bounds = false;  ///< three cells: estimate, low, high
-};
 
 /// The columns of a table with structs as rows. Each column has a name and a getter: a data member,
 /// or anything callable with a row.
@@ -33,7 +16,7 @@ struct ColumnInfo {
 ///                              .text("simulator", &Row::simulator)
 ///                              .interval("balanced_accuracy", &Row::accuracy)
 ///                              .runs("runs", &Row::runs);
-///     write(columns.table(rows));
+///     directory.write_table("accuracy.csv", columns, rows);
 template <typename Row>
 class Columns {
  public:
@@ -72,7 +55,10 @@ class Columns {
     ColumnInfo info{std::move(name), ColumnRole::metric};
     info.has_bounds = true;
     columns_.push_back({std::move(info), [getter](const Row& row) {
-                          return row_with_intervals({}, {std::invoke(getter, row)});
+                          const Interval interval = std::invoke(getter, row);
+                          return std::vector{touchdown::metric(interval.estimate),
+                                             touchdown::metric(interval.low),
+                                             touchdown::metric(interval.high)};
                         }});
     return *this;
   }
@@ -133,11 +119,7 @@ class Columns {
   std::vector<std::string> header() const {
     std::vector<std::string> names;
     for (const Column& column : columns_) {
-      if (column.info.has_bounds) {
-        names = header_with_intervals(std::move(names), {column.info.name});
-      } else {
-        names.push_back(column.info.name);
-      }
+      for (std::string& name : column.info.cell_names()) names.push_back(std::move(name));
     }
     return names;
   }
@@ -150,7 +132,7 @@ class Columns {
     return all;
   }
 
-  /// One line per row, for CSV and JSON files.
+  /// One line per row; without the meanings of the columns, `infos`.
   template <typename Rows>
   Table table(const Rows& rows) const {
     Table table{header(), {}};

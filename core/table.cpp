@@ -57,6 +57,16 @@ Table shown(Table table) {
 
 }  // namespace
 
+std::vector<std::string> ColumnInfo::cell_names() const {
+  if (!has_bounds) return {name};
+  const bool has_unit = name.ends_with("_ms") || name.ends_with("_nm");
+  const std::size_t stem = name.size() - (has_unit ? 3 : 0);
+  std::vector<std::string> names;
+  for (const char* end : {"", "_low", "_high"})
+    names.push_back(std::string(name).insert(stem, end));
+  return names;
+}
+
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char byte) {
     return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
@@ -143,31 +153,6 @@ std::string fixed(double value, int decimals) {
 std::string exact(double value) { return std::isnan(value) ? "nan" : fmt::format("{}", value); }
 
 std::string metric(double value) { return std::isnan(value) ? "nan" : fixed(value, 6); }
-
-std::vector<std::string> header_with_intervals(std::vector<std::string> first,
-                                               const std::vector<std::string>& names,
-                                               const std::vector<std::string>& last) {
-  for (const std::string& name : names) {
-    const bool has_unit = name.ends_with("_ms") || name.ends_with("_nm");
-    const std::size_t stem = name.size() - (has_unit ? 3 : 0);
-    for (const char* end : {"", "_low", "_high"})
-      first.push_back(std::string(name).insert(stem, end));
-  }
-  first.insert(first.end(), last.begin(), last.end());
-  return first;
-}
-
-std::vector<std::string> row_with_intervals(std::vector<std::string> first,
-                                            const std::vector<Interval>& intervals,
-                                            const std::vector<std::string>& last) {
-  for (const Interval& interval : intervals) {
-    for (const double value : {interval.estimate, interval.low, interval.high}) {
-      first.push_back(metric(value));
-    }
-  }
-  first.insert(first.end(), last.begin(), last.end());
-  return first;
-}
 
 std::string with_interval(const Interval& interval, int decimals) {
   if (std::isnan(interval.estimate)) return "–";

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,10 +9,35 @@
 
 namespace touchdown {
 
-/// A table of texts: a header, then rows with as many cells. The functions below format it.
+/// What a column contributes to a long table, which has one row per number.
+enum class ColumnRole : int {
+  key,     ///< identifies the row: a name, a level, a threshold
+  metric,  ///< a measured number or count
+  runs,    ///< the number of runs behind the metrics of its row
+  note     ///< a remark; long tables omit it
+};
+
+/// A column without its cells.
+struct ColumnInfo {
+  std::string name;  ///< a metric's name ends with its unit (`_ms`, `_nm`)
+  ColumnRole role = ColumnRole::key;
+  std::string as = name;    ///< its name in long tables
+  bool has_bounds = false;  ///< three cells: estimate, low, high
+
+  std::size_t cells() const { return has_bounds ? 3 : 1; }
+  /// The names of its cells: `name`, `name_low`, `name_high`. A unit (_ms, _nm) stays last, as in
+  /// `name_low_ms`.
+  std::vector<std::string> cell_names() const;
+};
+
+/// A table: a header, then rows with as many cells. A cell is the text of its value as every file
+/// has it, so that figures, the report and `results.csv` agree to the digit. CSV, JSON, Markdown,
+/// LaTeX, text and figures are prints of a table.
 struct Table {
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
+  /// The meanings of the columns of measured rows (core/columns.hpp); otherwise empty.
+  std::vector<ColumnInfo> columns = {};
 };
 
 /// Comma-separated values (RFC 4180: cells with commas or quotes are quoted), one line per row. A
@@ -43,16 +69,6 @@ std::string fixed(double value, int decimals);
 /// has six decimals. Undefined values are `nan`.
 std::string exact(double value);
 std::string metric(double value);
-
-/// Header and rows of a table for programs: texts, then numbers with intervals, then texts again.
-/// Each number has the columns `name`, `name_low`, `name_high`. A unit (_ms, _nm) stays last, as in
-/// `name_low_ms`. The number cells are formatted by `metric`.
-std::vector<std::string> header_with_intervals(std::vector<std::string> first,
-                                               const std::vector<std::string>& names,
-                                               const std::vector<std::string>& last = {});
-std::vector<std::string> row_with_intervals(std::vector<std::string> first,
-                                            const std::vector<Interval>& intervals,
-                                            const std::vector<std::string>& last = {});
 
 /// For people: `0.987 [0.981, 0.992]`; a dash for an undefined value.
 std::string with_interval(const Interval& interval, int decimals = 3);

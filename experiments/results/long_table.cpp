@@ -1,8 +1,8 @@
 #include "experiments/results/long_table.hpp"
 
 #include <array>
-#include <iterator>
 #include <ostream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -80,30 +80,6 @@ std::string or_else(const std::string& text, const std::string& otherwise) {
   return text.empty() ? otherwise : text;
 }
 
-/// What all numbers of a line have in common. `metric` has the key that names the metric, if any.
-ResultRow common_part(const std::string& study, const std::vector<std::string>& cells,
-                      const std::vector<ColumnInfo>& columns, const ResultSetup& setup) {
-  ResultRow row;
-  row.study = study;
-  Keys keys;
-  std::size_t at = 0;
-  for (const ColumnInfo& column : columns) {
-    if (column.role == ColumnRole::key) keys.add(column.as, cells[at]);
-    if (column.role == ColumnRole::runs) row.n = cells[at];
-    at += column.has_bounds ? 3 : 1;
-  }
-  row.simulator = keys.take("simulator");
-  row.robot = or_else(keys.take("robot"), setup.robot);
-  row.sensors = or_else(keys.take("sensors"), setup.sensors);
-  row.scene = keys.take("scene");
-  row.estimator = keys.take("estimator");
-  row.noise = keys.take_noise();
-  row.metric = keys.take("metric");
-  row.unit = keys.take("unit");
-  row.setting = keys.rest();
-  return row;
-}
-
 ResultSetup setup_of(const RunRequest& request) {
   const Experiment& experiment = request.experiment;
   const auto robots = unique(experiment.test.scenarios, [&](const std::string& file) {
@@ -112,49 +88,6 @@ ResultSetup setup_of(const RunRequest& request) {
   const std::filesystem::path sensors = experiment.sensors;
   return {robots.size() == 1 ? robots.front() : "",
           sensors.empty() ? "ideal" : sensors.stem().string()};
-}
-
-Columns<ResultRow> result_columns() {
-  using Row = ResultRow;
-  return Columns<Row>()
-      .text("study", &Row::study)
-      .text("simulator", &Row::simulator)
-      .text("robot", &Row::robot)
-      .text("sensors", &Row::sensors)
-      .text("scene", &Row::scene)
-      .text("estimator", &Row::estimator)
-      .text("noise", &Row::noise)
-      .text("metric", &Row::metric)
-      .text("unit", &Row::unit)
-      .text("n", &Row::n)
-      .text("estimate", &Row::estimate)
-      .text("low", &Row::low)
-      .text("high", &Row::high)
-      .text("setting", &Row::setting);
-}
-
-/// The numbers of one line of a table.
-std::vector<ResultRow> rows_of_line(const std::string& study, const std::vector<std::string>& cells,
-                                    const std::vector<ColumnInfo>& columns,
-                                    const ResultSetup& setup) {
-  std::vector<ResultRow> rows;
-  const ResultRow common = common_part(study, cells, columns, setup);
-  std::size_t at = 0;
-  for (const ColumnInfo& column : columns) {
-    if (column.role == ColumnRole::metric) {
-      ResultRow& row = rows.emplace_back(common);
-      row.metric =
-          common.metric.empty() ? column.as : fmt::format("{}_of_{}", column.as, common.metric);
-      row.unit = or_else(common.unit, unit_of(row.metric));
-      row.estimate = cells[at];
-      if (column.has_bounds) {
-        row.low = cells[at + 1];
-        row.high = cells[at + 2];
-      }
-    }
-    at += column.has_bounds ? 3 : 1;
-  }
-  return rows;
 }
 
 }  // namespace
@@ -166,31 +99,51 @@ std::string unit_of(const std::string& metric) {
   return {};
 }
 
-std::vector<ResultRow> long_rows(const std::string& study, const Table& table,
-                                 const std::vector<ColumnInfo>& columns, const ResultSetup& setup) {
-  std::vector<ResultRow> rows;
-  for (const std::vector<std::string>& cells : table.rows) {
-    std::vector<ResultRow> of_line = rows_of_line(study, cells, columns, setup);
-    std::move(of_line.begin(), of_line.end(), std::back_inserter(rows));
+std::vector<std::vector<std::string>> long_rows(const std::string& study, const Table& table,
+                                                const std::vector<std::string>& line,
+                                                const ResultSetup& setup) {
+  Keys keys;
+  std::string runs;
+  std::vector<std::pair<const ColumnInfo*, std::size_t>> metrics;  // with their first cells
+  std::size_t at = 0;
+  for (const ColumnInfo& column : table.columns) {
+    if (column.role == ColumnRole::key) keys.add(column.as, line[at]);
+    if (column.role == ColumnRole::runs) runs = line[at];
+    if (column.role == ColumnRole::metric) metrics.emplace_back(&column, at);
+    at += column.cells();
+  }
+  std::vector<std::string> common = {study, keys.take("simulator")};
+  common.push_back(or_else(keys.take("robot"), setup.robot));
+  common.push_back(or_else(keys.take("sensors"), setup.sensors));
+  for (const char* key : {"scene", "estimator"}) common.push_back(keys.take(key));
+  common.push_back(keys.take_noise());
+  const std::string named = keys.take("metric");
+  const std::string unit = keys.take("unit");
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [column, cell] : metrics) {
+    const std::string metric =
+        named.empty() ? column->as : fmt::format("{}_of_{}", column->as, named);
+    std::vector<std::string>& row = rows.emplace_back(common);
+    row.insert(row.end(), {metric, or_else(unit, unit_of(metric)), runs, line[cell]});
+    for (const std::size_t bound : {1U, 2U}) {
+      row.push_back(column->has_bounds ? line[cell + bound] : "");
+    }
+    row.push_back(keys.rest());
   }
   return rows;
 }
 
 void write_results(const RunRequest& request, const RunDirectory& directory) {
   const ResultSetup setup = setup_of(request);
-  const Columns<ResultRow> columns = result_columns();
   // Line by line: all rows at once would take ten times the memory of their text.
   const auto write = [&](std::ostream& stream) {
-    stream << csv_line(columns.header());
+    stream << csv_line(long_header);
     for (const std::string& name : tables_with_columns(directory.path())) {
-      const std::filesystem::path file = directory.file("tables", name);
-      if (!is_there(file)) continue;
-      const Table table = from_csv(read_file(file));
-      const std::vector<ColumnInfo> of_table = read_columns(directory.path(), name);
-      for (const std::vector<std::string>& cells : table.rows) {
-        for (const ResultRow& row : rows_of_line(file.stem().string(), cells, of_table, setup)) {
-          stream << csv_line(columns.cells(row));
-        }
+      if (!is_there(directory.file("tables", name))) continue;
+      const Table& table = directory.read_table(name);
+      const std::string study = std::filesystem::path(name).stem().string();
+      for (const std::vector<std::string>& line : table.rows) {
+        for (const auto& row : long_rows(study, table, line, setup)) stream << csv_line(row);
       }
     }
   };

@@ -3,29 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "core/columns.hpp"
+#include "core/table.hpp"
 #include "experiments/plan/request.hpp"
+#include "experiments/run_directory/directory.hpp"
 
 namespace touchdown::experiments {
-
-/// One measured number of one table: a row of `results.csv`, as texts. Texts are empty where the
-/// table has none.
-struct ResultRow {
-  std::string study;  ///< the table, without `.csv`
-  std::string simulator;
-  std::string robot;
-  std::string sensors;
-  std::string scene;
-  std::string estimator;  ///< or the contact source
-  std::string noise;      ///< "1 N·m, 5 m/s²"
-  std::string metric;     ///< the column; "difference_of_success" if a key names the metric
-  std::string unit;
-  std::string n;  ///< number of runs
-  std::string estimate;
-  std::string low;
-  std::string high;
-  std::string setting;  ///< the other keys: "policy=soft_landing; value=0.7"
-};
 
 /// Robot and sensors of an experiment, for tables without such columns.
 struct ResultSetup {
@@ -37,10 +19,19 @@ struct ResultSetup {
 /// `false_takeoffs_per_minute`; empty for pure numbers.
 std::string unit_of(const std::string& metric);
 
-/// A table as rows with one number each: row by row, metric by metric. `columns` describe the
-/// table.
-std::vector<ResultRow> long_rows(const std::string& study, const Table& table,
-                                 const std::vector<ColumnInfo>& columns, const ResultSetup& setup);
+/// The columns of `results.csv`, which has a row per measured number of every table. `study` is the
+/// table, without `.csv`; `estimator` may be a contact source; `noise` is "1 N·m, 5 m/s²"; `metric`
+/// is the column, or "difference_of_success" if a key names the metric; `n` is the number of runs;
+/// `setting` has the other keys: "policy=soft_landing; value=0.7".
+inline const std::vector<std::string> long_header = {
+    "study",  "simulator", "robot", "sensors",  "scene", "estimator", "noise",
+    "metric", "unit",      "n",     "estimate", "low",   "high",      "setting"};
+
+/// The numbers of one line of a table as rows of `results.csv`, metric by metric. Cells are empty
+/// where the table has none.
+std::vector<std::vector<std::string>> long_rows(const std::string& study, const Table& table,
+                                                const std::vector<std::string>& line,
+                                                const ResultSetup& setup);
 
 /// Writes `results.csv` from all tables of the run directory with described columns, by name.
 void write_results(const RunRequest& request, const RunDirectory& directory);

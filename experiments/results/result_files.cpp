@@ -162,24 +162,15 @@ Columns<Rollout> run_columns() {
       .metric("duration_s", [](const Rollout& run) { return run.report.duration; });
 }
 
-void write_score_tables(const ExperimentResult& result) {
-  const RunDirectory& directory = result.directory;
-  directory.write_table("views.csv", views_columns(), result.scores);
-  directory.write_table("transitions.csv", transitions_columns(), result.scores);
-  directory.write_table("latency.csv", latency_columns(), result.scores);
-  directory.write_table("calibration.csv", calibration_columns(), result.scores);
-  directory.write_table("reliability.csv", reliability_columns(), reliability_bins(result.scores));
-  directory.write_table("differences.csv", difference_columns(),
-                        metric_differences(result.differences));
-  if (!result.experiment.paper_tables) return;
+void write_paper_tables(const ExperimentResult& result) {
   std::string markdown;
   std::string latex;
   for (const CaptionedTable& table : paper_tables(result)) {
     markdown += to_markdown(table) + "\n";
     latex += to_latex(table) + "\n";
   }
-  write_atomically(directory.own_file("tables", "tables.md"), markdown);
-  write_atomically(directory.own_file("tables", "tables.tex"), latex);
+  write_atomically(result.directory.own_file("tables", "tables.md"), markdown);
+  write_atomically(result.directory.own_file("tables", "tables.tex"), latex);
 }
 
 }  // namespace
@@ -211,9 +202,8 @@ void write_result_files(const ExperimentResult& result) {
   const Table evidence = evidence_table(result.models);
   if (!evidence.rows.empty()) directory.write_table("evidence.csv", evidence);
   directory.write_table("runs.csv", run_columns().table(result.runs));
-  directory.write_table("success.csv", success_columns(), result.summaries);
-  directory.write_table("classification.csv", classification_columns(), result.summaries);
-  write_score_tables(result);
+  write_score_tables(result.summaries, result.scores, result.differences, directory);
+  if (result.experiment.paper_tables) write_paper_tables(result);
   write_summary(summary_of(result), result.directory.path());
 }
 

@@ -8,8 +8,8 @@
 
 #include "core/files.hpp"
 #include "experiments/results/scores.hpp"
+#include "experiments/run_directory/directory.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "experiments/run_directory/table_columns.hpp"
 #include "experiments/run_experiment.hpp"
 #include "experiments/studies/experiment_file.hpp"
 #include "tests/experiments/small_step_scene.hpp"
@@ -49,34 +49,35 @@ Columns<Row> columns() {
       .is(ColumnRole::note);
 }
 
-std::vector<ResultRow> rows_of(const Columns<Row>& described, const Row& row) {
-  return long_rows("survival", described.table(std::vector{row}), described.infos(),
-                   {"upkie", "ideal"});
+/// A line of `results.csv` by its columns.
+using LongRow = std::map<std::string, std::string>;
+
+std::vector<LongRow> rows_of(const Columns<Row>& described, const Row& row) {
+  Table table = described.table(std::vector{row});
+  table.columns = described.infos();
+  std::vector<LongRow> rows;
+  for (const auto& cells : long_rows("survival", table, table.rows[0], {"upkie", "ideal"})) {
+    LongRow& found = rows.emplace_back();
+    for (std::size_t i = 0; i < cells.size(); ++i) found[long_header.at(i)] = cells[i];
+  }
+  return rows;
 }
 
 TEST(LongRows, HoldOneNumberEach) {
   const auto rows =
       rows_of(columns(), {"stairs", "truth", "", {1.0, 5.0}, 0.7, {0.9, 0.8, 1.0}, 20.0, 40});
   ASSERT_EQ(rows.size(), 2U);
-  EXPECT_EQ(rows[0].study, "survival");
-  EXPECT_EQ(rows[0].simulator, "");
-  EXPECT_EQ(rows[0].robot, "upkie");
-  EXPECT_EQ(rows[0].sensors, "ideal");
-  EXPECT_EQ(rows[0].scene, "stairs");
-  EXPECT_EQ(rows[0].estimator, "truth");
-  EXPECT_EQ(rows[0].noise, "1 N·m, 5 m/s²");
-  EXPECT_EQ(rows[0].metric, "accuracy");
-  EXPECT_EQ(rows[0].unit, "");
-  EXPECT_EQ(rows[0].n, "40");
-  EXPECT_EQ(rows[0].estimate, "0.900000");
-  EXPECT_EQ(rows[0].low, "0.800000");
-  EXPECT_EQ(rows[0].high, "1.000000");
-  EXPECT_EQ(rows[0].setting, "value=0.7");
-  EXPECT_EQ(rows[1].metric, "latency_ms");
-  EXPECT_EQ(rows[1].unit, "ms");
-  EXPECT_EQ(rows[1].estimate, "20.000000");
-  EXPECT_EQ(rows[1].low, "");
-  EXPECT_EQ(rows[1].high, "");
+  LongRow expected = {{"study", "survival"}, {"simulator", ""},        {"robot", "upkie"},
+                      {"sensors", "ideal"},  {"scene", "stairs"},      {"estimator", "truth"},
+                      {"unit", ""},          {"metric", "accuracy"},   {"noise", "1 N·m, 5 m/s²"},
+                      {"n", "40"},           {"estimate", "0.900000"}, {"low", "0.800000"},
+                      {"high", "1.000000"},  {"setting", "value=0.7"}};
+  EXPECT_EQ(rows[0], expected);
+  expected["metric"] = "latency_ms";
+  expected["unit"] = "ms";
+  expected["estimate"] = "20.000000";
+  expected["low"] = expected["high"] = "";
+  EXPECT_EQ(rows[1], expected);
 }
 
 TEST(LongRows, NameTheMetricThatAKeyNames) {
@@ -84,9 +85,9 @@ TEST(LongRows, NameTheMetricThatAKeyNames) {
       Columns<Row>().text("metric", &Row::metric).metric("difference", &Row::latency);
   const auto rows = rows_of(described, {.metric = "takeoff_latency_ms", .latency = 3.0});
   ASSERT_EQ(rows.size(), 1U);
-  EXPECT_EQ(rows[0].metric, "difference_of_takeoff_latency_ms");
-  EXPECT_EQ(rows[0].unit, "ms");
-  EXPECT_EQ(rows[0].setting, "");
+  EXPECT_EQ(rows[0].at("metric"), "difference_of_takeoff_latency_ms");
+  EXPECT_EQ(rows[0].at("unit"), "ms");
+  EXPECT_EQ(rows[0].at("setting"), "");
 }
 
 TEST(LongRows, NameSeparateLevelsOfKneesAndWheels) {
@@ -94,10 +95,11 @@ TEST(LongRows, NameSeparateLevelsOfKneesAndWheels) {
                              .part(&Row::noise, noise_columns())
                              .part(&Row::noise, knee_wheel_columns())
                              .metric("success", &Row::latency);
-  EXPECT_EQ(rows_of(described, {.noise = noise::knee_wheel_cell(0.5, 0.1, 2.0)}).front().noise,
-            "knee 0.5 N·m, wheel 0.1 N·m, 2 m/s²");
-  EXPECT_EQ(rows_of(described, {.noise = {1.0, 5.0}}).front().noise, "1 N·m, 5 m/s²");
-  EXPECT_EQ(rows_of(described, {.noise = {1.0, 5.0}}).front().setting, "");
+  EXPECT_EQ(
+      rows_of(described, {.noise = noise::knee_wheel_cell(0.5, 0.1, 2.0)}).front().at("noise"),
+      "knee 0.5 N·m, wheel 0.1 N·m, 2 m/s²");
+  EXPECT_EQ(rows_of(described, {.noise = {1.0, 5.0}}).front().at("noise"), "1 N·m, 5 m/s²");
+  EXPECT_EQ(rows_of(described, {.noise = {1.0, 5.0}}).front().at("setting"), "");
 }
 
 TEST(Units, FollowFromTheEndOfAName) {
@@ -113,20 +115,28 @@ TEST(Units, FollowFromTheEndOfAName) {
   EXPECT_EQ(unit_of("takeoffs"), "");
 }
 
-TEST(SavedColumns, AreReadBack) {
+TEST(Tables, AreReadAsTheyWereWrittenAlsoByAnotherProcess) {
   const ScratchFolder folder;
-  write_columns(folder.path(), "a.csv", columns().infos());
-  EXPECT_THAT(tables_with_columns(folder.path()), ElementsAre("a.csv"));
-  const std::vector<ColumnInfo> read = read_columns(folder.path(), "a.csv");
-  const std::vector<ColumnInfo> written = columns().infos();
-  ASSERT_EQ(read.size(), written.size());
-  for (std::size_t i = 0; i < read.size(); ++i) {
-    EXPECT_EQ(read[i].name, written[i].name);
-    EXPECT_EQ(read[i].role, written[i].role);
-    EXPECT_EQ(read[i].as, written[i].as);
-    EXPECT_EQ(read[i].has_bounds, written[i].has_bounds);
+  const std::vector<Row> rows = {
+      {"stairs", "truth", "", {1.0, 5.0}, 0.7, {0.9, 0.8, 1.0}, 20.0, 40}};
+  const RunDirectory writer("a", "b", folder.path());
+  writer.write_table("a.csv", columns(), rows);
+  writer.write_table("b.csv", columns().table(rows));  // is not measured
+  const RunDirectory reader("a", "b", folder.path());
+  for (const RunDirectory& directory : {writer, reader}) {
+    const Table& read = directory.read_table("a.csv");
+    EXPECT_EQ(read.header, columns().header());
+    EXPECT_EQ(read.rows, columns().table(rows).rows);
+    const std::vector<ColumnInfo> written = columns().infos();
+    ASSERT_EQ(read.columns.size(), written.size());
+    for (std::size_t i = 0; i < written.size(); ++i) {
+      EXPECT_EQ(read.columns[i].name, written[i].name);
+      EXPECT_EQ(read.columns[i].role, written[i].role);
+      EXPECT_EQ(read.columns[i].as, written[i].as);
+      EXPECT_EQ(read.columns[i].has_bounds, written[i].has_bounds);
+    }
+    EXPECT_THAT(directory.read_table("b.csv").columns, IsEmpty());
   }
-  EXPECT_THAT(read_columns(folder.path(), "b.csv"), IsEmpty());
 }
 
 /// An experiment with most studies, and its tables.
