@@ -218,6 +218,21 @@ TEST(ExperimentFile, ReadsFiguresOfDropsBackUnchanged) {
   EXPECT_EQ(again.posterior->noise.accelerometer, 7.0);
 }
 
+TEST(ExperimentFile, HasEncoderNoiseInEveryCell) {
+  const Experiment experiment =
+      read("highlights: [{torque: 1, accelerometer: 0}]\n",
+           {"noise.joint_position=0.01", "noise.knee_wheel={knee: [0, 2], wheel: [0, 2]}"});
+  for (const Experiment& e : {experiment, read_again(experiment)}) {
+    std::vector<noise::NoiseCell> cells = noise::noise_cells(e.noise);
+    cells.insert(cells.end(), e.highlights.begin(), e.highlights.end());
+    ASSERT_GT(cells.size(), 5U);
+    for (const noise::NoiseCell& cell : cells) {
+      EXPECT_EQ(cell.levels().joint_position, 0.01);
+      EXPECT_EQ(cell.levels().joint_velocity, 0.5);
+    }
+  }
+}
+
 /// The film's noise need not be on the grid, because nothing is scored at it.
 TEST(ExperimentFile, FilmsAtANoiseOfItsOwnOrAtTheFirstHighlight) {
   const std::string highlight = "highlights: [{torque: 1, accelerometer: 5}]\n";
