@@ -1,3 +1,4 @@
+#include "experiments/results/json_table.hpp"
 #include "experiments/results/text_tables.hpp"
 
 #include <gmock/gmock.h>
