@@ -183,6 +183,7 @@ TEST(ExperimentFile, TakesDefaultsForEmptySections) {
   EXPECT_EQ(experiment.posterior->choice.drop, 0);
   EXPECT_EQ(experiment.video.estimators, experiment.estimators);
   EXPECT_EQ(experiment.video.noise, experiment.highlights.front());
+  EXPECT_EQ(experiment.video.noise.torque, 0.0);  // the first cell of the grid
   EXPECT_TRUE(experiment.tuning->fixed.empty());
   EXPECT_EQ(to_yaml(read_again(experiment)), to_yaml(experiment));
 }
