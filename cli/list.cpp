@@ -7,7 +7,7 @@
 #include "core/files.hpp"
 #include "core/program.hpp"
 #include "core/resources.hpp"
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "scenarios/generation/families.hpp"
 #include "simulators/registry.hpp"

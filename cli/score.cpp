@@ -6,7 +6,7 @@
 #include "cli/verb.hpp"
 #include "core/files.hpp"
 #include "core/program.hpp"
-#include "experiments/score_beliefs.hpp"
+#include "experiments/submissions/score_beliefs.hpp"
 #include "render/benchmark/standings_figure.hpp"
 #include "render/pictures/filmed_report.hpp"
 #include "render/pictures/films.hpp"

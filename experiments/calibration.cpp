@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/config/experiment.hpp"
 #include "experiments/evaluation/tasks.hpp"
 #include "experiments/processor_time.hpp"
 #include "experiments/rollouts/rollouts.hpp"

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/config/experiment.hpp"
 #include "experiments/processor_time.hpp"
 #include "experiments/stages/process_memory.hpp"
 

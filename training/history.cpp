@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "render/gnuplot/process.hpp"
 
 namespace touchdown::training {

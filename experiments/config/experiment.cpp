@@ -2,7 +2,17 @@
 
 #include <algorithm>
 
+#include "experiments/estimators/registry.hpp"
+
 namespace touchdown::experiments {
+
+std::vector<std::string> estimator_names(const Experiment& experiment) {
+  return estimator_names(experiment.external_estimators);
+}
+
+const EstimatorEntry& estimator_entry(const Experiment& experiment, std::string_view name) {
+  return estimator_entry(name, experiment.external_estimators);
+}
 
 static std::vector<StudyFiles> study_files(const Experiment& experiment) {
   std::vector<StudyFiles> files;

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/key.hpp"
@@ -146,5 +147,12 @@ inline constexpr std::int64_t first_fit_run = 1'000'000;
 std::vector<std::string> scenario_files(const Experiment& experiment);
 std::vector<std::string> robot_files(const Experiment& experiment);
 std::vector<std::string> sensor_files(const Experiment& experiment);
+
+/// The names of all estimators that the experiment can use: built-in ones, then its external ones.
+std::vector<std::string> estimator_names(const Experiment& experiment);
+
+/// The estimator of this name, built-in or one of the experiment's external ones, which live as
+/// long as the experiment. Errors: `InputError` with the nearest known name.
+const EstimatorEntry& estimator_entry(const Experiment& experiment, std::string_view name);
 
 }  // namespace touchdown::experiments

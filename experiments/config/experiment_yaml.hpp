@@ -1,9 +1,11 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/key.hpp"
+#include "core/fields.hpp"
 #include "core/yaml.hpp"
 #include "experiments/config/experiment.hpp"
 
@@ -26,5 +28,29 @@ void require_files(const YamlDocument& document, const std::vector<StudySection>
 /// The experiment as YAML with all defaults, which reads back to the same experiment. It omits
 /// `workers`, which changes no result, and the external estimators.
 std::string to_yaml(const Experiment& experiment);
+
+/// A section under `key` that an experiment has if and only if its file has it. Its keys are
+/// described by `describe(Fields&, Section&, const Experiment&)`, beside the struct. Earlier keys
+/// of the experiment are known there.
+template <typename Section>
+StudySection optional_section(const std::string& key, const std::string& meaning) {
+  return {.key = key, .describe = [key, meaning](Fields& fields, Experiment& experiment) {
+            StudySections& sections = experiment.studies;
+            if (!fields.present(key, sections.has<Section>())) return;
+            Section section = fields.reading() ? Section() : sections.at<Section>();
+            fields.section(key, section, experiment).fallback("none").doc(meaning);
+            sections.emplace<Section>(std::move(section));
+          }};
+}
+
+/// Describes a list of different estimators, each one of the experiment's own.
+KeyNotes own_estimators(Fields& fields, std::string_view key, const Experiment& experiment,
+                        std::vector<std::string>& names);
+
+/// Describes the section `video`: the run that is plotted and filmed.
+void describe(Fields& fields, VideoConfig& video, const Experiment& experiment);
+
+/// Describes the sections `detail` and `posterior`: figures of one drop.
+void describe_drop_figures(Fields& fields, Experiment& experiment);
 
 }  // namespace touchdown::experiments

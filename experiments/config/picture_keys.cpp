@@ -1,14 +1,9 @@
-#include "experiments/config/picture_keys.hpp"
-
 #include <algorithm>
 #include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 
 namespace touchdown::experiments {
 
@@ -92,6 +87,12 @@ KeyNotes describe_switched(Fields& parent, std::string_view key, std::optional<C
 }
 
 }  // namespace
+
+KeyNotes own_estimators(Fields& fields, std::string_view key, const Experiment& experiment,
+                        std::vector<std::string>& names) {
+  return fields.names(key, experiment.estimators, names)
+      .type("list of the experiment's estimators");
+}
 
 void describe(Fields& fields, VideoConfig& video, const Experiment& experiment) {
   fields("enabled", video.enabled).doc("Whether a run is plotted and filmed.");

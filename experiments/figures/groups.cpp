@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/tables/verbs.hpp"
+#include "core/rows.hpp"
 
 namespace touchdown::experiments {
 

@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/progress.hpp"
-#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/config/experiment.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 
 namespace touchdown::experiments {

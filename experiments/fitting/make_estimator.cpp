@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/config/experiment.hpp"
 
 namespace touchdown::experiments {
 

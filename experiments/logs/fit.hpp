@@ -1,11 +1,99 @@
 #pragma once
 
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "experiments/estimators/entry.hpp"
-#include "experiments/logs/fit_log.hpp"
+#include "experiments/logs/log_steps.hpp"
+#include "experiments/logs/robot.hpp"
+#include "recordings/beliefs/contact_intervals.hpp"
+#include "scoring/labels.hpp"
 
 namespace touchdown::experiments {
+
+/// A log to fit to.
+struct FitLog {
+  std::filesystem::path path;
+  /// The one class of all steps, as in the paper. Without it the log's own ground truth counts.
+  std::optional<bool> contact = {};
+  /// Its records, if they are in memory; `path` is then only their name.
+  std::shared_ptr<const std::string> records = {};
+  /// Labels of segments of the log; steps between the segments are left out.
+  std::shared_ptr<const recordings::ContactIntervals> labels = {};
+};
+
+struct LogFitConfig {
+  scoring::LabelConfig labels;  ///< of logs with ground truth
+  double skip = 0.3;            ///< not used at the beginning of each log (s)
+  /// Of the logs. Without legs, simulated logs have those of their own robots' files, others
+  /// Upkie's.
+  LogRobot robot = {};
+  HyperparameterValues hyperparameters = {};  ///< replace the estimator's defaults
+  bool servo_load = false;                    ///< as in `FitRuns`
+  /// Stops with `Stopped` once true; may be null.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// Throws `Stopped` once the configuration's flag is true.
+void stop_if_asked(const LogFitConfig& config);
+
+/// The data of a fit; index 0 is no contact, 1 is contact.
+struct LogFitReport {
+  double seconds = 0.0;                ///< of all logs, without skipped parts
+  FittedTo fitted_to;                  ///< for the model's metadata
+  std::array<std::size_t, 2> samples;  ///< of both legs
+  std::array<TorqueBandwidth, 2> bandwidth;
+  std::size_t unusable = 0;  ///< samples left out: beyond what a sensor measures
+  std::vector<std::string> warnings;
+};
+
+/// Reads a log that a model is fitted to, step by step, and adds its source and its warnings to the
+/// report.
+class FitLogSteps {
+ public:
+  /// The arguments must outlive this. Errors: those of `LogSteps`; `InputError` for a log of a
+  /// reserved seed, or of another rate than the logs before it.
+  FitLogSteps(const FitLog& log, const LogFitConfig& config, LogFitReport& report);
+
+  /// The next step, valid until the next call; null at the end of the log.
+  const LogStep* next();
+  /// Whether the step is one of a labelled segment, or the log is not labelled by segments.
+  bool is_covered() const { return !log_.labels || step_->normal_force; }
+  /// Errors: `InputError` for a step without ground truth or labels of contact.
+  void require_truth() const;
+
+  /// After the last step. Errors: `InputError` for a log with a ground truth that contradicts its
+  /// declared class most of the time, and for labels of which no step is used; `Stopped`.
+  void finish(std::int64_t used_steps);
+
+  /// The log's description, with its period.
+  const recordings::RecordingInfo& info() const { return info_; }
+  const LogSteps& steps() const { return steps_; }
+  /// Those of the log's robot; Upkie's if its file is not known.
+  LegGeometry legs() const { return robot_.legs.value_or(LegGeometry{}); }
+
+ private:
+  void compare_with_declared_class();
+
+  const FitLog& log_;
+  const LogFitConfig& config_;
+  LogFitReport& report_;
+  recordings::LogReader reader_;
+  recordings::CheckedRobot robot_;
+  LogSteps steps_;
+  recordings::RecordingInfo info_;
+  const LogStep* step_ = nullptr;
+  double last_time_ = 0.0;
+  std::int64_t compared_ = 0;  ///< steps, both wheels added
+  std::int64_t contradicting_ = 0;
+};
 
 /// Fits an estimator's model to logs. Errors: `InputError` for unknown hyperparameters, and for
 /// logs that are unreadable, of reserved seeds, without ground truth or a declared class, or with

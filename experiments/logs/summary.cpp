@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/error.hpp"
 #include "estimator/signal_guard.hpp"
 
 namespace touchdown::experiments {
@@ -40,6 +43,61 @@ std::string score_text(const scoring::Score& score) {
 }
 
 }  // namespace
+
+BeliefCsv::BeliefCsv(std::ostream& stream) : stream_(stream) {
+  fmt::format_to(std::back_inserter(buffer_),
+                 "time_s,p_contact_left,p_contact_right,contact_left,contact_right,p_any_wheel,"
+                 "p_both_wheels,p_takeoff,p_landing,status\n");
+}
+
+void BeliefCsv::write(double time, const Belief& belief, const Evidence& evidence) {
+  const auto& [left, right] = belief.wheel;
+  fmt::format_to(std::back_inserter(buffer_), FMT_COMPILE("{},{},{},{:d},{:d},{},{},{},{},{}\n"),
+                 time, left.p_contact, right.p_contact, left.contact, right.contact,
+                 belief.p_any_wheel, belief.p_both_wheels, evidence.transition.p_takeoff,
+                 evidence.transition.p_landing, to_text(belief.status));
+  constexpr std::size_t large = std::size_t{1} << 16U;
+  if (buffer_.size() >= large) flush();
+}
+
+void BeliefCsv::flush() {
+  stream_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+  stream_.flush();
+  buffer_.clear();
+  if (!stream_) throw Error("the beliefs cannot be written: is the disk full?");
+}
+
+LogScore::LogScore(std::int64_t period_us, const scoring::LabelConfig& labels,
+                   const scoring::ScoringConfig& scoring, bool segment_counts)
+    : period_us_(period_us), labels_(labels), scoring_(scoring), segment_counts_(segment_counts) {}
+
+void LogScore::add(const LogStep& step, const Belief& belief) {
+  const double time = 1e-6 * static_cast<double>(period_us_ * steps_++);
+  if (!step.normal_force) {
+    is_scored_ = is_scored_ && segment_counts_;
+    end_segment();
+    return;
+  }
+  if (!is_scored_) return;
+  if (!duration_) {
+    scoring::ScoringConfig scoring = scoring_;
+    scoring.skip = std::max(0.0, scoring_.skip - time);
+    duration_.emplace(period_us_, labels_, scoring);
+  }
+  duration_->add(*step.normal_force, belief);
+}
+
+std::optional<scoring::RobotScore> LogScore::finish() {
+  end_segment();
+  return is_scored_ ? total_ : std::nullopt;
+}
+
+void LogScore::end_segment() {
+  if (!duration_) return;
+  if (!total_) total_.emplace();
+  *total_ += duration_->finish();
+  duration_.reset();
+}
 
 void LogSummary::Events::add(double time) {
   ++count;

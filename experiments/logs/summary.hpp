@@ -5,14 +5,65 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "estimator/contact_estimator.hpp"
+#include "experiments/logs/log_steps.hpp"
 #include "scoring/labels.hpp"
 #include "scoring/score.hpp"
+#include "scoring/score_stream.hpp"
 
 namespace touchdown::experiments {
+
+/// Writes beliefs as comma-separated values, one line per step: time (s), contact probability and
+/// decision (1 or 0) of each wheel, P(any wheel in contact), P(both wheels in contact), P(takeoff)
+/// and P(landing) of the transition model, status. Numbers are the shortest that read back to the
+/// same bits; `nan` stands for values that an estimator does not compute.
+class BeliefCsv {
+ public:
+  /// Writes the header. `stream` must outlive this.
+  explicit BeliefCsv(std::ostream& stream);
+
+  /// Buffers lines and writes them every 64 kB. Errors: `Error` when the stream fails.
+  void write(double time, const Belief& belief, const Evidence& evidence);
+
+  /// Writes the buffered lines. Errors: as above.
+  void flush();
+
+ private:
+  std::ostream& stream_;
+  fmt::memory_buffer buffer_;
+};
+
+/// The score of beliefs about a log, against its ground truth or against labels of segments. Each
+/// segment is scored as a run; `scoring.skip` applies to the beginning of the log.
+class LogScore {
+ public:
+  /// `segment_counts`: ground truth of a part of the log suffices; otherwise all of it is needed.
+  LogScore(std::int64_t period_us, const scoring::LabelConfig& labels,
+           const scoring::ScoringConfig& scoring, bool segment_counts);
+
+  void add(const LogStep& step, const Belief& belief);
+
+  /// Ends the log. Returns nothing without ground truth.
+  std::optional<scoring::RobotScore> finish();
+
+ private:
+  void end_segment();
+
+  std::int64_t period_us_;
+  scoring::LabelConfig labels_;
+  scoring::ScoringConfig scoring_;
+  bool segment_counts_;
+  bool is_scored_ = true;
+  std::int64_t steps_ = 0;
+  std::optional<scoring::ScoreStream> duration_;
+  std::optional<scoring::RobotScore> total_;
+};
 
 /// Counts an estimator's results on a log. It keeps only the first takeoffs and landings, so its
 /// memory does not grow with the log. Only steps with good signals count: what is invalid is no

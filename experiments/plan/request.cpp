@@ -11,7 +11,7 @@
 #include "core/fingerprint.hpp"
 #include "core/resources.hpp"
 #include "core/yaml.hpp"
-#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/config/experiment.hpp"
 #include "experiments/config/experiment_yaml.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_directory/owner.hpp"

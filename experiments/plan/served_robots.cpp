@@ -5,7 +5,7 @@
 #include <string>
 #include <tuple>
 
-#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/config/experiment.hpp"
 #include "scenarios/leg_geometry.hpp"
 
 namespace touchdown::experiments {

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/tables/columns.hpp"
+#include "core/columns.hpp"
 #include "experiments/evaluation/tasks.hpp"
-#include "experiments/tables/noise_columns.hpp"
+#include "experiments/results/scores.hpp"
 #include "scoring/bootstrap.hpp"
 #include "scoring/classification.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 
 namespace touchdown::experiments {
 

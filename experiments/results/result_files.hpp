@@ -11,7 +11,15 @@ namespace touchdown::experiments {
 void write_model_of(const std::string& key, const std::string& estimator, const FittedModel& model,
                     const RunDirectory& directory);
 
+/// `evidence.csv`: all curves of models that have any, in the units of their channels. The range is
+/// that of the fitted rows without the outermost two in a thousand.
+Table evidence_table(const FittedModels& models);
+
 /// Writes an experiment's result into its run directory: `tables/` and `models/`.
 void write_result_files(const ExperimentResult& result);
+
+/// Writes `manifest.json`: versions, seeds, host, timings, failed runs. Call it again to add later
+/// timings.
+void write_manifest(const ExperimentResult& result);
 
 }  // namespace touchdown::experiments

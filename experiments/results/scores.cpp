@@ -7,7 +7,6 @@
 #include <tbb/parallel_for.h>
 
 #include "experiments/estimators/registry.hpp"
-#include "experiments/tables/noise_columns.hpp"
 
 namespace touchdown::experiments {
 
@@ -38,7 +37,66 @@ Columns<ScoreSummary> columns_of(const std::vector<std::string>& metrics,
   return columns;
 }
 
+/// `reliability.csv`: a row per bin of the calibration.
+void write_reliability(const std::vector<ScoreSummary>& scores, const RunDirectory& directory) {
+  struct Row {
+    const ScoreSummary* summary;
+    std::size_t bin;
+  };
+  std::vector<Row> rows;
+  for (const ScoreSummary& summary : scores) {
+    for (std::size_t b = 0; b < scoring::Calibration::bins; ++b) rows.push_back({&summary, b});
+  }
+  const auto counts = [](const Row& row) -> const scoring::Calibration::Bin& {
+    return row.summary->total.calibration.bin[row.bin];
+  };
+  const auto columns =
+      Columns<Row>()
+          .part([](const Row& row) -> const ScoreSummary& { return *row.summary; },
+                columns_of({}, {}))
+          .number("bin", &Row::bin)
+          .count("steps", [counts](const Row& row) { return counts(row).points; })
+          .metric("mean_probability",
+                  [counts](const Row& row) { return counts(row).mean_probability(); })
+          .interval("contact_frequency",
+                    [](const Row& row) { return row.summary->contact_frequency[row.bin]; });
+  directory.write_table("reliability.csv", columns, rows);
+}
+
+/// `differences.csv`: a row per pair of estimators and metric.
+void write_differences(const std::vector<Difference>& differences, const RunDirectory& directory) {
+  struct Row {
+    const Difference* pair;
+    std::size_t metric;  ///< in the order of `metrics()`
+  };
+  std::vector<Row> rows;
+  for (const Difference& difference : differences) {
+    for (std::size_t m = 0; m < scoring::metrics().size(); ++m) rows.push_back({&difference, m});
+  }
+  const auto columns =
+      Columns<Row>()
+          .text("simulator", [](const Row& row) { return row.pair->simulator; })
+          .part([](const Row& row) { return row.pair->cell; }, noise_columns())
+          .text("first", [](const Row& row) { return row.pair->first; })
+          .text("second", [](const Row& row) { return row.pair->second; })
+          .text("metric", [](const Row& row) { return scoring::metrics()[row.metric].name; })
+          .interval("difference", [](const Row& row) { return row.pair->metric[row.metric]; });
+  directory.write_table("differences.csv", columns, rows);
+}
+
 }  // namespace
+
+Columns<noise::NoiseCell> noise_columns() {
+  return Columns<noise::NoiseCell>()
+      .level("torque_noise_nm", &noise::NoiseCell::torque)
+      .level("accelerometer_noise_mps2", &noise::NoiseCell::accelerometer);
+}
+
+Columns<noise::NoiseCell> knee_wheel_columns() {
+  return Columns<noise::NoiseCell>()
+      .level("knee_noise_nm", &noise::NoiseCell::knee)
+      .level("wheel_noise_nm", &noise::NoiseCell::wheel);
+}
 
 std::vector<CellSummary> summarise(const std::vector<ConditionCounts>& counts,
                                    const std::vector<noise::NoiseCell>& cells,
@@ -63,92 +121,52 @@ std::vector<CellSummary> summarise(const std::vector<ConditionCounts>& counts,
   return summaries;
 }
 
-Columns<CellSummary> success_columns() {
-  return setting_columns<CellSummary>()
-      .interval("success", &CellSummary::success)
-      .metric("always_contact_success", &CellSummary::always_contact)
-      .part(&CellSummary::cell, knee_wheel_columns());
-}
-
-Columns<CellSummary> classification_columns() {
-  Columns<CellSummary> columns = setting_columns<CellSummary>();
+void write_score_tables(const std::vector<CellSummary>& cells,
+                        const std::vector<ScoreSummary>& scores,
+                        const std::vector<Difference>& differences, const RunDirectory& directory) {
+  using scoring::Score;
+  directory.write_table("success.csv",
+                        setting_columns<CellSummary>()
+                            .interval("success", &CellSummary::success)
+                            .metric("always_contact_success", &CellSummary::always_contact)
+                            .part(&CellSummary::cell, knee_wheel_columns()),
+                        cells);
+  Columns<CellSummary> classification = setting_columns<CellSummary>();
   for (const PointMetric& metric : point_metrics) {
-    if (metric.interval != &CellSummary::success) columns.interval(metric.name, metric.interval);
+    if (metric.interval == &CellSummary::success) continue;
+    classification.interval(metric.name, metric.interval);
   }
-  return columns.part(&CellSummary::cell, knee_wheel_columns());
-}
-
-Columns<ScoreSummary> views_columns() {
-  return columns_of(
-      {"success", "contact_precision", "contact_recall", "no_contact_precision",
-       "no_contact_recall"},
-      {{"contact_steps", [](const scoring::Score& s) { return s.points.contact(); }},
-       {"no_contact_steps", [](const scoring::Score& s) { return s.points.flight(); }}});
-}
-
-Columns<ScoreSummary> transitions_columns() {
-  return columns_of(
-      {"takeoff_precision", "takeoff_recall", "landing_precision", "landing_recall",
-       "false_takeoffs_per_minute"},
-      {{"takeoffs", [](const scoring::Score& s) { return s.takeoff.events; }},
-       {"false_takeoffs", [](const scoring::Score& s) { return s.takeoff.false_alarms; }},
-       {"landings", [](const scoring::Score& s) { return s.landing.events; }},
-       {"false_landings", [](const scoring::Score& s) { return s.landing.false_alarms; }}});
-}
-
-Columns<ScoreSummary> latency_columns() {
-  return columns_of(
-      {"takeoff_latency_ms", "takeoff_latency_deviation_ms", "landing_latency_ms",
-       "landing_latency_deviation_ms"},
-      {{"takeoffs_detected", [](const scoring::Score& s) { return s.takeoff.detected; }},
-       {"landings_detected", [](const scoring::Score& s) { return s.landing.detected; }}});
-}
-
-Columns<ScoreSummary> calibration_columns() {
-  return columns_of({"brier"},
-                    {{"steps", [](const scoring::Score& s) { return s.calibration.points; }}});
-}
-
-std::vector<ReliabilityBin> reliability_bins(const std::vector<ScoreSummary>& summaries) {
-  std::vector<ReliabilityBin> bins;
-  for (const ScoreSummary& summary : summaries) {
-    for (std::size_t b = 0; b < scoring::Calibration::bins; ++b) bins.push_back({&summary, b});
-  }
-  return bins;
-}
-
-Columns<ReliabilityBin> reliability_columns() {
-  using Bin = ReliabilityBin;
-  const auto counts = [](const Bin& bin) -> const scoring::Calibration::Bin& {
-    return bin.summary->total.calibration.bin[bin.index];
-  };
-  return Columns<Bin>()
-      .part([](const Bin& bin) -> const ScoreSummary& { return *bin.summary; }, columns_of({}, {}))
-      .number("bin", &Bin::index)
-      .count("steps", [counts](const Bin& bin) { return counts(bin).points; })
-      .metric("mean_probability",
-              [counts](const Bin& bin) { return counts(bin).mean_probability(); })
-      .interval("contact_frequency",
-                [](const Bin& bin) { return bin.summary->contact_frequency[bin.index]; });
-}
-
-std::vector<MetricDifference> metric_differences(const std::vector<Difference>& differences) {
-  std::vector<MetricDifference> all;
-  for (const Difference& difference : differences) {
-    for (std::size_t m = 0; m < scoring::metrics().size(); ++m) all.push_back({&difference, m});
-  }
-  return all;
-}
-
-Columns<MetricDifference> difference_columns() {
-  using Row = MetricDifference;
-  return Columns<Row>()
-      .text("simulator", [](const Row& row) { return row.pair->simulator; })
-      .part([](const Row& row) { return row.pair->cell; }, noise_columns())
-      .text("first", [](const Row& row) { return row.pair->first; })
-      .text("second", [](const Row& row) { return row.pair->second; })
-      .text("metric", [](const Row& row) { return scoring::metrics()[row.metric].name; })
-      .interval("difference", [](const Row& row) { return row.pair->metric[row.metric]; });
+  classification.part(&CellSummary::cell, knee_wheel_columns());
+  directory.write_table("classification.csv", classification, cells);
+  directory.write_table(
+      "views.csv",
+      columns_of({"success", "contact_precision", "contact_recall", "no_contact_precision",
+                  "no_contact_recall"},
+                 {{"contact_steps", [](const Score& s) { return s.points.contact(); }},
+                  {"no_contact_steps", [](const Score& s) { return s.points.flight(); }}}),
+      scores);
+  directory.write_table(
+      "transitions.csv",
+      columns_of({"takeoff_precision", "takeoff_recall", "landing_precision", "landing_recall",
+                  "false_takeoffs_per_minute"},
+                 {{"takeoffs", [](const Score& s) { return s.takeoff.events; }},
+                  {"false_takeoffs", [](const Score& s) { return s.takeoff.false_alarms; }},
+                  {"landings", [](const Score& s) { return s.landing.events; }},
+                  {"false_landings", [](const Score& s) { return s.landing.false_alarms; }}}),
+      scores);
+  directory.write_table(
+      "latency.csv",
+      columns_of({"takeoff_latency_ms", "takeoff_latency_deviation_ms", "landing_latency_ms",
+                  "landing_latency_deviation_ms"},
+                 {{"takeoffs_detected", [](const Score& s) { return s.takeoff.detected; }},
+                  {"landings_detected", [](const Score& s) { return s.landing.detected; }}}),
+      scores);
+  directory.write_table(
+      "calibration.csv",
+      columns_of({"brier"}, {{"steps", [](const Score& s) { return s.calibration.points; }}}),
+      scores);
+  write_reliability(scores, directory);
+  write_differences(differences, directory);
 }
 
 }  // namespace touchdown::experiments

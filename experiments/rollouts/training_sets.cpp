@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/tables/verbs.hpp"
+#include "core/rows.hpp"
 #include "experiments/rollouts/training_segments.hpp"
 
 namespace touchdown::experiments {

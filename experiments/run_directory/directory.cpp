@@ -76,12 +76,18 @@ fs::path RunDirectory::own_file(std::string_view folder, std::string_view name) 
   return record_file(path_, fs::path(folder) / name);
 }
 
-Table RunDirectory::read_table(std::string_view name) const {
-  return from_csv(read_file(path_ / "tables" / name));
+void RunDirectory::write_table(std::string_view name, Table table) const {
+  write_atomically(own_file("tables", name), to_csv(table));
+  if (!table.columns.empty()) write_columns(path_, name, table.columns);
+  tables_->insert_or_assign(std::string(name), std::move(table));
 }
 
-void RunDirectory::write_table(std::string_view name, const Table& table) const {
-  write_atomically(own_file("tables", name), to_csv(table));
+const Table& RunDirectory::read_table(std::string_view name) const {
+  const auto known = tables_->find(name);
+  if (known != tables_->end()) return known->second;
+  Table table = from_csv(read_file(path_ / "tables" / name));
+  table.columns = read_columns(path_, name);
+  return tables_->emplace(name, std::move(table)).first->second;
 }
 
 }  // namespace touchdown::experiments

@@ -2,12 +2,16 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "core/tables/columns.hpp"
+#include "core/columns.hpp"
 #include "experiments/run_directory/lock.hpp"
 #include "experiments/run_directory/recorded_files.hpp"
 #include "experiments/run_directory/table_columns.hpp"
@@ -50,21 +54,26 @@ class RunDirectory {
   /// empty. Errors: those of `require_in_place`.
   std::filesystem::path own_file(std::string_view folder, std::string_view name) const;
 
-  /// Reads a table of `tables/`. Errors: `Error` when it cannot be read.
-  Table read_table(std::string_view name) const;
-  /// Writes a file of `tables/`.
-  void write_table(std::string_view name, const Table& table) const;
-  /// The same for measured rows, which `results.csv` repeats: saves what their columns mean.
+  /// Writes a table to `tables/`, and keeps it for its readers in this process and in copies of
+  /// this. Saves what its columns mean, if it has them.
+  void write_table(std::string_view name, Table table) const;
+  /// The same for measured rows, which `results.csv` repeats.
   template <typename Row>
   void write_table(std::string_view name, const Columns<Row>& columns,
                    const std::vector<Row>& rows) const {
-    write_table(name, columns.table(rows));
-    write_columns(path_, name, columns.infos());
+    Table table = columns.table(rows);
+    table.columns = columns.infos();
+    write_table(name, std::move(table));
   }
+  /// A table of `tables/`: as it was written, or else read once from its file. The reference is
+  /// valid until the table is written again. Errors: `Error` when it cannot be read.
+  const Table& read_table(std::string_view name) const;
 
  private:
   std::filesystem::path path_;
   std::optional<DirectoryLock> lock_;
+  using Tables = std::map<std::string, Table, std::less<>>;
+  std::shared_ptr<Tables> tables_ = std::make_shared<Tables>();  ///< by file name
 };
 
 }  // namespace touchdown::experiments

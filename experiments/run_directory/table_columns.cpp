@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 
 namespace touchdown::experiments {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/tables/columns.hpp"
+#include "core/columns.hpp"
 
 namespace touchdown::experiments {
 

@@ -6,7 +6,7 @@
 
 #include "core/files.hpp"
 #include "core/resources.hpp"
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 
 namespace touchdown::experiments {
 

@@ -11,14 +11,30 @@
 #include "estimator/contact_estimator.hpp"
 #include "estimator/force/leg_geometry.hpp"
 #include "estimator/signals.hpp"
-#include "experiments/signals/motion.hpp"
+#include "models/robot_model.hpp"
 #include "noise/sensor_noise.hpp"
+#include "odometry/wheeled_leg.hpp"
 #include "recordings/recording.hpp"
 #include "scoring/bootstrap.hpp"
 #include "scoring/labels.hpp"
 #include "scoring/score.hpp"
+#include "scoring/trajectory.hpp"
 
 namespace touchdown::experiments {
+
+/// The data of a run that odometry needs besides the signals.
+struct RunMotion {
+  odometry::WheeledBiped robot;                 ///< from the robot's description
+  std::vector<Eigen::Vector3d> specific_force;  ///< reported by the accelerometer (m/s²)
+  scoring::Trajectory truth;  ///< pose of the IMU's origin, with the axes of the base
+};
+
+/// Errors: `InputError` for a robot with joints that do not turn about ±y, see `wheeled_biped`.
+RunMotion motion_of(const recordings::Recording& recording, const models::RobotModel& robot);
+
+/// The kinematic model for odometry, from the robot's MuJoCo model. It assumes planar legs. Errors:
+/// `InputError` when a joint does not turn about ±y.
+odometry::WheeledBiped wheeled_biped(const models::RobotModel& robot);
 
 /// Whether the step was recorded. Estimators are not updated at steps without a record.
 inline bool has_record(const Signals& signals) { return !std::isnan(signals.time); }

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/config/experiment.hpp"
 #include "experiments/fitting/refits.hpp"
 #include "experiments/rollouts/training_segments.hpp"
 #include "experiments/rollouts/training_sets.hpp"

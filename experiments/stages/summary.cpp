@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/fingerprint.hpp"
-#include "experiments/results/manifest.hpp"
+#include "experiments/results/long_table.hpp"
 #include "experiments/results/result_files.hpp"
 #include "experiments/rollouts/failures.hpp"
 #include "experiments/run_directory/own_files.hpp"
@@ -17,7 +17,6 @@
 #include "experiments/signals/reserved_seeds.hpp"
 #include "experiments/stages/process_memory.hpp"
 #include "experiments/studies/registry.hpp"
-#include "experiments/tables/results.hpp"
 #include "experiments/tuning/table.hpp"
 
 namespace touchdown::experiments {

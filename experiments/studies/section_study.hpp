@@ -1,6 +1,6 @@
 #pragma once
 
-#include "experiments/config/optional_section.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/studies/study.hpp"
 
 namespace touchdown::experiments {

@@ -1,18 +1,20 @@
 #include "experiments/submissions/export.hpp"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <mutex>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/resources.hpp"
+#include "core/table.hpp"
+#include "experiments/config/yaml_kind.hpp"
 #include "experiments/rollouts/failures.hpp"
 #include "experiments/run_directory/free_space.hpp"
-#include "experiments/submissions/exported_arrays.hpp"
-#include "experiments/submissions/readme.hpp"
-#include "experiments/submissions/sha256.hpp"
-#include "experiments/tables/noise_columns.hpp"
+#include "experiments/studies/experiment_file.hpp"
 
 namespace touchdown::experiments {
 
@@ -143,9 +145,8 @@ Columns<IndexRow> index_columns() {
       });
 }
 
-}  // namespace
-
-double bytes_at_most(std::span<const ExportedRun> runs, const Plan& plan) {
+/// Upper bound of the size of these runs on disk (bytes).
+double bytes_at_most(const std::vector<ExportedRun>& runs, const Plan& plan) {
   double bytes = 0.0;
   for (const ExportedRun& exported : runs) {
     const scenarios::Scenario& scenario = plan.runs[exported.run].scenario;
@@ -155,6 +156,8 @@ double bytes_at_most(std::span<const ExportedRun> runs, const Plan& plan) {
   return bytes;
 }
 
+/// Writes the files of these runs. Recordings are read from `directory`; missing ones are
+/// simulated.
 ExportReport export_runs(const RunRequest& request, const Plan& plan,
                          const std::vector<ExportedRun>& runs, const RunDirectory& directory,
                          const fs::path& folder, const ShouldContinue& should_continue) {
@@ -207,6 +210,75 @@ ExportReport export_runs(const RunRequest& request, const Plan& plan,
   if (!should_continue()) throw Stopped();
   place.take(part.path());
   return report;
+}
+
+RunRequest request_in(const fs::path& source) {
+  std::error_code ignored;
+  if (fs::is_directory(source, ignored)) return read_request(source);
+  const YamlDocument document = YamlDocument::load(find_resource(source));
+  require_yaml_kind(document, YamlKind::experiment);
+  return request_of(experiment_from_yaml(document));
+}
+
+}  // namespace
+
+std::string export_outline(const ExportRequest& wanted) {
+  const RunRequest request = request_in(wanted.source);
+  const Plan plan = whole_plan(request);
+  const std::vector<ExportedRun> runs = part_of(exported_runs(request, plan), wanted.part, plan);
+  std::map<std::array<std::string, 3>, std::vector<ExportedRun>> parts;
+  for (const ExportedRun& run : runs) {
+    parts[{run.robot, run.sensors, plan.runs[run.run].simulator}].push_back(run);
+  }
+  const auto megabytes = [&](const std::vector<ExportedRun>& part_runs) {
+    return fmt::format("{:.0f}", 1e-6 * bytes_at_most(part_runs, plan));
+  };
+  const auto test_files = [](const std::vector<ExportedRun>& part_runs) {
+    return std::count_if(part_runs.begin(), part_runs.end(),
+                         [](const ExportedRun& run) { return run.task; });
+  };
+  Table table{{"robot", "sensors", "simulator", "fit files", "test files", "MB at most"}, {}};
+  const auto add = [&](const std::array<std::string, 3>& name,
+                       const std::vector<ExportedRun>& part_runs) {
+    const auto test = static_cast<std::size_t>(test_files(part_runs));
+    table.rows.push_back({name[0], name[1], name[2], std::to_string(part_runs.size() - test),
+                          std::to_string(test), megabytes(part_runs)});
+  };
+  for (const auto& [name, part_runs] : parts) add(name, part_runs);
+  add({"all", "", ""}, runs);
+  return to_text(table, 3);
+}
+
+ExportReport export_benchmark(const ExportRequest& wanted, const RunOptions& options) {
+  RunRequest request = request_in(wanted.source);
+  const auto write = [&](RunDirectory directory) {
+    ExperimentContext context = start(std::move(request), std::move(directory), options);
+    Plan& plan = context.plan;
+    const std::vector<ExportedRun> runs =
+        part_of(exported_runs(context.request, plan), wanted.part, plan);
+    for (const ExportedRun& exported : runs) {
+      PlannedRun& run = plan.runs[exported.run];
+      run.kept = run.kept && is_recorded(run, context.directory);
+    }
+    try {
+      return export_runs(context.request, plan, runs, context.directory, wanted.folder,
+                         context.should_continue);
+    } catch (const Stopped&) {
+      throw Stopped("stopped; nothing was written");
+    }
+  };
+  const std::string name = request.experiment.name;
+  const std::string id = request.id;
+  std::error_code ignored;
+  if (fs::is_directory(wanted.source, ignored)) {
+    RunDirectory directory(name, id, wanted.source);
+    directory.keep(DirectoryLock::for_reading(wanted.source, options.command));
+    return write(std::move(directory));
+  }
+  // The export needs a directory for the state of runs that cannot be simulated.
+  request.experiment.recordings = KeptRecordings::none;
+  const PartFolder scratch(temporary_folder() / "touchdown_export");
+  return write(RunDirectory(name, id, scratch.path()));
 }
 
 }  // namespace touchdown::experiments

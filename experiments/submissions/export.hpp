@@ -2,14 +2,23 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "experiments/rollouts/rollouts.hpp"
+#include "experiments/signals/run_signals.hpp"
+#include "experiments/stages/experiment_context.hpp"
 #include "experiments/submissions/exported_runs.hpp"
+#include "recordings/models/npz.hpp"
 
 namespace touchdown::experiments {
+
+/// Which part of a benchmark is exported, and where to.
+struct ExportRequest {
+  std::filesystem::path source;  ///< an experiment file, or a run directory
+  std::filesystem::path folder;
+  BenchmarkPart part;
+};
 
 /// The result of an export.
 struct ExportReport {
@@ -18,16 +27,36 @@ struct ExportReport {
   std::vector<std::string> failed;  ///< recordings of failed runs, which are not exported
 };
 
-/// Upper bound of the size of these runs on disk (bytes).
-double bytes_at_most(std::span<const ExportedRun> runs, const Plan& plan);
+/// A table for the user: the number of files and their largest size, by robot, sensors and engine.
+/// Computes and writes nothing. Errors: those of `export_benchmark` about the request.
+std::string export_outline(const ExportRequest& request);
 
-/// Writes the inputs of estimators for these runs into a new or an empty folder, with `README.md`,
-/// `index.csv` and `SHA256SUMS`: all files or none. Equal runs give equal bytes. Recordings are
-/// read from `directory`; missing ones are simulated. Errors: `InputError` for a folder that is not
-/// empty; `Error` for too little disk space; `Stopped`.
-ExportReport export_runs(const RunRequest& request, const Plan& plan,
-                         const std::vector<ExportedRun>& runs, const RunDirectory& directory,
-                         const std::filesystem::path& folder,
-                         const ShouldContinue& should_continue);
+/// Writes the sensor signals of a benchmark into a new or an empty folder, for submitted
+/// estimators, with `README.md`, `index.csv` and `SHA256SUMS`: all files or none. Equal runs give
+/// equal bytes. Reads the runs that the run directory has recordings of, and simulates all others.
+/// Errors: `InputError` for a wrong request, or a folder that is not empty; `Error` for too little
+/// disk space; `Stopped`.
+ExportReport export_benchmark(const ExportRequest& request, const RunOptions& options);
+
+// The contents of the files:
+
+/// SHA-256 (FIPS 180-4) of bytes, as `sha256sum` prints it: 64 hexadecimal digits.
+std::string sha256(std::string_view bytes);
+
+/// The README of an export: its arrays, the format of a submission, and the scoring.
+std::string readme_of(const RunRequest& request);
+
+/// The arrays of a run for fitting, one row per step: `time`, `has_record`, the members of
+/// `Signals` and the labels `contact` (left, right). Joints have six columns: hip, knee, wheel of
+/// the left leg, then of the right leg. At steps with a record the values equal the input of
+/// `ContactEstimator::update` bit for bit. At other steps the time is that of the step.
+recordings::NpzArrays exported_arrays(const RunSignals& run);
+
+/// The arrays of a run with noise.
+recordings::NpzArrays exported_arrays(const RunSignals& run, const NoiseRun& noise,
+                                      const noise::SensorNoise& levels);
+
+/// Upper bound of the size of a run's arrays on disk (bytes).
+double bytes_of_exported(double steps);
 
 }  // namespace touchdown::experiments

@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/tables/verbs.hpp"
+#include "core/rows.hpp"
 #include "core/yaml.hpp"
 #include "experiments/studies/benchmark/plan.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/config/experiment.hpp"
 #include "experiments/figures/groups.hpp"
 #include "simulators/registry.hpp"
 

@@ -8,8 +8,8 @@
 
 #include "core/files.hpp"
 #include "core/fingerprint.hpp"
-#include "core/tables/table.hpp"
-#include "experiments/config/experiment_estimators.hpp"
+#include "core/table.hpp"
+#include "experiments/config/experiment.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/plan/plan.hpp"
 #include "experiments/tuning/figures.hpp"

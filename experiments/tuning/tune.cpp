@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "core/progress.hpp"
 #include "core/random.hpp"
-#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/config/experiment.hpp"
 #include "experiments/plan/plan.hpp"
 #include "experiments/signals/estimator_runner.hpp"
 #include "experiments/tuning/folds.hpp"

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "core/yaml.hpp"
 #include "recordings/beliefs/numbers_csv.hpp"
 

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "core/csv/rows.hpp"
+#include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/resources.hpp"
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "render/report/tables.hpp"
 
 namespace touchdown::render {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "experiments/drops/drops.hpp"
+#include "experiments/results/drops.hpp"
 #include "render/gnuplot/panel_grid.hpp"
 #include "render/gnuplot/text.hpp"
 #include "simulators/registry.hpp"

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "render/gnuplot/figure.hpp"
 
 namespace touchdown::render {

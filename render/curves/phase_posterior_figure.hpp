@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/drops/posterior.hpp"
+#include "experiments/results/drops.hpp"
 #include "render/gnuplot/figure.hpp"
 
 namespace touchdown::render {

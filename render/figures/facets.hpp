@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "experiments/figures/figure_spec.hpp"
 #include "render/gnuplot/figure.hpp"
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 
 namespace touchdown::render {
 

@@ -4,9 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "experiments/drops/detail.hpp"
-#include "experiments/drops/posterior.hpp"
 #include "experiments/results/captions.hpp"
+#include "experiments/results/drops.hpp"
 #include "render/curves/drop_detail_figure.hpp"
 #include "render/curves/phase_posterior_figure.hpp"
 #include "render/pictures/chosen_run.hpp"

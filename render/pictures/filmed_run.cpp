@@ -10,7 +10,7 @@
 #include "core/files.hpp"
 #include "core/progress.hpp"
 #include "core/resources.hpp"
-#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/config/experiment.hpp"
 #include "experiments/fitting/make_estimator.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/plan/sensors.hpp"

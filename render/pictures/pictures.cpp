@@ -2,7 +2,6 @@
 
 #include <chrono>
 
-#include "core/files.hpp"
 #include "core/progress.hpp"
 #include "render/figures/facets.hpp"
 #include "render/pictures/drop_figures.hpp"
@@ -30,7 +29,7 @@ void draw_pictures(experiments::ExperimentResult& result, const std::vector<Film
     }
     for (const experiments::FigureSpec& figure : result.figures) {
       stop_if_asked(stop);
-      draw_facets(figure, from_csv(read_file(result.directory.file("tables", figure.table))),
+      draw_facets(figure, result.directory.read_table(figure.table),
                   result.directory.file("figures", figure.name));
     }
     progress.advance();

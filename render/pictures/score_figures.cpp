@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/config/experiment.hpp"
 #include "experiments/estimators/baselines.hpp"
 #include "experiments/estimators/decision.hpp"
 #include "experiments/results/captions.hpp"

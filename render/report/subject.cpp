@@ -4,7 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/tables/verbs.hpp"
+#include "core/rows.hpp"
 #include "experiments/results/json_table.hpp"
 #include "experiments/studies/experiment_file.hpp"
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "experiments/results/paper.hpp"
+#include "experiments/results/text_tables.hpp"
 #include "render/report/html.hpp"
 #include "render/report/subject.hpp"
 

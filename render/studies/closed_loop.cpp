@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "experiments/odometry/contact_sources.hpp"
+#include "experiments/results/odometry.hpp"
 #include "experiments/studies/closed_loop/config.hpp"
 #include "experiments/studies/closed_loop/rollout.hpp"
 #include "experiments/studies/experiment_file.hpp"

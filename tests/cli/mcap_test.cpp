@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "program.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "result_files.hpp"

@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "program.hpp"
 
 namespace touchdown::cli {

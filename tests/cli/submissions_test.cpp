@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "program.hpp"
 #include "result_files.hpp"
 #include "started_program.hpp"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 
 namespace touchdown {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "experiments/config/optional_section.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/studies/ablation/estimators.hpp"
 
 namespace touchdown::experiments {

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "core/tables/verbs.hpp"
+#include "core/rows.hpp"
 #include "experiments/results/captions.hpp"
-#include "experiments/tables/noise_columns.hpp"
+#include "experiments/results/scores.hpp"
 
 namespace touchdown::experiments {
 

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "experiments/config/experiment_estimators.hpp"
-#include "experiments/config/optional_section.hpp"
+#include "experiments/config/experiment.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 
 namespace touchdown::experiments {
 

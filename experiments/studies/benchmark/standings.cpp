@@ -7,7 +7,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "core/tables/verbs.hpp"
+#include "core/rows.hpp"
 #include "experiments/estimators/registry.hpp"
 
 namespace touchdown::experiments {

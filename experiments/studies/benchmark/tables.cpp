@@ -8,12 +8,12 @@
 #include <fmt/ranges.h>
 
 #include "core/files.hpp"
-#include "core/tables/verbs.hpp"
+#include "core/rows.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/results/json_table.hpp"
+#include "experiments/results/scores.hpp"
 #include "experiments/studies/benchmark/unseen_table.hpp"
-#include "experiments/tables/noise_columns.hpp"
 
 namespace touchdown::experiments {
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/config/optional_section.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 
 namespace touchdown::experiments {
 

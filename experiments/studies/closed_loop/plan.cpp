@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/tables/table.hpp"
-#include "experiments/config/experiment_estimators.hpp"
+#include "core/table.hpp"
+#include "experiments/config/experiment.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/plan/served_robots.hpp"
 #include "scenarios/scenario_file.hpp"

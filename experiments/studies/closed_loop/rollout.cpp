@@ -7,7 +7,7 @@
 #include "experiments/plan/condition.hpp"
 #include "experiments/plan/sensors.hpp"
 #include "experiments/plan/served_robots.hpp"
-#include "experiments/signals/motion.hpp"
+#include "experiments/signals/run_signals.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/rollout.hpp"
 

@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "experiments/config/optional_section.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-constexpr const char* own_estimators = "list of the experiment's estimators";
+constexpr const char* of_own_estimators = "list of the experiment's estimators";
 
 /// Describes names that must be among the experiment's own.
 KeyNotes describe_subset(Fields& fields, std::string_view key,
@@ -62,7 +62,7 @@ static void describe(Fields& section, CrossSimulatorConfig& config, const Experi
                 fields("smallest_gain", config.verdict.smallest_gain, -1.0, 1.0)
                     .doc("Accuracy that must be gained over constant contact.");
                 describe_subset(fields, "demanded", experiment.estimators, config.verdict.demanded)
-                    .type(own_estimators)
+                    .type(of_own_estimators)
                     .doc("Estimators that must pass, or the run fails.");
               })
       .doc("What an estimator must achieve.");

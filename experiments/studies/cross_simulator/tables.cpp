@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "core/tables/verbs.hpp"
-#include "experiments/config/experiment_estimators.hpp"
+#include "core/rows.hpp"
+#include "experiments/config/experiment.hpp"
 #include "experiments/estimators/baselines.hpp"
 #include "experiments/results/captions.hpp"
+#include "experiments/results/scores.hpp"
 #include "experiments/studies/cross_simulator/config.hpp"
-#include "experiments/tables/noise_columns.hpp"
 
 namespace touchdown::experiments {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/results/paper.hpp"
+#include "experiments/results/text_tables.hpp"
 #include "experiments/studies/cross_simulator/check.hpp"
 
 namespace touchdown::experiments {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "experiments/studies/cross_simulator/config.hpp"
 #include "scenarios/perturbation.hpp"
 #include "scenarios/scenario_file.hpp"

@@ -2,7 +2,7 @@
 
 #include "core/files.hpp"
 #include "experiments/plan/sensors.hpp"
-#include "experiments/results/paper.hpp"
+#include "experiments/results/text_tables.hpp"
 #include "experiments/studies/labels/tables.hpp"
 
 namespace touchdown::experiments {

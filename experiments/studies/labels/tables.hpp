@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/tables/columns.hpp"
+#include "core/columns.hpp"
 #include "experiments/evaluation/tasks.hpp"
 #include "scoring/labels.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/figures/figure_spec.hpp"
 

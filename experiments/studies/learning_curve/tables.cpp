@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "core/tables/verbs.hpp"
+#include "core/rows.hpp"
 #include "experiments/results/captions.hpp"
+#include "experiments/results/scores.hpp"
 #include "experiments/studies/learning_curve/config.hpp"
-#include "experiments/tables/noise_columns.hpp"
 
 namespace touchdown::experiments {
 

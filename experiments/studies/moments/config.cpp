@@ -1,6 +1,6 @@
 #include "experiments/studies/moments/config.hpp"
 
-#include "experiments/config/optional_section.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 
 namespace touchdown::experiments {
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "experiments/plan/sensors.hpp"
 
 namespace touchdown::experiments {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "experiments/figures/groups.hpp"
-#include "experiments/odometry/contact_sources.hpp"
+#include "experiments/results/odometry.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::experiments {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/figures/figure_spec.hpp"
 

@@ -1,7 +1,6 @@
 #include "experiments/studies/odometry/plan.hpp"
 
-#include "experiments/odometry/contact_sources.hpp"
-#include "experiments/odometry/dead_reckoning.hpp"
+#include "experiments/results/odometry.hpp"
 
 namespace touchdown::experiments {
 

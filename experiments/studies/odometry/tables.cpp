@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "core/tables/verbs.hpp"
-#include "experiments/odometry/contact_sources.hpp"
+#include "core/rows.hpp"
 #include "experiments/results/captions.hpp"
+#include "experiments/results/odometry.hpp"
 #include "experiments/studies/odometry/plan.hpp"
 #include "scoring/bootstrap.hpp"
 

@@ -8,8 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "experiments/odometry/contact_sources.hpp"
-#include "experiments/odometry/dead_reckoning.hpp"
+#include "experiments/results/odometry.hpp"
 #include "experiments/studies/odometry/plan.hpp"
 
 namespace touchdown::experiments {

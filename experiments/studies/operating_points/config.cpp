@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "experiments/config/optional_section.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 
 namespace touchdown::experiments {
 

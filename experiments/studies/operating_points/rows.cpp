@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/tables/verbs.hpp"
+#include "core/rows.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/studies/operating_points/config.hpp"
 #include "experiments/studies/operating_points/plan.hpp"

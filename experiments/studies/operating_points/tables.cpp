@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "experiments/results/captions.hpp"
-#include "experiments/tables/noise_columns.hpp"
+#include "experiments/results/scores.hpp"
 
 namespace touchdown::experiments {
 

@@ -1,7 +1,7 @@
 #include "experiments/studies/sensor_sweep/config.hpp"
 
-#include "experiments/config/optional_section.hpp"
 #include "noise/sensor_profile.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 
 namespace touchdown::experiments {
 

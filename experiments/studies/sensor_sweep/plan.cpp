@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "experiments/studies/sensor_sweep/config.hpp"
 #include "noise/sensor_profile.hpp"
 

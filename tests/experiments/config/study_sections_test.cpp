@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "experiments/config/optional_section.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/studies/experiment_file.hpp"
 
 namespace touchdown::experiments {

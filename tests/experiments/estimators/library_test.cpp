@@ -11,7 +11,7 @@
 #include "estimator/models/make_estimator.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
-#include "experiments/submissions/sha256.hpp"
+#include "experiments/submissions/export.hpp"
 #include "onboard/load_estimator.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 #include "tests/scratch_folder.hpp"

@@ -1,5 +1,3 @@
-#include "experiments/results/evidence.hpp"
-
 #include <cmath>
 #include <map>
 #include <set>
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "estimator/evidence/curves.hpp"
+#include "experiments/results/result_files.hpp"
 #include "tests/estimator/evidence/random_curves.hpp"
 
 namespace touchdown::experiments {
@@ -21,8 +20,7 @@ FittedModel model_of(const EvidenceCurveSets& model) {
 TEST(EvidenceTable, HasEveryCurveOverTheRangeOfItsRows) {
   EvidenceModel model = test::random_curves(1);
   model.seen[3] = {-0.1F, 2.0F};
-  const Table table = evidence_columns().table(
-      evidence_points({{"mujoco", {{"evidence_curves", model_of(model)}}}}));
+  const Table table = evidence_table({{"mujoco", {{"evidence_curves", model_of(model)}}}});
   std::size_t rows = 0;
   for (const auto& row : table.rows) {
     if (cell(table, row, "channel") != "load" || cell(table, row, "scale_ms") != "8") continue;
@@ -48,8 +46,7 @@ TEST(EvidenceTable, NamesTheSetOfCurves) {
   const EvidenceModel without = test::random_curves(3);
   for (const EvidenceCurveSets& sets :
        {EvidenceCurveSets(with, without), EvidenceCurveSets(with), EvidenceCurveSets(without)}) {
-    const Table table = evidence_columns().table(
-        evidence_points({{"bullet", {{"evidence_curves_quiet", model_of(sets)}}}}));
+    const Table table = evidence_table({{"bullet", {{"evidence_curves_quiet", model_of(sets)}}}});
     std::map<std::string, std::set<std::string>> channels;
     for (const auto& row : table.rows) {
       channels[cell(table, row, "targets")].insert(cell(table, row, "channel"));
@@ -65,8 +62,8 @@ TEST(EvidenceTable, NamesTheSetOfCurves) {
 }
 
 TEST(EvidenceTable, IsEmptyWithoutCurves) {
-  EXPECT_TRUE(evidence_points({}).empty());
-  EXPECT_TRUE(evidence_points({{"mujoco", {{"hmm", {}}}}}).empty());
+  EXPECT_TRUE(evidence_table({}).rows.empty());
+  EXPECT_TRUE(evidence_table({{"mujoco", {{"hmm", {}}}}}).rows.empty());
 }
 
 }  // namespace

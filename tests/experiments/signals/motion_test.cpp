@@ -1,9 +1,8 @@
-#include "experiments/signals/motion.hpp"
-
 #include <gtest/gtest.h>
 
 #include "core/resources.hpp"
-#include "experiments/odometry/dead_reckoning.hpp"
+#include "experiments/results/odometry.hpp"
+#include "experiments/signals/run_signals.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/scenario_file.hpp"
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "estimator/bayes/ablation.hpp"
-#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/config/experiment.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/run_experiment.hpp"
 #include "experiments/studies/experiment_file.hpp"

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "experiments/run_experiment.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "estimator/evidence/curves.hpp"
 #include "estimator/models/parameters.hpp"
 #include "experiments/estimators/registry.hpp"

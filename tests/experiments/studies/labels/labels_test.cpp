@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "experiments/run_experiment.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "tests/experiments/small_step_scene.hpp"

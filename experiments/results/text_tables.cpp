@@ -1,0 +1,318 @@
+#include "experiments/results/text_tables.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "experiments/results/captions.hpp"
+#include "experiments/rollouts/failures.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+/// Every estimator of one engine in one cell.
+Table cell_table(const ExperimentResult& result, const std::string& simulator,
+                 const noise::NoiseCell& cell) {
+  Table table{{"estimator", "accuracy", "contact precision", "recall", "no contact precision",
+               "recall", "false takeoffs/min"},
+              {}};
+  for (const CellSummary& summary : result.summaries) {
+    if (summary.condition.test_simulator != simulator || !(summary.cell == cell)) continue;
+    table.rows.push_back({estimator_entry(result.experiment, summary.condition.estimator).title});
+    for (const PointMetric& metric : point_metrics) {
+      Interval interval = summary.*metric.interval;
+      if (metric.interval != &CellSummary::success) interval.low = NAN;
+      table.rows.back().push_back(with_interval(interval));
+    }
+    table.rows.back().push_back(false_takeoffs_text(result.scores, summary));
+  }
+  return table;
+}
+
+/// One estimator's accuracy over the noise grid.
+Table grid_table(const std::vector<CellSummary>& summaries, const std::string& simulator,
+                 const std::string& estimator, const noise::NoiseGridConfig& noise) {
+  Table table{{"torque noise"}, {}};
+  for (const double level : noise.accelerometer) {
+    table.header.push_back(fmt::format("{} m/s²", level));
+  }
+  for (const double torque : noise.torque) table.rows.push_back({fmt::format("{} N·m", torque)});
+  for (const CellSummary& summary : summaries) {
+    const Condition& condition = summary.condition;
+    if (condition.test_simulator != simulator || condition.estimator != estimator) continue;
+    const auto row = std::find(noise.torque.begin(), noise.torque.end(), summary.cell.torque);
+    const bool on_grid = row != noise.torque.end() &&
+                         std::find(noise.accelerometer.begin(), noise.accelerometer.end(),
+                                   summary.cell.accelerometer) != noise.accelerometer.end();
+    if (!on_grid) continue;
+    table.rows[static_cast<std::size_t>(row - noise.torque.begin())].push_back(
+        fmt::format("{:.3f}{}", summary.success.estimate, summary.loses() ? "*" : ""));
+  }
+  return table;
+}
+
+/// The paper's Tables I to III: real robot, 10 drops, no intervals.
+struct PaperRow {
+  std::string classification;
+  std::string transitions;
+  std::string latency;
+};
+
+const PaperRow* paper_row(const std::string& estimator) {
+  static const PaperRow bayes = {"1.0 / 1.0 / 0.55 / 0.37", "0.91 / 1.0 / 0.71 / 1.0",
+                                 "77.1 ± 31.8 / 17.9 ± 9.1"};
+  static const PaperRow measurement = {"1.0 / 1.0 / 0.53 / 0.40", "0.59 / 1.0 / 0.55 / 1.0",
+                                       "83.1 ± 31.9 / 10.1 ± 7.4"};
+  static const PaperRow neural = {"0.99 / 1.0 / 0.28 / 0.15", "0.53 / 0.90 / 0.56 / 0.90",
+                                  "125.0 ± 59.6 / 22.4 ± 7.4"};
+  static const std::map<std::string, const PaperRow*> rows = {{"robust", &bayes},
+                                                              {"reference", &bayes},
+                                                              {"paper", &bayes},
+                                                              {"measurement_only", &measurement},
+                                                              {"nmn", &neural}};
+  const auto found = rows.find(estimator);
+  return found == rows.end() ? nullptr : found->second;
+}
+
+std::string latency_cell(const ScoreSummary& summary, const std::string& event) {
+  const Interval& mean = summary[event + "_latency_ms"];
+  const Interval& deviation = summary[event + "_latency_deviation_ms"];
+  if (std::isnan(mean.estimate)) return "–";
+  std::string text = fmt::format("{} ± {}", fixed(mean.estimate, 1), fixed(deviation.estimate, 1));
+  if (std::isnan(mean.low)) return text;
+  return fmt::format("{} [{}, {}]", text, fixed(mean.low, 1), fixed(mean.high, 1));
+}
+
+std::string metric_cell(const ScoreSummary& summary, const std::string& metric) {
+  return with_interval(summary[metric]);
+}
+
+/// One column per name, filled by `cell`; the last column has the paper's numbers.
+Table table_of(const Experiment& experiment, const std::vector<ScoreSummary>& summaries,
+               const std::vector<std::string>& names,
+               std::string (*cell)(const ScoreSummary&, const std::string&),
+               std::string PaperRow::*reference) {
+  Table table{{"simulator", "estimator"}, {}};
+  for (std::string name : names) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    table.header.push_back(name);
+  }
+  table.header.emplace_back("paper, real robot");
+  for (const ScoreSummary& summary : summaries) {
+    if (summary.view != "wheels") continue;
+    std::vector<std::string> row = {summary.condition.test_simulator,
+                                    estimator_entry(experiment, summary.condition.estimator).title};
+    for (const std::string& name : names) row.push_back(cell(summary, name));
+    const PaperRow* paper = paper_row(summary.condition.estimator);
+    row.push_back(paper == nullptr ? "–" : paper->*reference);
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string joined(const std::vector<std::string>& cells, const std::string& between) {
+  return fmt::format("{}", fmt::join(cells, between));
+}
+
+/// Escapes characters that are markup in LaTeX.
+std::string latex_text(const std::string& text) {
+  static const std::vector<std::pair<std::string, std::string>> replacements = {
+      {"±", "$\\pm$"},    {"–", "--"},  {"−", "$-$"}, {"²", "$^2$"}, {"·", "$\\cdot$"},
+      {"×", "$\\times$"}, {"%", "\\%"}, {"_", "\\_"}, {"&", "\\&"},  {">", "$>$"}};
+  std::string result = text;
+  for (const auto& [from, to] : replacements) {
+    for (std::size_t at = result.find(from); at != std::string::npos;
+         at = result.find(from, at + to.size())) {
+      result.replace(at, from.size(), to);
+    }
+  }
+  return result;
+}
+
+std::vector<std::string> latex_cells(const std::vector<std::string>& cells) {
+  std::vector<std::string> result;
+  for (const std::string& cell : cells) result.push_back(latex_text(cell));
+  return result;
+}
+
+/// Titles and names come from files: raw HTML in them would be a part of the page. A < before a
+/// number or a blank is only a sign.
+std::string markdown_text(const std::string& text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char next = i + 1 < text.size() ? text[i + 1] : ' ';
+    const bool opens_tag = std::isalpha(static_cast<unsigned char>(next)) != 0 || next == '/' ||
+                           next == '!' || next == '?';
+    if (text[i] == '<' && opens_tag) {
+      result += "&lt;";
+    } else if (text[i] == '\n' || text[i] == '\r') {
+      result += ' ';
+    } else {
+      result += text[i];
+    }
+  }
+  return result;
+}
+
+/// A | would end the cell.
+std::vector<std::string> markdown_cells(const std::vector<std::string>& cells) {
+  std::vector<std::string> result;
+  for (const std::string& cell : cells) {
+    std::string& text = result.emplace_back();
+    for (const char c : markdown_text(cell)) text.append(c == '|' ? "\\|" : std::string(1, c));
+  }
+  return result;
+}
+
+/// The conditions of one cell's scores, in words.
+std::string how_scored(const Experiment& experiment, const noise::NoiseCell& cell) {
+  return fmt::format("Both wheels; {}, {} noise seeds{}; {}; {}.", noise_text(cell),
+                     experiment.noise.seeds, setup_caption(experiment), labels_text(experiment),
+                     intervals_text(experiment));
+}
+
+template <typename Row>
+std::vector<Row> in_cell(std::vector<Row> rows, const noise::NoiseCell& cell) {
+  std::erase_if(rows, [&](const Row& row) { return !(row.cell == cell); });
+  return rows;
+}
+
+}  // namespace
+
+std::string summary_text(const ExperimentResult& result) {
+  const Experiment& experiment = result.experiment;
+  std::string text;
+  for (const std::string& simulator : experiment.simulators) {
+    const TestRuns runs = test_runs(result, simulator);
+    if (runs.scored == 0) {
+      text += fmt::format("\n{}: no test run stayed upright: nothing is scored\n", simulator);
+      continue;
+    }
+    for (const noise::NoiseCell& cell : experiment.highlights) {
+      text += fmt::format("\n{}: {} × {}, {}{}\n\n", simulator, text_of(runs),
+                          plural(static_cast<std::size_t>(experiment.noise.seeds), "noise seed"),
+                          noise_text(cell), setup_caption(experiment));
+      text += to_text(cell_table(result, simulator, cell));
+    }
+    if (result.cells.size() > 1) {
+      const std::string& first = experiment.estimators.front();
+      text += fmt::format(
+          "\n{}: accuracy of {} by torque and accelerometer noise "
+          "(* no better than always contact){}\n\n",
+          simulator, estimator_entry(experiment, first).title, setup_caption(experiment));
+      text += to_text(grid_table(result.summaries, simulator, first, experiment.noise));
+    }
+  }
+  if (experiment.paper_tables) {
+    for (const CaptionedTable& table : paper_tables(result)) text += '\n' + to_text(table);
+  }
+  for (const std::string& study : result.studies) text += '\n' + study;
+  text += fmt::format("\n{}\n", conditions_text(experiment));
+  return text + unused_runs_text(result.runs);
+}
+
+std::string closing_text(const ExperimentResult& result) {
+  const noise::NoiseCell& cell = result.experiment.highlights.back();
+  Table table{{"estimator"}, {}};
+  for (const std::string& simulator : result.experiment.simulators) {
+    table.header.insert(table.header.end(), {simulator, "false takeoffs/min"});
+  }
+  for (const CellSummary& summary : result.summaries) {
+    if (!summary.condition.is_fitted_in_domain() || !(summary.cell == cell)) continue;
+    const std::string& title =
+        estimator_entry(result.experiment, summary.condition.estimator).title;
+    auto row = std::find_if(table.rows.begin(), table.rows.end(),
+                            [&](const auto& cells) { return cells.front() == title; });
+    if (row == table.rows.end()) row = table.rows.insert(row, {title});
+    row->push_back(with_interval(summary.success));
+    row->push_back(false_takeoffs_text(result.scores, summary));
+  }
+  return fmt::format("\nContact accuracy, {}{}\n\n{}", noise_text(cell),
+                     setup_caption(result.experiment), to_text(table));
+}
+
+std::vector<CaptionedTable> paper_tables(const Experiment& experiment,
+                                         const std::vector<ScoreSummary>& summaries,
+                                         const std::string& how) {
+  return {
+      {"Table I. Point-wise classification. " + how, "classification",
+       table_of(
+           experiment, summaries,
+           {"contact_precision", "contact_recall", "no_contact_precision", "no_contact_recall"},
+           metric_cell, &PaperRow::classification)},
+      {"Table II. Transitions. " + how, "transitions",
+       table_of(experiment, summaries,
+                {"takeoff_precision", "takeoff_recall", "landing_precision", "landing_recall"},
+                metric_cell, &PaperRow::transitions)},
+      {"Table III. Latency of detected transitions (ms): mean ± standard deviation [interval of "
+       "the mean]. " +
+           how,
+       "latency",
+       table_of(experiment, summaries, {"takeoff", "landing"}, latency_cell, &PaperRow::latency)},
+  };
+}
+
+CaptionedTable difference_text_table(const Experiment& experiment,
+                                     const std::vector<Difference>& differences) {
+  const auto value = [](const Difference& difference, const char* name, int decimals) {
+    return with_interval(difference.metric[scoring::metric_index(name)], decimals);
+  };
+  CaptionedTable result{"Paired differences",
+                        "differences",
+                        {{"simulator", "difference", "accuracy", "no contact recall",
+                          "takeoff precision", "takeoff latency (ms)", "landing latency (ms)"},
+                         {}}};
+  for (const Difference& d : differences) {
+    result.table.rows.push_back(
+        {d.simulator,
+         estimator_entry(experiment, d.first).title + " − " +
+             estimator_entry(experiment, d.second).title,
+         value(d, "success", 3), value(d, "no_contact_recall", 3), value(d, "takeoff_precision", 3),
+         value(d, "takeoff_latency_ms", 1), value(d, "landing_latency_ms", 1)});
+  }
+  return result;
+}
+
+std::vector<CaptionedTable> paper_tables(const ExperimentResult& result) {
+  std::vector<CaptionedTable> tables;
+  for (const noise::NoiseCell& cell : result.experiment.highlights) {
+    for (CaptionedTable& table : paper_tables(result.experiment, in_cell(result.scores, cell),
+                                              how_scored(result.experiment, cell))) {
+      tables.push_back(std::move(table));
+    }
+    tables.push_back(difference_text_table(result.experiment, in_cell(result.differences, cell)));
+    tables.back().caption += setup_caption(result.experiment);
+  }
+  return tables;
+}
+
+std::string to_text(const CaptionedTable& table) {
+  return table.caption + "\n\n" + to_text(table.table, 2);
+}
+
+std::string to_markdown(const CaptionedTable& table) {
+  std::string text = markdown_text(table.caption) + "\n\n| " +
+                     joined(markdown_cells(table.table.header), " | ") + " |\n|";
+  for (std::size_t i = 0; i < table.table.header.size(); ++i) text += i < 2 ? "---|" : "---:|";
+  text += "\n";
+  for (const auto& row : table.table.rows) {
+    text += "| " + joined(markdown_cells(row), " | ") + " |\n";
+  }
+  return text;
+}
+
+std::string to_latex(const CaptionedTable& table) {
+  const std::string columns(table.table.header.size() - 2, 'r');
+  std::string text = "\\begin{table}\n\\centering\n\\begin{tabular}{ll" + columns +
+                     "}\n\\toprule\n" + joined(latex_cells(table.table.header), " & ") +
+                     " \\\\\n\\midrule\n";
+  for (const auto& row : table.table.rows) text += joined(latex_cells(row), " & ") + " \\\\\n";
+  return text + "\\bottomrule\n\\end{tabular}\n\\caption{" + latex_text(table.caption) +
+         "}\n\\label{table:" + table.label + "}\n\\end{table}\n";
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/table.hpp"
+#include "experiments/results/result.hpp"
+
+namespace touchdown::experiments {
+
+/// A table with its caption.
+struct CaptionedTable {
+  std::string caption;
+  std::string label;  ///< a word, for LaTeX references
+  Table table;
+};
+
+/// Tables I to III of the paper (point-wise classification, transitions, latency), one row per
+/// engine and estimator. The last column has the paper's numbers from the real robot. They are a
+/// reference, not a target: another robot, other drops, hand labels.
+std::vector<CaptionedTable> paper_tables(const Experiment& experiment,
+                                         const std::vector<ScoreSummary>& summaries,
+                                         const std::string& how);
+
+/// Those tables for every highlighted cell of a result, each with its differences.
+std::vector<CaptionedTable> paper_tables(const ExperimentResult& result);
+
+/// The differences of the first estimator from the others, with intervals.
+CaptionedTable difference_text_table(const Experiment& experiment,
+                                     const std::vector<Difference>& differences);
+
+std::string to_text(const CaptionedTable& table);
+std::string to_markdown(const CaptionedTable& table);
+/// A `table` environment that needs the package booktabs.
+std::string to_latex(const CaptionedTable& table);
+
+/// A result for the terminal: for each engine the highlighted cells and the first estimator's noise
+/// grid, then the studies' texts, the scoring conditions, and the runs that were not used.
+std::string summary_text(const ExperimentResult& result);
+
+/// One table of the last highlighted cell in all engines, for the end of a long command.
+std::string closing_text(const ExperimentResult& result);
+
+}  // namespace touchdown::experiments
