@@ -14,7 +14,7 @@
 #include "cli/verb.hpp"
 #include "core/key.hpp"
 #include "core/program.hpp"
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 
 namespace touchdown::cli {
 

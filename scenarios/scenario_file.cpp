@@ -10,7 +10,7 @@
 
 #include "core/fields.hpp"
 #include "core/resources.hpp"
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "models/robot_description.hpp"
 #include "models/stance.hpp"
 #include "policies/wheeled_pendulum.hpp"

@@ -15,7 +15,6 @@
 #include "experiments/logs/log_steps.hpp"
 #include "scoring/labels.hpp"
 #include "scoring/score.hpp"
-#include "scoring/score_stream.hpp"
 
 namespace touchdown::experiments {
 

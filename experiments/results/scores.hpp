@@ -8,7 +8,7 @@
 #include "experiments/config/experiment.hpp"
 #include "experiments/evaluation/summary.hpp"
 #include "experiments/run_directory/directory.hpp"
-#include "noise/grid.hpp"
+#include "noise/sensor_noise.hpp"
 
 namespace touchdown::experiments {
 

@@ -10,10 +10,9 @@
 #include "core/error.hpp"
 #include "core/rows.hpp"
 #include "experiments/results/captions.hpp"
-#include "experiments/tables/noise_columns.hpp"
-#include "scoring/bootstrap.hpp"
-#include "experiments/results/scores.hpp"
 #include "experiments/results/odometry.hpp"
+#include "experiments/results/scores.hpp"
+#include "scoring/bootstrap.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::experiments {
