@@ -2,12 +2,12 @@
 
 #include <chrono>
 #include <optional>
+#include <set>
 #include <utility>
 
-#include <tbb/global_control.h>
+#include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "experiments/calibration.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_directory/owner.hpp"
 #include "experiments/stages/computation.hpp"
@@ -51,16 +51,21 @@ RunOutline outline_of(const Experiment& experiment, const RunOptions& options) {
   const std::filesystem::path directory = run_path(experiment.name, request.id, options.out);
   require_place(request, directory, options.overwrite);
   const Plan plan = whole_plan(request);
-  const int threads = threads_of(experiment);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(threads));
-  try {
-    const Calibration calibration =
-        calibrate(request, plan, [stop = options.stop] { return stop == nullptr || !*stop; });
-    return {directory, plan.tasks.size(), threads, estimate_cost(request, plan, calibration)};
-  } catch (const Stopped&) {
-    throw Stopped("stopped; nothing was written");
+  RunOutline outline;
+  outline.directory = directory;
+  outline.tasks = plan.tasks.size();
+  std::set<std::string> simulations;  // runs that differ only in their sensors share one
+  for (const PlannedRun& run : plan.runs) {
+    ++(run.role == RunRole::fit ? outline.fitted_runs : outline.test_runs);
+    if (!simulations.insert(simulation_key(run)).second) continue;
+    outline.simulated += run.scenario.end.duration;
   }
+  for (const ModelTasks& tasks : plan.model_tasks) {
+    outline.model_tasks.emplace_back(tasks.name, fmt::format("{} {}s", tasks.count, tasks.unit));
+  }
+  outline.memory = least_memory(request, 1.0);
+  outline.disk = disk_needs(plan).all();
+  return outline;
 }
 
 ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& options) {

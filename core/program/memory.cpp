@@ -10,4 +10,10 @@ void keep_freed_memory() noexcept {
   ::mallopt(M_TRIM_THRESHOLD, gigabyte);
 }
 
+void release_free_memory() noexcept {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
+}
+
 }  // namespace touchdown

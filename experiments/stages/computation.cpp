@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/program/memory.hpp"
 #include "experiments/results/result_files.hpp"
 #include "experiments/rollouts/training_segments.hpp"
 #include "experiments/stages/fit_run_check.hpp"
 #include "experiments/stages/pending_tasks.hpp"
-#include "experiments/stages/process_memory.hpp"
 
 namespace touchdown::experiments {
 

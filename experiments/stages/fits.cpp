@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/program/memory.hpp"
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/fitting/refits.hpp"
 #include "experiments/rollouts/training_segments.hpp"
 #include "experiments/rollouts/training_sets.hpp"
-#include "experiments/stages/process_memory.hpp"
 
 namespace touchdown::experiments {
 

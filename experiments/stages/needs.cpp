@@ -51,6 +51,16 @@ double held_steps(const RunRequest& request, const Needs& all) {
   return held.steps;
 }
 
+double planned_memory(const Needs& needs) {
+  return needs.runs * planned_bytes + needs.parts * sizeof(Task);
+}
+
+/// Memory of the signals that are held at once.
+double held_memory(const RunRequest& request, const Needs& needs) {
+  return held_steps(request, needs) *
+         (signal_step_bytes + (needs.motion ? motion_step_bytes : 0.0));
+}
+
 }  // namespace
 
 Needs needs_of(const RunRequest& request) {
@@ -82,25 +92,25 @@ double memory_of_machine() {
   return static_cast<double>(machine.totalram + machine.totalswap) * machine.mem_unit;
 }
 
+double least_memory(const RunRequest& request, double share_of_runs) {
+  const Needs needs = needs_of(request);
+  return planned_memory(needs) + share_of_runs * held_memory(request, needs);
+}
+
 void require_memory(const RunRequest& request, double share_of_runs, double memory) {
   const Needs needs = needs_of(request);
-  const double planned = needs.runs * planned_bytes + needs.parts * sizeof(Task);
-  const double step = signal_step_bytes + (needs.motion ? motion_step_bytes : 0.0);
-  const double rollout = share_of_runs * held_steps(request, needs) * step;
-  if (planned + rollout <= memory) return;
+  const double planned = planned_memory(needs);
+  const double held = share_of_runs * held_memory(request, needs);
+  if (planned + held <= memory) return;
   const Experiment& experiment = request.experiment;
-  const bool too_long = rollout > planned;
+  const bool too_long = held > planned;
   throw Error(fmt::format(
       "{}: {:.0f} runs of {:.0f} s together and {:.0f} parts (test.runs={}, fit.runs={}, "
       "noise.seeds={}) need at least {:.1f} GB of memory, and this machine has {:.1f} GB: {}",
       experiment.name, needs.runs, needs.seconds, needs.parts, experiment.test.runs,
-      experiment.fit.runs, experiment.noise.seeds, 1e-9 * (planned + rollout), 1e-9 * memory,
+      experiment.fit.runs, experiment.noise.seeds, 1e-9 * (planned + held), 1e-9 * memory,
       too_long ? "lower test.runs or fit.runs, or compute it in shards (--shard)"
                : "lower test.runs or noise.seeds"));
-}
-
-double signal_bytes_per_step(bool with_motion) {
-  return signal_step_bytes + (with_motion ? motion_step_bytes : 0.0);
 }
 
 double bytes_of_recording(const PlannedRun& run) {

@@ -15,6 +15,9 @@ KeptSignals kept_signals(const Experiment& experiment);
 /// Memory and swap of this machine (bytes).
 double memory_of_machine();
 
+/// Memory that the plan and this share of the runs' signals need at least (bytes).
+double least_memory(const RunRequest& request, double share_of_runs);
+
 /// Checks that the plan and this share of the runs' signals fit into `memory` (bytes). Errors:
 /// `Error` that names the settings to lower.
 void require_memory(const RunRequest& request, double share_of_runs,
@@ -34,9 +37,6 @@ DiskNeeds disk_needs(const Plan& plan);
 
 /// An upper bound of the size of a run's recording (bytes).
 double bytes_of_recording(const PlannedRun& run);
-
-/// Memory of a run's signals per control step (bytes).
-double signal_bytes_per_step(bool with_motion);
 
 /// Size of the files of a plan's parts (bytes).
 double bytes_of_parts(const Plan& plan);
