@@ -12,7 +12,7 @@
 #include "core/program/streams.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"
-#include "experiments/rollouts/failures.hpp"
+#include "experiments/plan/rollouts.hpp"
 #include "experiments/run_experiment.hpp"
 #include "experiments/studies/experiment_file.hpp"
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "experiments/stages/experiment_context.hpp"
+#include "experiments/experiment_context.hpp"
 #include "experiments/submissions/export.hpp"
 
 namespace touchdown::experiments {

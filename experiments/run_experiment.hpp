@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/experiment_context.hpp"
 #include "experiments/run_directory/shard.hpp"
-#include "experiments/stages/experiment_context.hpp"
 
 namespace touchdown::experiments {
 

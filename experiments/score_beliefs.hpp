@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/stages/experiment_context.hpp"
+#include "experiments/experiment_context.hpp"
 
 namespace touchdown::experiments {
 

@@ -3,11 +3,17 @@
 #include <span>
 #include <vector>
 
+#include "experiments/estimators/entry.hpp"
 #include "experiments/fitting/make_estimator.hpp"
-#include "experiments/rollouts/rollouts.hpp"
+#include "experiments/plan/rollouts.hpp"
+#include "experiments/signals/run_signals.hpp"
 #include "scoring/classification.hpp"
 
 namespace touchdown::experiments {
+
+/// Whether an estimator's signal guard would pass every step of a run at all of these levels. Only
+/// then can a batch, which has no guard, replace the estimator.
+bool needs_no_guard(const RunSignals& run, std::span<const noise::SensorNoise> levels);
 
 /// Point-wise counts of one run with one noise realisation, both wheels added: by condition, then
 /// cell, then segment of the run (`RunSignals::segments`). Estimators with a batched form process

@@ -8,7 +8,7 @@
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/results/paper.hpp"
-#include "experiments/rollouts/failures.hpp"
+#include "experiments/plan/rollouts.hpp"
 
 namespace touchdown::experiments {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "experiments/rollouts/rollouts.hpp"
+#include "experiments/plan/rollouts.hpp"
 #include "experiments/submissions/exported_runs.hpp"
 
 namespace touchdown::experiments {

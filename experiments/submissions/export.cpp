@@ -7,8 +7,8 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "experiments/rollouts/failures.hpp"
-#include "experiments/run_directory/free_space.hpp"
+#include "experiments/plan/rollouts.hpp"
+#include "experiments/run_directory/directory.hpp"
 #include "experiments/submissions/exported_arrays.hpp"
 #include "experiments/submissions/readme.hpp"
 #include "experiments/submissions/sha256.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/rollouts/rollouts.hpp"
+#include "experiments/plan/rollouts.hpp"
 #include "experiments/submissions/exported_runs.hpp"
 
 namespace touchdown::experiments {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/evaluation/scenes.hpp"
+#include "experiments/evaluation/joint_bootstrap.hpp"
 
 namespace touchdown::experiments {
 

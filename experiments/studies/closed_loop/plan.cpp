@@ -9,7 +9,7 @@
 #include "core/tables/table.hpp"
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "experiments/plan/served_robots.hpp"
+#include "experiments/plan/plan.hpp"
 #include "scenarios/varied.hpp"
 
 namespace touchdown::experiments {

@@ -1,7 +1,7 @@
 #include "experiments/studies/labels/study.hpp"
 
 #include "core/files.hpp"
-#include "experiments/plan/sensors.hpp"
+#include "experiments/plan/request.hpp"
 #include "experiments/results/paper.hpp"
 #include "experiments/studies/labels/tables.hpp"
 

@@ -7,7 +7,6 @@
 
 #include "core/error.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "experiments/evaluation/sweep_batch.hpp"
 #include "experiments/evaluation/tasks.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 #include "tests/scratch_folder.hpp"

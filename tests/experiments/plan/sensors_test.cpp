@@ -1,4 +1,3 @@
-#include "experiments/plan/sensors.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,8 @@
-#include "experiments/run_directory/free_space.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "experiments/run_directory/directory.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {
