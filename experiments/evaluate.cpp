@@ -31,11 +31,11 @@ std::size_t evaluate_streamed(const ExperimentContext& context, const NeededRuns
                    [&](std::size_t index, Rollout run) {
                      NoiseFreeScores noise_free;
                      for (const Task* task : tasks_of.at(index)) {
-                       computed +=
-                           evaluate_and_save(plan, *task, run, experiment, done.models,
-                                             context.saved, noise_free, context.should_continue)
-                               ? 1U
-                               : 0U;
+                       computed += evaluate_and_save(plan, *task, run, experiment, done.models,
+                                                     context.directory.store(), noise_free,
+                                                     context.should_continue)
+                                       ? 1U
+                                       : 0U;
                      }
                      drop_signals(run);
                      done.runs.at(index) = std::move(run);
@@ -49,7 +49,7 @@ std::size_t evaluate_streamed(const ExperimentContext& context, const NeededRuns
 void evaluate(const ExperimentContext& context, const NeededRuns& needed,
               const std::vector<std::size_t>& tasks, MissingRun missing, Computed& done) {
   done.tasks += evaluate(context.plan, tasks, done.runs, context.request.experiment, done.models,
-                         context.saved, context.should_continue);
+                         context.directory.store(), context.should_continue);
   done.tasks += evaluate_streamed(context, needed, tasks, missing, done);
 }
 

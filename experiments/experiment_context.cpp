@@ -32,16 +32,11 @@ std::vector<std::size_t> missing_tasks(const ExperimentContext& context) {
   std::vector<std::size_t> missing;
   for (std::size_t t = 0; t < plan.tasks.size(); ++t) {
     if (fit_is_missing || missing_runs.contains(plan.tasks[t].run) ||
-        !context.saved.read(plan, plan.tasks[t])) {
+        !saved_counts(plan, plan.tasks[t], context.directory.store())) {
       missing.push_back(t);
     }
   }
   return missing;
-}
-
-/// The number of saved parts, whichever process computed them.
-std::size_t saved_parts(const RunDirectory& directory) {
-  return entries_in(directory.path() / "state/evaluation").size();
 }
 
 /// An upper bound of what the run may still write.
@@ -51,7 +46,7 @@ DiskNeeds disk_needs(const Plan& plan, const RunDirectory& directory) {
     if (run.kept && !has_stamp(run, directory)) needs.recordings += bytes_of_recording(run);
   }
   const std::size_t parts = plan.tasks.size();
-  const std::size_t missing = parts - std::min(parts, saved_parts(directory));
+  const std::size_t missing = parts - std::min(parts, directory.store().names(task_parts).size());
   if (missing > 0) {
     needs.parts = bytes_of_parts(plan) * static_cast<double>(missing) / static_cast<double>(parts);
   }
@@ -60,7 +55,8 @@ DiskNeeds disk_needs(const Plan& plan, const RunDirectory& directory) {
 
 /// Errors: `InputError` when the saved state of a task belongs to another task or request.
 void require_own(const ExperimentContext& context, const Task& task) {
-  const std::optional<WrongPart> wrong = context.saved.wrong_part(context.plan, task);
+  const std::optional<WrongPart> wrong =
+      context.directory.store().wrong_part(task_parts, task_name(context.plan, task));
   if (!wrong) return;
   throw InputError(fmt::format("{}: holds '{}', expected '{}'", wrong->file.string(), wrong->found,
                                wrong->expected));
@@ -105,13 +101,9 @@ ExperimentContext start(RunRequest request, Plan plan, RunDirectory directory,
   request.experiment.intervals.bootstrap.before_resamples = [should_continue] {
     if (!should_continue()) throw Stopped();
   };
-  SavedCounts saved(directory.path() / "state" / "evaluation", state_key(request));
-  SavedModelTasks saved_model_tasks(directory.path() / "state", state_key(request));
   return {std::move(request),
           std::move(directory),
           std::move(plan),
-          std::move(saved),
-          std::move(saved_model_tasks),
           std::move(should_continue),
           {options.command, threads, {}},
           tbb::global_control(tbb::global_control::max_allowed_parallelism,
@@ -126,8 +118,9 @@ std::string what_is_saved(const ExperimentContext& context) {
     return run.kept && has_stamp(run, context.directory);
   });
   const auto parts =
-      std::count_if(context.plan.tasks.begin(), context.plan.tasks.end(),
-                    [&](const Task& task) { return context.saved.read(context.plan, task); });
+      std::count_if(context.plan.tasks.begin(), context.plan.tasks.end(), [&](const Task& task) {
+        return saved_counts(context.plan, task, context.directory.store());
+      });
   return fmt::format(
       "stopped; {} of {} recordings and {} of {} parts of the evaluation are saved in {}; the "
       "same command continues from there",
@@ -138,7 +131,7 @@ void require_all_shards(const ExperimentContext& context) {
   const std::vector<std::size_t> missing = missing_tasks(context);
   const std::size_t tasks = context.plan.tasks.size();
   if (missing.empty() &&
-      !lacks_model_tasks(context.plan, context.plan.all_tasks(), context.saved_model_tasks))
+      !lacks_model_tasks(context.plan, context.plan.all_tasks(), context.directory.store()))
     return;
   for (const std::size_t task : missing) require_own(context, context.plan.tasks[task]);
   const std::filesystem::path& directory = context.directory.path();
@@ -149,7 +142,7 @@ void require_all_shards(const ExperimentContext& context) {
     const auto first = std::lower_bound(missing.begin(), missing.end(), shard.begin(tasks));
     const bool is_evaluated = first == missing.end() || *first >= shard.end(tasks);
     if (is_evaluated && !lacks_model_tasks(context.plan, {shard.begin(tasks), shard.end(tasks)},
-                                           context.saved_model_tasks))
+                                           context.directory.store()))
       continue;
     shards.push_back(to_text(shard));
   }

@@ -27,8 +27,6 @@ struct ExperimentContext {
   RunRequest request;
   RunDirectory directory;
   Plan plan;
-  SavedCounts saved;
-  SavedModelTasks saved_model_tasks;
   ShouldContinue should_continue;
   Provenance provenance;
   tbb::global_control limit;

@@ -85,10 +85,8 @@ void tune_and_fit(const ExperimentContext& context, const NeededRuns& needed,
       training_segments_of(runs, engine, experiment.training_segments, fit);
   TunedHyperparameters chosen = chosen_in(done.trials);
   if (experiment.tuning && (fit.empty() || experiment.tuning->everywhere)) {
-    const SavedTrials saved(context.directory.path() / "state" / "tuning",
-                            state_key(context.request));
     const std::vector<Trial> trials =
-        tune(experiment, fit, whole, segments, context.should_continue, saved);
+        tune(experiment, fit, whole, segments, context.should_continue, context.directory.store());
     chosen = chosen_in(trials);
     done.trials.insert(done.trials.end(), trials.begin(), trials.end());
     std::stable_sort(done.trials.begin(), done.trials.end(),

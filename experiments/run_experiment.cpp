@@ -17,7 +17,6 @@
 #include "experiments/results/manifest.hpp"
 #include "experiments/results/result_files.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "experiments/run_directory/owner.hpp"
 #include "experiments/run_directory/test_seed_log.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 #include "experiments/stages.hpp"
@@ -81,8 +80,7 @@ ExperimentResult score(ExperimentContext& context, Computed& done) {
     append(result.figures, found.figures);
   };
   timed(context, "score", [&] {
-    require_scored_run(done.runs);
-    const CollectedCounts counts = collect(plan, plan.runs_in(0), context.saved);
+    const CollectedCounts counts = collect(plan, plan.runs_in(0), context.directory.store());
     const scoring::BootstrapConfig& bootstrap = experiment.intervals.bootstrap;
     result.summaries = summarise(own(counts.counted), result.cells, bootstrap);
     const std::vector<ConditionScores> scored = own(counts.scored);
@@ -91,9 +89,8 @@ ExperimentResult score(ExperimentContext& context, Computed& done) {
     if (experiment.tuning) {
       add(summarize_tuning(done.trials, experiment, context.directory));
     }
-    const Evaluation evaluation{
-        context.request,          plan, done.runs, context.saved, counts, result.models,
-        context.saved_model_tasks};
+    const Evaluation evaluation{context.request,           plan,   done.runs,
+                                context.directory.store(), counts, result.models};
     for (const Study* study : requested_studies(experiment)) {
       add(study->summarize(evaluation, context.directory));
     }
@@ -101,11 +98,23 @@ ExperimentResult score(ExperimentContext& context, Computed& done) {
   return result;
 }
 
-/// The first half of an experiment: simulate → tune → fit → evaluate → model tasks. Each stage
-/// reads what is saved and computes the rest, so that a resumed run, a shard and a merge are the
-/// same calls. Without streamed runs all tasks are evaluated after the last fit; with them, tasks
-/// are evaluated as soon as their fits are there, so that memory need not hold all models. Errors:
-/// `Stopped`, with what is saved.
+/// Logs that a reserved seed was used, and adds a text about it.
+void log_reserved_seed(ExperimentResult& result) {
+  const std::uint64_t seed = result.experiment.seed;
+  if (!is_reserved(seed)) return;
+  const std::filesystem::path log = test_seed_log();
+  const int others = log_evaluation(log, {seed, result.id, build_commit()});
+  result.studies.push_back(fmt::format(
+      "Seed {} is reserved for numbers that are reported once: other configurations or builds "
+      "scored its runs {} times before ({})\n",
+      seed, others, log.string()));
+}
+
+/// An experiment on one page, in two halves. The first: simulate → tune → fit → evaluate → model
+/// tasks. Each stage reads what is saved and computes the rest, so that a resumed run, a shard and
+/// a merge are the same calls. Without streamed runs all tasks are evaluated after the last fit;
+/// with them, tasks are evaluated as soon as their fits are there, so that memory need not hold all
+/// models. Errors: `Stopped`, with what is saved.
 Computed compute(ExperimentContext& context, const TaskRange& tasks, MissingRun missing) try {
   const NeededRuns needed = needed_runs(context, tasks);
   Computed done;
@@ -129,7 +138,7 @@ Computed compute(ExperimentContext& context, const TaskRange& tasks, MissingRun 
   timed(context, "evaluate", [&] { evaluate(context, needed, left, missing, done); });
   if (has_model_tasks(context.plan, tasks)) {
     timed(context, "model_tasks", [&] {
-      run_model_tasks(context.plan, tasks, done.models, context.saved_model_tasks, missing,
+      run_model_tasks(context.plan, tasks, done.models, context.directory.store(), missing,
                       context.should_continue);
     });
   }
@@ -138,26 +147,13 @@ Computed compute(ExperimentContext& context, const TaskRange& tasks, MissingRun 
   throw Stopped(what_is_saved(context));
 }
 
-/// The second half of an experiment: score → studies → tables and models. It evaluates no
-/// estimator. Errors: `Stopped`, with what is saved; `Error` with the reasons if no test run can be
-/// scored.
-ExperimentResult summarize(ExperimentContext& context, Computed done) {
-  const Experiment& experiment = context.request.experiment;
-  ExperimentResult result = [&] {
-    try {
-      return score(context, done);
-    } catch (const Stopped&) {
-      throw Stopped(what_is_saved(context));
-    }
-  }();
-  if (is_reserved(experiment.seed)) {
-    const std::filesystem::path log = test_seed_log();
-    const int others = log_evaluation(log, {experiment.seed, result.id, build_commit()});
-    result.studies.push_back(fmt::format(
-        "Seed {} is reserved for numbers that are reported once: other configurations or builds "
-        "scored its runs {} times before ({})\n",
-        experiment.seed, others, log.string()));
-  }
+/// The second half of an experiment: score → studies → tables and models; pictures are drawn from
+/// the result (render/pictures/pictures.hpp). It evaluates no estimator. Errors: `Stopped`, with
+/// what is saved; `Error` with the reasons if no test run can be scored.
+ExperimentResult summarize(ExperimentContext& context, Computed done) try {
+  require_scored_run(done.runs);
+  ExperimentResult result = score(context, done);
+  log_reserved_seed(result);
   for (auto& [index, run] : done.runs) {
     if (run.plan.group == 0) result.runs.push_back(std::move(run));
   }
@@ -169,6 +165,8 @@ ExperimentResult summarize(ExperimentContext& context, Computed done) {
   remove_partial_files(context.directory.path());
   write_manifest(result);
   return result;
+} catch (const Stopped&) {
+  throw Stopped(what_is_saved(context));
 }
 
 }  // namespace

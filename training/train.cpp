@@ -16,7 +16,6 @@
 #include "core/progress.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "experiments/run_directory/owner.hpp"
 #include "recordings/models/neural_network.hpp"
 #include "training/blas.hpp"
 #include "training/initial_weights.hpp"

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,10 @@ struct ColumnInfo {
   ColumnRole role = ColumnRole::key;
   std::string as = name;    ///< its name in long tables
   bool has_bounds = false;  ///< three cells: estimate, low, high
+
+  static auto members(auto& column) {
+    return std::tie(column.name, column.role, column.as, column.has_bounds);
+  }
 };
 
 /// The columns of a table with structs as rows. Each column has a name and a getter: a data member,

@@ -1,11 +1,10 @@
-#include "experiments/evaluation/sweep_run.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
 #include "estimator/neural/input.hpp"
 #include "estimator/signal_guard.hpp"
+#include "experiments/evaluation/tasks.hpp"
 
 namespace touchdown::experiments {
 

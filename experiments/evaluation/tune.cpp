@@ -37,6 +37,9 @@ double drawn(const Hyperparameter& one, double uniform) {
 
 double with_three_digits(double number) { return std::stod(fmt::format("{:.3g}", number)); }
 
+/// Point-wise counts of one trial, by noise setting and scene.
+using SceneCounts = std::map<std::string, scoring::Classification>;
+
 /// All trials of one estimator in one fold. Trials with the same fit share it.
 struct FoldJob {
   std::string simulator;
@@ -101,8 +104,9 @@ SceneCounts counts_on(const HeldOut& held_out, const EstimatorEntry& entry,
   return counts;
 }
 
-void run_fold(FoldJob& job, const Fold& fold, std::span<const Trial> trials,
-              const Experiment& experiment, const std::function<void()>& stop_if_asked) {
+std::vector<SceneCounts> run_fold(const FoldJob& job, const Fold& fold,
+                                  std::span<const Trial> trials, const Experiment& experiment,
+                                  const std::function<void()>& stop_if_asked) {
   const FitRuns runs{fold.fitted, fold.segments, experiment.scoring, stop_if_asked,
                      experiment.fit_servo_load};
   HeldOut held_out{fold.held_out, {}};
@@ -112,7 +116,7 @@ void run_fold(FoldJob& job, const Fold& fold, std::span<const Trial> trials,
   for (std::size_t number = 0; number < trials.size(); ++number) {
     trials_of[fit_hyperparameters(*job.entry, trials[number].hyperparameters)].push_back(number);
   }
-  job.counts.resize(trials.size());
+  std::vector<SceneCounts> counts(trials.size());
   for (const auto& [fit, numbers] : trials_of) {
     FittedModel model;
     for (const std::size_t number : numbers) {
@@ -122,9 +126,10 @@ void run_fold(FoldJob& job, const Fold& fold, std::span<const Trial> trials,
         if (number == numbers.front()) model = fit_model(entry, runs);
         model.metadata = new_metadata(entry.name, runs, hyperparameters);
       }
-      job.counts[number] = counts_on(held_out, entry, model, experiment, stop_if_asked);
+      counts[number] = counts_on(held_out, entry, model, experiment, stop_if_asked);
     }
   }
+  return counts;
 }
 
 /// The mean balanced accuracy; zero if nothing was scored.
@@ -182,7 +187,7 @@ std::vector<Fold> folds_of(std::span<const RunSignals* const> whole,
 
 std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
                         const RunPointers& fit_runs, const RunPointers& segments,
-                        const std::function<bool()>& should_continue, const SavedTrials& saved) {
+                        const std::function<bool()>& should_continue, const Store& store) {
   const auto stop_if_asked = [&] {
     if (should_continue && !should_continue()) throw Stopped();
   };
@@ -219,20 +224,19 @@ std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
     FoldJob& job = jobs[i];
     const std::string name =
         fmt::format("{}{}_{}_fold_{}", job.simulator, fit, job.entry->name, job.fold + 1);
-    if (auto known = saved.read(name)) {
-      job.counts = std::move(*known);
-      return progress.skip();
-    }
-    try {
-      run_fold(job, folds.at(job.simulator)[job.fold], std::span(trials).subspan(job.first, number),
-               experiment, stop_if_asked);
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("fit.tuning: {} on {}, without fold {} of {}: {}",
-                                   job.entry->name, job.simulator, job.fold + 1,
-                                   experiment.tuning->folds, error.what()));
-    }
-    saved.write(name, job.counts);
-    progress.advance();
+    bool is_saved = true;
+    job.counts = store.get<std::vector<SceneCounts>>("tuning", name, [&] {
+      is_saved = false;
+      try {
+        return run_fold(job, folds.at(job.simulator)[job.fold],
+                        std::span(trials).subspan(job.first, number), experiment, stop_if_asked);
+      } catch (const InputError& error) {
+        throw InputError(fmt::format("fit.tuning: {} on {}, without fold {} of {}: {}",
+                                     job.entry->name, job.simulator, job.fold + 1,
+                                     experiment.tuning->folds, error.what()));
+      }
+    });
+    is_saved ? progress.skip() : progress.advance();
   });
   std::vector<SceneCounts> counts(trials.size());
   for (const FoldJob& job : jobs) {

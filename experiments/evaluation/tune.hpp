@@ -9,8 +9,8 @@
 
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/entry.hpp"
-#include "experiments/evaluation/saved_trials.hpp"
 #include "experiments/fitting/fitting.hpp"
+#include "experiments/run_directory/store.hpp"
 #include "experiments/signals/run_signals.hpp"
 
 namespace touchdown::experiments {
@@ -53,12 +53,11 @@ struct Trial {
 /// parallel. Those of `TuningConfig::fixed` and reference upper bounds, which are not ranked, keep
 /// their defaults. Returns trials by engine, estimator, then number. Whole runs and segments serve
 /// as training data, whole runs as validation data, with the sensor model and the tuning's noise.
-/// Saved trials are not repeated. Errors: `InputError` when a fold leaves too little data for a
-/// fit; `Stopped`.
+/// Trials in the store are not repeated. Errors: `InputError` when a fold leaves too little data
+/// for a fit; `Stopped`.
 std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
                         const RunPointers& fit_runs, const RunPointers& segments,
-                        const std::function<bool()>& should_continue,
-                        const SavedTrials& saved = {});
+                        const std::function<bool()>& should_continue, const Store& store = {});
 
 /// The chosen values among the trials of one fit.
 TunedHyperparameters chosen_in(const std::vector<Trial>& trials);

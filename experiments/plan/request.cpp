@@ -16,7 +16,6 @@
 #include "experiments/config/experiment_yaml.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "experiments/run_directory/owner.hpp"
 #include "noise/sensors/reported.hpp"
 #include "scenarios/generation/named.hpp"
 

@@ -5,6 +5,7 @@
 #include <new>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for_each.h>
@@ -14,7 +15,6 @@
 #include "core/fingerprint.hpp"
 #include "core/progress.hpp"
 #include "experiments/plan/request.hpp"
-#include "experiments/run_directory/saved_state.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "scenarios/compiled_scenes.hpp"
 #include "scenarios/ending.hpp"
@@ -25,20 +25,31 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// The file with a recording's checksum. Without it the recording is not used.
-std::filesystem::path stamp_of(const PlannedRun& run, const RunDirectory& directory) {
-  return directory.file("state/recordings", run.file + ".sum");
-}
-/// The file with the reason why a run has no recording.
-std::filesystem::path failure_of(const PlannedRun& run, const RunDirectory& directory) {
-  return directory.file("state/recordings", run.file + ".failed");
+/// What is saved about a simulation.
+struct SimulationEnd {
+  std::string key;  ///< `simulation_key`
+  bool is_recorded = false;
+  std::uint64_t checksum = 0;  ///< of the recording, which is not used without it
+  std::string error = {};      ///< why there is no recording
+
+  static auto members(auto& end) {
+    return std::tie(end.key, end.is_recorded, end.checksum, end.error);
+  }
+};
+constexpr std::string_view simulation_parts = "recordings";
+
+std::optional<SimulationEnd> saved_end(const PlannedRun& run, const RunDirectory& directory,
+                                       const std::string& key) {
+  std::optional<SimulationEnd> end =
+      directory.store().find<SimulationEnd>(simulation_parts, run.file);
+  if (end && end->key != key) end.reset();
+  return end;
 }
 
 bool is_whole(const PlannedRun& run, const RunDirectory& directory, const std::string& key) {
-  const std::optional<std::string> stamp = read_state(stamp_of(run, directory), key);
-  if (!stamp) return false;
-  const auto sum = file_checksum(directory.file("recordings", run.file));
-  return sum && *stamp == fmt::format("{:016x}", *sum);
+  const std::optional<SimulationEnd> end = saved_end(run, directory, key);
+  return end && end->is_recorded &&
+         file_checksum(directory.file("recordings", run.file)) == end->checksum;
 }
 
 /// The rollout of a run that could not be simulated.
@@ -101,7 +112,8 @@ Recorded simulate_or_read(const PlannedRun& run, const std::string& key,
   const auto file = directory.file("recordings", run.file);
   if (is_whole(run, directory, key)) return {recordings::read_recording(file), {}};
   if (missing == MissingRun::refuse) {
-    if (const auto why = read_state(failure_of(run, directory), key)) return {{}, *why};
+    const std::optional<SimulationEnd> end = saved_end(run, directory, key);
+    if (end && !end->is_recorded) return {{}, end->error};
     if (run.kept) throw Error(fmt::format("{}: is missing or not whole", file.string()));
   }
   recordings::Recording recording;
@@ -113,7 +125,8 @@ Recorded simulate_or_read(const PlannedRun& run, const std::string& key,
     throw;  // no property of the run
   } catch (const std::exception& error) {
     directory.require_in_place();  // no property of the run, either
-    write_state(failure_of(run, directory), key, error.what());
+    directory.store().put(simulation_parts, run.file,
+                          SimulationEnd{.key = key, .error = error.what()});
     return {{}, error.what()};
   }
   if (!should_continue()) throw Stopped();
@@ -121,7 +134,9 @@ Recorded simulate_or_read(const PlannedRun& run, const std::string& key,
     recordings::write_recording(recording, file);
     const std::optional<std::uint64_t> sum = file_checksum(file);
     if (!sum) throw Error(fmt::format("{}: cannot be read again", file.string()));
-    write_state(stamp_of(run, directory), key, fmt::format("{:016x}", *sum));
+    directory.store().put(
+        simulation_parts, run.file,
+        SimulationEnd{.key = key, .is_recorded = true, .checksum = *sum, .error = {}});
   }
   return {std::move(recording), {}};
 }
@@ -222,11 +237,13 @@ void for_each_rollout(const Experiment& experiment, const Plan& plan,
 bool is_recorded(const PlannedRun& run, const RunDirectory& directory) {
   if (!run.kept) return true;
   const std::string key = simulation_key(run);
-  return is_whole(run, directory, key) || read_state(failure_of(run, directory), key).has_value();
+  const std::optional<SimulationEnd> end = saved_end(run, directory, key);
+  return end && (!end->is_recorded || is_whole(run, directory, key));
 }
 
 bool has_stamp(const PlannedRun& run, const RunDirectory& directory) {
-  return read_state(stamp_of(run, directory), simulation_key(run)).has_value();
+  const std::optional<SimulationEnd> end = saved_end(run, directory, simulation_key(run));
+  return end && end->is_recorded;
 }
 
 }  // namespace touchdown::experiments

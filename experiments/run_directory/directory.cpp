@@ -8,19 +8,10 @@
 #include "core/error.hpp"
 #include "core/file_names.hpp"
 #include "core/files.hpp"
+#include "core/fingerprint.hpp"
+#include "experiments/run_directory/own_files.hpp"
 
 namespace touchdown::experiments {
-
-void require_free_space(const std::filesystem::path& directory, std::uintmax_t needed,
-                        const std::string& what_for, const SpaceNeed& need) {
-  std::error_code unknown;
-  const std::uintmax_t free = std::filesystem::space(directory, unknown).available;
-  if (unknown || free >= needed) return;
-  throw Error(fmt::format("{}: this {} may need {:.1f} GB{}, and {:.1f} GB are free: {}",
-                          directory.string(), need.purpose, 1e-9 * static_cast<double>(needed),
-                          what_for.empty() ? "" : fmt::format(" ({})", what_for),
-                          1e-9 * static_cast<double>(free), need.advice));
-}
 
 namespace fs = std::filesystem;
 
@@ -66,7 +57,8 @@ std::string video_name(const std::string& simulator, const std::string& scenario
 
 RunDirectory::RunDirectory(const std::string& experiment, const std::string& id,
                            const fs::path& out)
-    : path_(run_path(experiment, id, out)) {
+    : path_(run_path(experiment, id, out)),
+      store_(path_ / "state", key_of(id, build_fingerprint())) {
   try {
     fs::create_directories(path_);
     if (out.empty()) point(path_.parent_path() / "latest", id);
@@ -94,6 +86,17 @@ Table RunDirectory::read_table(std::string_view name) const {
 
 void RunDirectory::write_table(std::string_view name, const Table& table) const {
   write_atomically(own_file("tables", name), to_csv(table));
+}
+
+void require_free_space(const fs::path& directory, std::uintmax_t needed,
+                        const std::string& what_for, const SpaceNeed& need) {
+  std::error_code unknown;
+  const std::uintmax_t free = fs::space(directory, unknown).available;
+  if (unknown || free >= needed) return;
+  throw Error(fmt::format("{}: this {} may need {:.1f} GB{}, and {:.1f} GB are free: {}",
+                          directory.string(), need.purpose, 1e-9 * static_cast<double>(needed),
+                          what_for.empty() ? "" : fmt::format(" ({})", what_for),
+                          1e-9 * static_cast<double>(free), need.advice));
 }
 
 }  // namespace touchdown::experiments

@@ -9,10 +9,13 @@
 
 #include "core/tables/columns.hpp"
 #include "experiments/run_directory/lock.hpp"
-#include "experiments/run_directory/recorded_files.hpp"
-#include "experiments/run_directory/table_columns.hpp"
+#include "experiments/run_directory/own_files.hpp"
+#include "experiments/run_directory/store.hpp"
 
 namespace touchdown::experiments {
+
+/// The columns of tables (`ColumnInfo`) in the store are of this kind, and have the table's name.
+inline constexpr std::string_view column_parts = "columns";
 
 /// The run directory of an experiment: `out` if given, else `runs/<experiment>/<id>`.
 std::filesystem::path run_path(const std::string& experiment, const std::string& id,
@@ -42,6 +45,8 @@ class RunDirectory {
   void require_in_place() const;
 
   const std::filesystem::path& path() const { return path_; }
+  /// What this build computed of this experiment.
+  const Store& store() const { return store_; }
   std::filesystem::path file(std::string_view folder, std::string_view name) const {
     return path_ / folder / name;
   }
@@ -54,16 +59,18 @@ class RunDirectory {
   Table read_table(std::string_view name) const;
   /// Writes a file of `tables/`.
   void write_table(std::string_view name, const Table& table) const;
-  /// The same for measured rows, which `results.csv` repeats: saves what their columns mean.
+  /// The same for measured rows, which `results.csv` repeats: saves what their columns mean,
+  /// because the table itself has only their names.
   template <typename Row>
   void write_table(std::string_view name, const Columns<Row>& columns,
                    const std::vector<Row>& rows) const {
     write_table(name, columns.table(rows));
-    write_columns(path_, name, columns.infos());
+    store_.put(column_parts, name, columns.infos());
   }
 
  private:
   std::filesystem::path path_;
+  Store store_;
   std::optional<DirectoryLock> lock_;
 };
 

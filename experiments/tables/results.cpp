@@ -8,7 +8,7 @@
 
 #include "core/files.hpp"
 #include "core/tables/verbs.hpp"
-#include "experiments/run_directory/table_columns.hpp"
+#include "experiments/run_directory/directory.hpp"
 
 namespace touchdown::experiments {
 
@@ -182,13 +182,13 @@ void write_results(const RunRequest& request, const RunDirectory& directory) {
   // Line by line: all rows at once would take ten times the memory of their text.
   const auto write = [&](std::ostream& stream) {
     stream << csv_line(columns.header());
-    for (const std::string& name : tables_with_columns(directory.path())) {
+    for (const std::string& name : directory.store().names(column_parts)) {
       const std::filesystem::path file = directory.file("tables", name);
-      if (!is_there(file)) continue;
+      const auto of_table = directory.store().find<std::vector<ColumnInfo>>(column_parts, name);
+      if (!of_table || !is_there(file)) continue;
       const Table table = from_csv(read_file(file));
-      const std::vector<ColumnInfo> of_table = read_columns(directory.path(), name);
       for (const std::vector<std::string>& cells : table.rows) {
-        for (const ResultRow& row : rows_of_line(file.stem().string(), cells, of_table, setup)) {
+        for (const ResultRow& row : rows_of_line(file.stem().string(), cells, *of_table, setup)) {
           stream << csv_line(columns.cells(row));
         }
       }

@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "estimator/bayes/filter.hpp"
 #include "estimator/phase/config.hpp"
-#include "experiments/evaluation/sweep_run.hpp"
+#include "experiments/evaluation/tasks.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 
 namespace touchdown::experiments {

@@ -132,7 +132,7 @@ TEST(Tune, ReusesSavedTrials) {
   std::vector<RunSignals> runs = fitted_runs(4);
   runs[1].info.scenario = "other scene";
   const Experiment experiment = tuned_experiment({"robust", "free_fall"}, 3);
-  const auto scores = [&](const SavedTrials& saved) {
+  const auto scores = [&](const Store& saved) {
     std::vector<double> all;
     for (const Trial& trial : tune(experiment, "", pointers_to(runs), {}, {}, saved)) {
       all.push_back(trial.score);
@@ -140,13 +140,13 @@ TEST(Tune, ReusesSavedTrials) {
     return all;
   };
   const std::vector<double> tried = scores({});
-  EXPECT_EQ(tried, scores({folder / "tuning", "key"}));
+  EXPECT_EQ(tried, scores({folder.path(), "key"}));
   // All signals are flight now. Saved trials are used all the same, but not with another key.
   for (RunSignals& run : runs) {
     for (Signals& step : run.signals) step.vertical_acceleration = -9.81;
   }
-  EXPECT_EQ(tried, scores({folder / "tuning", "key"}));
-  EXPECT_NE(tried, scores({folder / "tuning", "another key"}));
+  EXPECT_EQ(tried, scores({folder.path(), "key"}));
+  EXPECT_NE(tried, scores({folder.path(), "another key"}));
 }
 
 TEST(Tune, ChoosesTheFirstOfEqualTrials) {

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
+#include "experiments/run_directory/directory.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "experiments/run_directory/table_columns.hpp"
 #include "experiments/run_experiment.hpp"
 #include "experiments/studies/experiment_file.hpp"
 #include "experiments/tables/noise_columns.hpp"
@@ -20,7 +20,6 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 using ::testing::IsSupersetOf;
 
 struct Row {
@@ -115,18 +114,11 @@ TEST(Units, FollowFromTheEndOfAName) {
 
 TEST(SavedColumns, AreReadBack) {
   const ScratchFolder folder;
-  write_columns(folder.path(), "a.csv", columns().infos());
-  EXPECT_THAT(tables_with_columns(folder.path()), ElementsAre("a.csv"));
-  const std::vector<ColumnInfo> read = read_columns(folder.path(), "a.csv");
-  const std::vector<ColumnInfo> written = columns().infos();
-  ASSERT_EQ(read.size(), written.size());
-  for (std::size_t i = 0; i < read.size(); ++i) {
-    EXPECT_EQ(read[i].name, written[i].name);
-    EXPECT_EQ(read[i].role, written[i].role);
-    EXPECT_EQ(read[i].as, written[i].as);
-    EXPECT_EQ(read[i].has_bounds, written[i].has_bounds);
-  }
-  EXPECT_THAT(read_columns(folder.path(), "b.csv"), IsEmpty());
+  const Store store(folder.path(), "key");
+  store.put("columns", "a.csv", columns().infos());
+  const auto read = store.find<std::vector<ColumnInfo>>("columns", "a.csv");
+  ASSERT_TRUE(read.has_value());
+  EXPECT_EQ(pack(*read), pack(columns().infos()));
 }
 
 /// An experiment with most studies, and its tables.
