@@ -16,7 +16,7 @@
 #include "experiments/logs/estimator.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/summary.hpp"
-#include "experiments/rollouts/rollouts.hpp"
+#include "experiments/plan/rollouts.hpp"
 #include "recordings/log/annotator.hpp"
 #include "recordings/log/byte_source.hpp"
 #include "recordings/mapping/mapped_log.hpp"

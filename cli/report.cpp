@@ -9,7 +9,6 @@
 #include "core/program.hpp"
 #include "experiments/run_directory/lock.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "experiments/run_directory/owner.hpp"
 #include "render/pictures/filmed_report.hpp"
 #include "render/pictures/films.hpp"
 #include "render/studies/registry.hpp"

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -15,7 +14,7 @@
 #include "experiments/config/yaml_kind.hpp"
 #include "experiments/results/result_files.hpp"
 #include "experiments/results/text_tables.hpp"
-#include "experiments/rollouts/failures.hpp"
+#include "experiments/plan/rollouts.hpp"
 #include "experiments/run_experiment.hpp"
 #include "experiments/studies/experiment_file.hpp"
 #include "render/pictures/filmed_report.hpp"
@@ -103,28 +102,13 @@ void run_one_shard(const experiments::Experiment& experiment, const experiments:
 
 void outline(const experiments::Experiment& experiment, const experiments::RunOptions& options) {
   const experiments::RunOutline outline = experiments::outline_of(experiment, options);
+  // scripts/slurm/submit.sh reads the first two lines.
   print("results   {}\nparts     {}\n", outline.directory.string(), outline.tasks);
-  const experiments::CostEstimate& cost = outline.cost;
-  for (const experiments::StageCost& stage : cost.stages) {
-    print("{:<9} {}\n", stage.stage,
-          std::isnan(stage.seconds) ? "not estimated"
-                                    : fmt::format("{:.3g} s of processor time", stage.seconds));
-  }
-  print(
-      "together  {:.3g} s of processor time, {:.2g} min on {} threads; scores and pictures "
-      "besides\n",
-      cost.seconds(), cost.seconds() / 60.0 / outline.threads, outline.threads);
-  if (!cost.unmeasured_fits.empty()) {
-    print(fmt::format("without   fits of {}: a few seconds of data do not suffice for them\n",
-                      fmt::join(cost.unmeasured_fits, ", ")));
-  }
-  print("memory    about {:.0f} MB\n", 1e-6 * cost.memory);
-  print("disk      at most {:.0f} MB\n", 1e-6 * cost.disk);
-  std::string steps;
-  for (const auto& [engine, seconds] : cost.step_seconds) {
-    steps += fmt::format(", {:.1f} µs a step in {}", 1e6 * seconds, engine);
-  }
-  print("measured  in {:.1f} s on this machine{}\n", cost.measured, steps);
+  print("runs      {} fitted, {} tested, at most {:.0f} s of simulation\n", outline.fitted_runs,
+        outline.test_runs, outline.simulated);
+  for (const auto& [name, items] : outline.model_tasks) print("besides   {}, {}\n", name, items);
+  print("memory    at least {:.0f} MB\n", 1e-6 * outline.memory);
+  print("disk      at most {:.0f} MB\n", 1e-6 * outline.disk);
 }
 
 void run(const RunFlags& flags, const CliSession& session) {
@@ -186,7 +170,7 @@ void add_run(CLI::App& program, const CliSession& session) {
             "Replace another experiment in the run directory; untracked files remain");
   verb.flag("--dry-run", &flags->dry_run,
             "Only check the experiment; print its run directory, the number of parts in which it\n"
-            "can be computed, and its cost by stage, from a calibration of a few seconds");
+            "can be computed, its runs, and the memory and disk space that it needs");
   add_picture_flags(verb, &flags->pictures);
   verb.action([flags, &session] { run(*flags, session); });
 }

@@ -10,6 +10,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <iostream>
+#include <malloc.h>
 #include <new>
 #include <optional>
 #include <sstream>
@@ -138,6 +139,12 @@ void write_output(const Write& write) {
 }
 
 }  // namespace
+
+void release_free_memory() noexcept {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
+}
 
 const std::atomic<bool>& stop_on_interrupt() {
   struct sigaction action = {};

@@ -24,6 +24,9 @@ namespace touchdown {
 /// the request. Call it first, because until then a signal kills.
 const std::atomic<bool>& stop_on_interrupt();
 
+/// Returns freed memory to the system all the same, after work that left much of it in pieces.
+void release_free_memory() noexcept;
+
 /// Exit code of a program.
 enum ExitCode : int { good = 0, failed = 1, wrong_request = 2 };
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "core/interval.hpp"
@@ -23,6 +24,10 @@ struct ColumnInfo {
   ColumnRole role = ColumnRole::key;
   std::string as = name;    ///< its name in long tables
   bool has_bounds = false;  ///< three cells: estimate, low, high
+
+  static auto members(auto& column) {
+    return std::tie(column.name, column.role, column.as, column.has_bounds);
+  }
 
   std::size_t cells() const { return has_bounds ? 3 : 1; }
   /// The names of its cells: `name`, `name_low`, `name_high`. A unit (_ms, _nm) stays last, as in

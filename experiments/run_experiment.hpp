@@ -2,24 +2,28 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "experiments/cost_estimate.hpp"
+#include "experiments/experiment_context.hpp"
 #include "experiments/run_directory/shard.hpp"
-#include "experiments/stages/experiment_context.hpp"
 
 namespace touchdown::experiments {
 
 /// What a run of an experiment would compute.
 struct RunOutline {
   std::filesystem::path directory;  ///< of its results
-  std::size_t tasks = 0;            ///< parts that can be computed independently
-  int threads = 1;
-  CostEstimate cost;
+  std::size_t tasks = 0;  ///< parts of the evaluation, which are independent of each other
+  std::size_t fitted_runs = 0;
+  std::size_t test_runs = 0;
+  double simulated = 0.0;  ///< duration of all simulations, if none ends early (s)
+  std::vector<std::pair<std::string, std::string>> model_tasks;  ///< name, and number with unit
+  double memory = 0.0;  ///< at least at one time, for the plan and signals (bytes)
+  double disk = 0.0;    ///< at most (bytes)
 };
 
-/// Checks an experiment and its scenarios, and estimates its cost from a short calibration. Writes
-/// nothing. Errors: `InputError` for a wrong request; `Stopped`.
+/// Checks an experiment and its scenarios, and counts what it would compute. Simulates and writes
+/// nothing. Errors: `InputError` for a wrong request.
 RunOutline outline_of(const Experiment& experiment, const RunOptions& options);
 
 /// Simulates, fits, evaluates, scores and writes tables. It reuses the complete results of an

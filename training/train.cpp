@@ -20,7 +20,6 @@
 #include "core/random.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "experiments/run_directory/owner.hpp"
 #include "recordings/models/neural_network.hpp"
 #include "training/rollout.hpp"
 

@@ -6,7 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "experiments/estimators/registry.hpp"
-#include "experiments/evaluation/sweep_run.hpp"
+#include "experiments/evaluation/tasks.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/studies/experiment_file.hpp"

@@ -97,7 +97,6 @@ EstimatorEntry boosted_entry(const char* name, const char* title, const char* su
           .is_upper_bound = true,
           .fit = fit_boosted_trees<Inputs>,
           .learns_from_segments = true,
-          .fit_passes = static_cast<int>(BoostingConfig{}.passes),
           .hyperparameters = {fitted_with(whole_between("trees", BoostingConfig{}.trees, 40, 240)),
                               fitted_with(whole_between("depth", BoostingConfig{}.depth, 3, 8)),
                               between("leave_below", network_point.leave_below, 0.1, 0.95),

@@ -169,7 +169,6 @@ EstimatorEntry decision_network_entry() {
       .knows = {.geometry = true, .mass = true, .targets = true},
       .fit = fit_network,
       .learns_from_segments = true,
-      .fit_passes = static_cast<int>(DecisionFitConfig{}.passes),
       .hyperparameters = and_thresholds({decay()}, network_point),
       .make = make_network};
 }

@@ -104,9 +104,6 @@ struct EstimatorEntry {
   FittedModel (*fit)(const EstimatorEntry& entry, const FitRuns& runs) = nullptr;
   /// Whether it is also fitted to an experiment's training segments, if there are any.
   bool learns_from_segments = false;
-  /// Of a fit that draws a fixed number of rows from its data: passes over the data. Zero for fits
-  /// with a cost proportional to their data.
-  int fit_passes = 0;
   /// The program that trained its model, if experiments do not fit it.
   std::string trained_by = {};
   /// Whether it needs the labels of a run. It cannot run on logs without labels.

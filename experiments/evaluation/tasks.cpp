@@ -2,52 +2,25 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstring>
-#include <type_traits>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include "core/error.hpp"
 #include "core/progress.hpp"
-#include "experiments/evaluation/sweep_run.hpp"
-#include "experiments/run_directory/saved_state.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-// The build is part of a state file's key, so numbers can be saved in their memory layout.
-template <typename T>
-void append(std::string& bytes, const std::vector<T>& values) {
-  static_assert(std::is_trivially_copyable_v<T>);
-  const std::uint64_t count = values.size();
-  bytes.append(reinterpret_cast<const char*>(&count), sizeof count);
-  bytes.append(reinterpret_cast<const char*>(values.data()), count * sizeof(T));
+std::string name_of(const ModelTasks& tasks, std::size_t item) {
+  return fmt::format("{}_{:06}", tasks.unit, item);
 }
 
-template <typename T>
-void take(std::vector<T>& values, std::string_view& bytes) {
-  std::uint64_t count = 0;
-  if (bytes.size() < sizeof count) throw Error("a state file is too short");
-  std::memcpy(&count, bytes.data(), sizeof count);
-  bytes.remove_prefix(sizeof count);
-  if (bytes.size() / sizeof(T) < count) throw Error("a state file is too short");
-  values.resize(count);
-  if (count > 0) std::memcpy(values.data(), bytes.data(), count * sizeof(T));
-  bytes.remove_prefix(count * sizeof(T));
-}
-
-void append(std::string& bytes, std::string_view text) {
-  const std::uint64_t count = text.size();
-  bytes.append(reinterpret_cast<const char*>(&count), sizeof count);
-  bytes.append(text);
-}
-
-std::string take_text(std::string_view& bytes) {
-  std::vector<char> text;
-  take(text, bytes);
-  return {text.begin(), text.end()};
+std::string title_of(const ModelTasks& tasks) {
+  std::string title = tasks.name;
+  std::replace(title.begin(), title.end(), '_', ' ');
+  return title;
 }
 
 /// Adds the results of one task to the conditions that are tested on its engine. All noise seeds of
@@ -78,33 +51,49 @@ std::vector<scoring::RobotScore> scores_of(const scoring::Prediction& prediction
 
 }  // namespace
 
-std::string to_bytes(const TaskCounts& counts) {
-  std::string bytes;
-  append(bytes, counts.counted);
-  append(bytes, counts.scored);
-  for (const MeasuredBytes& found : counts.measured) {
-    append(bytes, std::vector{found.condition, found.cell});
-    append(bytes, found.measure);
-    append(bytes, found.bytes);
-  }
-  append(bytes, std::vector<std::uint32_t>());  // ends the measures
-  return bytes;
+std::optional<std::string> saved_result(const ModelTasks& tasks, std::size_t item,
+                                        const Store& store) {
+  return store.find<std::string>(tasks.name, name_of(tasks, item));
 }
 
-TaskCounts take_counts(std::string_view& bytes) {
-  TaskCounts counts;
-  take(counts.counted, bytes);
-  take(counts.scored, bytes);
-  std::vector<std::uint32_t> place;
-  for (take(place, bytes); place.size() == 2; take(place, bytes)) {
-    MeasuredBytes found;
-    found.condition = place[0];
-    found.cell = place[1];
-    found.measure = take_text(bytes);
-    found.bytes = take_text(bytes);
-    counts.measured.push_back(std::move(found));
+TaskRange share_of(const ModelTasks& model_tasks, const TaskRange& tasks, std::size_t all_tasks) {
+  return {model_tasks.count * tasks.begin / all_tasks, model_tasks.count * tasks.end / all_tasks};
+}
+
+bool has_model_tasks(const Plan& plan, const TaskRange& tasks) {
+  return std::any_of(plan.model_tasks.begin(), plan.model_tasks.end(), [&](const ModelTasks& one) {
+    return share_of(one, tasks, plan.tasks.size()).size() > 0;
+  });
+}
+
+void run_model_tasks(const Plan& plan, const TaskRange& tasks, const FittedModels& models,
+                     const Store& store, MissingRun missing,
+                     const ShouldContinue& should_continue) {
+  for (const ModelTasks& one : plan.model_tasks) {
+    const TaskRange items = share_of(one, tasks, plan.tasks.size());
+    Progress progress(title_of(one), one.unit + "s", static_cast<std::int64_t>(items.size()));
+    tbb::parallel_for(items.begin, items.end, [&](std::size_t item) {
+      if (!should_continue()) throw Stopped();
+      const std::string name = name_of(one, item);
+      (void)store.get<std::string>(one.name, name, [&] {
+        if (missing == MissingRun::refuse) {
+          throw Error(fmt::format("state/{}/{} is missing", one.name, name));
+        }
+        return one.compute(item, models, should_continue);
+      });
+      progress.advance();
+    });
   }
-  return counts;
+}
+
+bool lacks_model_tasks(const Plan& plan, const TaskRange& tasks, const Store& store) {
+  for (const ModelTasks& one : plan.model_tasks) {
+    const TaskRange items = share_of(one, tasks, plan.tasks.size());
+    for (std::size_t item = items.begin; item < items.end; ++item) {
+      if (!saved_result(one, item, store)) return true;
+    }
+  }
+  return false;
 }
 
 void add_scores(const MeasuredPrediction& prediction, std::span<const Measure> measures,
@@ -130,39 +119,12 @@ std::string task_name(const Plan& plan, const Task& task) {
                      group.empty() ? "" : "_", group, task.seed);
 }
 
-SavedCounts::SavedCounts(std::filesystem::path folder, std::string key)
-    : folder_(std::move(folder)), key_(std::move(key)) {}
-
-std::optional<TaskCounts> SavedCounts::read(const Plan& plan, const Task& task) const {
-  if (in_memory_) {
-    const auto found = in_memory_->find(task_name(plan, task));
-    return found == in_memory_->end() ? std::nullopt : std::optional(found->second);
-  }
-  const std::optional<std::string> bytes =
-      read_state(folder_ / task_name(plan, task), key_of(plan, task));
-  if (!bytes) return std::nullopt;
-  std::string_view rest = *bytes;
-  return take_counts(rest);
+std::optional<TaskCounts> saved_counts(const Plan& plan, const Task& task, const Store& store) {
+  return store.find<TaskCounts>(task_parts, task_name(plan, task));
 }
 
-void SavedCounts::write(const Plan& plan, const Task& task, const TaskCounts& counts) const {
-  write_state(folder_ / task_name(plan, task), key_of(plan, task), to_bytes(counts));
-}
-
-std::optional<WrongPart> SavedCounts::wrong_part(const Plan& plan, const Task& task) const {
-  const std::filesystem::path file = folder_ / task_name(plan, task);
-  const std::optional<SavedState> state = read_any_state(file);
-  const std::string expected = key_of(plan, task);
-  if (!state || state->key == expected) return std::nullopt;
-  return WrongPart{file, state->key, expected};
-}
-
-std::string SavedCounts::key_of(const Plan& plan, const Task& task) const {
-  return fmt::format("{} part {}", key_, task_name(plan, task));
-}
-
-static TaskCounts saved_counts(const Plan& plan, const Task& task, const SavedCounts& saved) {
-  std::optional<TaskCounts> found = saved.read(plan, task);
+static TaskCounts counts_of(const Plan& plan, const Task& task, const Store& store) {
+  std::optional<TaskCounts> found = saved_counts(plan, task, store);
   if (!found) throw Error(fmt::format("the results of {} are missing", task_name(plan, task)));
   return *std::move(found);
 }
@@ -224,20 +186,21 @@ TaskCounts evaluate(const Plan& plan, const Task& task, const RunSignals& run,
 }
 
 bool evaluate_and_save(const Plan& plan, const Task& task, const Rollout& run,
-                       const Experiment& experiment, const FittedModels& models,
-                       const SavedCounts& saved, NoiseFreeScores& noise_free,
-                       const ShouldContinue& should_continue) {
-  if (saved.read(plan, task)) return false;
-  saved.write(plan, task,
-              run.failed() ? TaskCounts{}
-                           : evaluate(plan, task, run.signals, experiment, models, noise_free,
-                                      should_continue));
-  return true;
+                       const Experiment& experiment, const FittedModels& models, const Store& store,
+                       NoiseFreeScores& noise_free, const ShouldContinue& should_continue) {
+  bool is_computed = false;
+  (void)store.get<TaskCounts>(task_parts, task_name(plan, task), [&] {
+    is_computed = true;
+    return run.failed()
+               ? TaskCounts{}
+               : evaluate(plan, task, run.signals, experiment, models, noise_free, should_continue);
+  });
+  return is_computed;
 }
 
 std::size_t evaluate(const Plan& plan, std::span<const std::size_t> tasks, const Rollouts& runs,
-                     const Experiment& experiment, const FittedModels& models,
-                     const SavedCounts& saved, const ShouldContinue& should_continue) {
+                     const Experiment& experiment, const FittedModels& models, const Store& store,
+                     const ShouldContinue& should_continue) {
   std::vector<std::size_t> held;
   for (const std::size_t t : tasks) {
     if (runs.contains(plan.tasks[t].run)) held.push_back(t);
@@ -250,7 +213,7 @@ std::size_t evaluate(const Plan& plan, std::span<const std::size_t> tasks, const
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       if (!should_continue()) throw Stopped();
       const Task& task = plan.tasks[held[i]];
-      if (evaluate_and_save(plan, task, runs.at(task.run), experiment, models, saved, noise_free,
+      if (evaluate_and_save(plan, task, runs.at(task.run), experiment, models, store, noise_free,
                             should_continue)) {
         ++computed;
         progress.advance();
@@ -262,27 +225,24 @@ std::size_t evaluate(const Plan& plan, std::span<const std::size_t> tasks, const
   return computed;
 }
 
-SavedCounts in_memory(const Plan& plan, std::span<const std::size_t> runs,
-                      const SavedCounts& saved) {
-  std::map<std::string, TaskCounts> counts;
+Store in_memory(const Plan& plan, std::span<const std::size_t> runs, const Store& store) {
+  Store memory;
   for (const Task& task : plan.tasks) {
     if (std::find(runs.begin(), runs.end(), task.run) == runs.end()) continue;
-    counts.emplace(task_name(plan, task), saved_counts(plan, task, saved));
+    memory.put(task_parts, task_name(plan, task), counts_of(plan, task, store));
   }
-  return SavedCounts(std::move(counts));
+  return memory;
 }
 
-std::vector<TaskCounts> task_counts_of(std::size_t run, const Plan& plan,
-                                       const SavedCounts& saved) {
+std::vector<TaskCounts> task_counts_of(std::size_t run, const Plan& plan, const Store& store) {
   std::vector<TaskCounts> all;
   for (const Task& task : plan.tasks) {
-    if (task.run == run) all.push_back(saved_counts(plan, task, saved));
+    if (task.run == run) all.push_back(counts_of(plan, task, store));
   }
   return all;
 }
 
-CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs,
-                        const SavedCounts& saved) {
+CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs, const Store& store) {
   CollectedCounts all;
   if (runs.empty()) return all;
   const RunGroup& group = plan.groups[plan.runs[runs.front()].group];
@@ -296,7 +256,7 @@ CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs,
   }
   for (const Task& task : plan.tasks) {
     if (std::find(runs.begin(), runs.end(), task.run) == runs.end()) continue;
-    const TaskCounts found = saved_counts(plan, task, saved);
+    const TaskCounts found = counts_of(plan, task, store);
     if (!found.is_scored()) continue;
     const std::string& simulator = plan.runs[task.run].simulator;
     add_samples(all.counted, found.counted, simulator, task.seed == 0);

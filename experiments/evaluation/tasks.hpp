@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -13,11 +12,30 @@
 #include <tuple>
 #include <vector>
 
-#include "experiments/evaluation/model_tasks.hpp"
-#include "experiments/fitting/fitting.hpp"
-#include "experiments/rollouts/rollouts.hpp"
+#include "experiments/fitting/make_estimator.hpp"
+#include "experiments/plan/plan.hpp"
+#include "experiments/plan/rollouts.hpp"
+#include "experiments/run_directory/store.hpp"
 
 namespace touchdown::experiments {
+
+/// The saved result of an item of model tasks; nothing if it is not computed yet.
+std::optional<std::string> saved_result(const ModelTasks& tasks, std::size_t item,
+                                        const Store& store);
+
+/// The share of some model tasks that belongs to a share of the plan's tasks.
+TaskRange share_of(const ModelTasks& model_tasks, const TaskRange& tasks, std::size_t all_tasks);
+
+/// Whether that share holds any work.
+bool has_model_tasks(const Plan& plan, const TaskRange& tasks);
+
+/// Computes and saves, in parallel, the items of this share that are not saved yet. Errors: `Error`
+/// for an item that is missing and must not be computed; `Stopped`; those of the tasks.
+void run_model_tasks(const Plan& plan, const TaskRange& tasks, const FittedModels& models,
+                     const Store& store, MissingRun missing, const ShouldContinue& should_continue);
+
+/// Whether an item of this share is not saved.
+bool lacks_model_tasks(const Plan& plan, const TaskRange& tasks, const Store& store);
 
 /// What a measure found in one run, or in one prediction.
 struct MeasuredBytes {
@@ -25,6 +43,10 @@ struct MeasuredBytes {
   std::uint32_t condition = 0;  ///< index in the group's conditions of the run's engine
   std::uint32_t cell = 0;       ///< index in the group's scored cells
   std::string bytes;            ///< the scores
+
+  static auto members(auto& found) {
+    return std::tie(found.measure, found.condition, found.cell, found.bytes);
+  }
 };
 /// The condition of a measure of the run itself.
 inline constexpr std::uint32_t no_condition = 0xffffffffU;
@@ -37,51 +59,51 @@ struct TaskCounts {
   std::vector<MeasuredBytes> measured;      ///< by the group's measures
 
   bool is_scored() const { return !counted.empty() || !scored.empty(); }
-};
 
-/// Serialises counts in their memory layout, which only the same build can read.
-std::string to_bytes(const TaskCounts& counts);
-/// Reads counts and removes them from the front. Errors: `Error` for too few bytes.
-TaskCounts take_counts(std::string_view& bytes);
+  static auto members(auto& counts) {
+    return std::tie(counts.counted, counts.scored, counts.measured);
+  }
+};
 
 /// Scores a prediction of a run, measures included, and adds the results to a task's. `condition`
 /// is the index of the prediction's condition.
 void add_scores(const MeasuredPrediction& prediction, std::span<const Measure> measures,
                 std::uint32_t condition, TaskCounts& counts);
 
-/// A name of the task that is unique in the plan.
+/// The results of tasks in the store are of this kind, and have the task's name: unique in the
+/// plan.
+inline constexpr std::string_view task_parts = "evaluation";
 std::string task_name(const Plan& plan, const Task& task);
 
-/// A complete file at a task's path that belongs to another task or request.
-struct WrongPart {
-  std::filesystem::path file;
-  std::string found;     ///< the key in the file
-  std::string expected;  ///< the key of the task
-};
+/// The saved results of a task; nothing if it is not computed yet.
+std::optional<TaskCounts> saved_counts(const Plan& plan, const Task& task, const Store& store);
 
-/// The saved results of an experiment's tasks.
-class SavedCounts {
- public:
-  /// `key` identifies the experiment and the build. Each file stores it with the task's name; files
-  /// with another key are ignored.
-  SavedCounts(std::filesystem::path folder, std::string key);
-  /// Results in memory instead of files, by the tasks' names. `write` must not be called.
-  explicit SavedCounts(std::map<std::string, TaskCounts> in_memory)
-      : in_memory_(std::move(in_memory)) {}
+/// Whether an estimator's signal guard would pass every step of a run at all of these levels. Only
+/// then can a batch, which has no guard, replace the estimator.
+bool needs_no_guard(const RunSignals& run, std::span<const noise::SensorNoise> levels);
 
-  std::optional<TaskCounts> read(const Plan& plan, const Task& task) const;
-  void write(const Plan& plan, const Task& task, const TaskCounts& counts) const;
-  /// The file at a task's path, if it belongs to another task. Nothing for a correct, missing or
-  /// broken file.
-  std::optional<WrongPart> wrong_part(const Plan& plan, const Task& task) const;
+/// Point-wise counts of one run with one noise realisation, both wheels added: by condition, then
+/// cell, then segment of the run (`RunSignals::segments`). Estimators with a batched form process
+/// all noise levels at once. Noise on a sensor that an estimator does not use costs no time.
+/// Errors: `Stopped`.
+std::vector<scoring::Classification> sweep_run(std::span<const Condition> conditions,
+                                               std::span<const noise::NoiseCell> cells,
+                                               const RunSignals& run, const NoiseRun& noise,
+                                               const FittedModels& models,
+                                               const Experiment& experiment,
+                                               const ShouldContinue& should_continue);
 
- private:
-  std::string key_of(const Plan& plan, const Task& task) const;
-
-  std::filesystem::path folder_;
-  std::string key_;
-  std::optional<std::map<std::string, TaskCounts>> in_memory_;
-};
+/// The counts of one estimator that processes the noise levels one by one: by level, then segment.
+std::vector<scoring::Classification> sweep_levels(ContactEstimator& estimator,
+                                                  std::span<const noise::SensorNoise> levels,
+                                                  const RunSignals& run, const NoiseRun& noise,
+                                                  const scoring::ScoringConfig& scoring,
+                                                  const ShouldContinue& should_continue);
+std::vector<scoring::Classification> sweep_levels(EstimatorRunner& runner,
+                                                  std::span<const noise::SensorNoise> levels,
+                                                  const RunSignals& run, const NoiseRun& noise,
+                                                  const scoring::ScoringConfig& scoring,
+                                                  const ShouldContinue& should_continue);
 
 /// Scores without sensor noise, which are equal for all noise seeds of a run. Several threads may
 /// use it at once.
@@ -114,15 +136,14 @@ TaskCounts evaluate(const Plan& plan, const Task& task, const RunSignals& run,
 /// Computes and saves one task of this run, unless it is saved. Returns whether it was computed.
 /// Errors: `Stopped`.
 bool evaluate_and_save(const Plan& plan, const Task& task, const Rollout& run,
-                       const Experiment& experiment, const FittedModels& models,
-                       const SavedCounts& saved, NoiseFreeScores& noise_free,
-                       const ShouldContinue& should_continue);
+                       const Experiment& experiment, const FittedModels& models, const Store& store,
+                       NoiseFreeScores& noise_free, const ShouldContinue& should_continue);
 
 /// Computes and saves, in parallel, those of the tasks, given as indices in the plan, that belong
 /// to these runs and are not saved yet. Returns their number. Errors: `Stopped`.
 std::size_t evaluate(const Plan& plan, std::span<const std::size_t> tasks, const Rollouts& runs,
-                     const Experiment& experiment, const FittedModels& models,
-                     const SavedCounts& saved, const ShouldContinue& should_continue);
+                     const Experiment& experiment, const FittedModels& models, const Store& store,
+                     const ShouldContinue& should_continue);
 
 /// All results of one condition: `samples[c][i]` belongs to cell c and statistical sample i (a run
 /// or a drop), all noise seeds added.
@@ -160,16 +181,14 @@ struct CollectedCounts {
 /// Adds the results of all tasks of these runs of one group, in the order of the tasks. The sums
 /// thereby do not depend on which process computed the tasks, and when. Errors: `Error` when one is
 /// missing.
-CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs,
-                        const SavedCounts& saved);
+CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs, const Store& store);
 
 /// The results of all tasks of these runs in memory, for several readers: each file is read once.
 /// Errors: `Error` when one is missing.
-SavedCounts in_memory(const Plan& plan, std::span<const std::size_t> runs,
-                      const SavedCounts& saved);
+Store in_memory(const Plan& plan, std::span<const std::size_t> runs, const Store& store);
 
 /// The results of all tasks of one run, by noise seed. Errors: `Error` when one is missing.
-std::vector<TaskCounts> task_counts_of(std::size_t run, const Plan& plan, const SavedCounts& saved);
+std::vector<TaskCounts> task_counts_of(std::size_t run, const Plan& plan, const Store& store);
 
 /// The scores of one measure in one run, all noise seeds added.
 template <typename Score>
@@ -183,9 +202,9 @@ struct MeasuredScores {
 /// run that is not scored. Errors: `Error` when a task is missing.
 template <typename Score>
 std::vector<MeasuredScores<Score>> measured(std::string_view measure, std::size_t run,
-                                            const Plan& plan, const SavedCounts& saved) {
+                                            const Plan& plan, const Store& store) {
   std::vector<MeasuredScores<Score>> sums;
-  for (const TaskCounts& task : task_counts_of(run, plan, saved)) {
+  for (const TaskCounts& task : task_counts_of(run, plan, store)) {
     for (const MeasuredBytes& found : task.measured) {
       if (found.measure != measure) continue;
       const std::vector<Score> scores = from_bytes<Score>(found.bytes);
@@ -207,7 +226,7 @@ std::vector<MeasuredScores<Score>> measured(std::string_view measure, std::size_
 template <typename Score>
 std::vector<ConditionSamples<Score>> measured_samples(std::string_view measure,
                                                       std::span<const std::size_t> runs,
-                                                      const Plan& plan, const SavedCounts& saved) {
+                                                      const Plan& plan, const Store& store) {
   std::vector<ConditionSamples<Score>> all;
   if (runs.empty()) return all;
   const RunGroup& group = plan.groups[plan.runs[runs.front()].group];
@@ -219,7 +238,7 @@ std::vector<ConditionSamples<Score>> measured_samples(std::string_view measure,
     for (ConditionSamples<Score>& one : all) {
       if (one.condition.test_simulator == plan.runs[run].simulator) tested.push_back(&one);
     }
-    for (const MeasuredScores<Score>& found : measured<Score>(measure, run, plan, saved)) {
+    for (const MeasuredScores<Score>& found : measured<Score>(measure, run, plan, store)) {
       tested[found.condition]->samples[found.cell].push_back(found.scores.front());
     }
   }
@@ -231,10 +250,9 @@ struct Evaluation {
   const RunRequest& request;
   const Plan& plan;
   const Rollouts& runs;
-  const SavedCounts& saved;
+  const Store& saved;          ///< the results of tasks and model tasks
   const CollectedCounts& own;  ///< of the experiment's own test runs
   const FittedModels& models;
-  const SavedModelTasks& model_results;
 };
 
 }  // namespace touchdown::experiments

@@ -1,6 +1,11 @@
 #include "experiments/plan/plan.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -10,6 +15,7 @@
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 #include "noise/sensor_noise.hpp"
+#include "scenarios/leg_geometry.hpp"
 
 namespace touchdown::experiments {
 
@@ -189,6 +195,46 @@ void plan_tasks(const Experiment& experiment, std::size_t first, Plan& plan) {
       plan.tasks.push_back({run, seed, noise_key(experiment, seed, plan.runs[run].run)});
     }
   }
+}
+
+EstimatorSetup robot_setup(const Experiment& experiment, const scenarios::Scenario& scenario,
+                           scenarios::CompiledScenes& scenes) {
+  return {.sample_rate = 1e6 / static_cast<double>(scenario.simulation.steps.control_us),
+          .legs = scenarios::leg_geometry(*scenes.as_described(scenario)),
+          .robot = std::filesystem::path(scenario.robot).stem().string(),
+          .transfer = experiment.transfer};
+}
+
+void require_served(const Experiment& experiment, std::string_view estimator,
+                    const scenarios::Scenario& scenario, scenarios::CompiledScenes& scenes) {
+  const EstimatorEntry& entry = estimator_entry(experiment, estimator);
+  if (entry.require_served == nullptr || experiment.transfer) return;
+  entry.require_served(entry, robot_setup(experiment, scenario, scenes));
+}
+
+void require_served(const Experiment& experiment, const Plan& plan) {
+  scenarios::CompiledScenes scenes;
+  std::set<std::tuple<std::string, std::string, std::int64_t>> checked;
+  for (const PlannedRun& run : plan.runs) {
+    if (run.role != RunRole::test) continue;
+    for (const Condition& condition : plan.groups[run.group].conditions) {
+      const std::int64_t period = run.scenario.simulation.steps.control_us;
+      if (!checked.insert({condition.estimator, run.scenario.robot, period}).second) continue;
+      require_served(experiment, condition.estimator, run.scenario, scenes);
+    }
+  }
+}
+
+void add_runs(Needs& needs, const scenarios::Scenario& scenario, double runs, double seeds,
+              double sensors) {
+  // Runs that end at a position take about half of their longest duration.
+  const double share = std::isfinite(scenario.end.x) ? 0.5 : 1.0;
+  const double seconds = runs * share * scenario.end.duration;
+  needs.runs += runs;
+  needs.parts += runs * seeds * sensors;
+  needs.seconds += seconds;
+  needs.steps +=
+      sensors * seconds / (1e-6 * static_cast<double>(scenario.simulation.steps.control_us));
 }
 
 }  // namespace touchdown::experiments

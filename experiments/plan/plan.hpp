@@ -1,22 +1,91 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "experiments/estimators/entry.hpp"
 #include "experiments/estimators/fitted_model.hpp"
 #include "experiments/plan/condition.hpp"
-#include "experiments/plan/measure.hpp"
 #include "experiments/plan/request.hpp"
+#include "experiments/signals/run_signals.hpp"
 #include "noise/sensor_noise.hpp"
 #include "scenarios/scenario.hpp"
+#include "scoring/score.hpp"
+
+namespace touchdown::scenarios {
+class CompiledScenes;
+}
 
 namespace touchdown::experiments {
+
+/// A test run with one noise realisation.
+struct MeasuredRun {
+  const RunSignals& signals;
+  const NoiseRun& noise;
+  int seed = 0;                         ///< number of the noise realisation
+  std::vector<noise::NoiseCell> cells;  ///< the noise settings in which predictions are made
+  const scoring::ScoringConfig& scoring;
+};
+
+/// The prediction of one condition for a test run in one noise setting.
+struct MeasuredPrediction {
+  const MeasuredRun& run;
+  const Condition& condition;
+  std::size_t cell = 0;  ///< index in the run's cells
+  const scoring::Prediction& prediction;
+};
+
+/// Scores of one type in their memory layout, one after the other. Only the same build reads them.
+template <typename Score>
+std::string to_bytes(const std::vector<Score>& scores) {
+  static_assert(std::is_trivially_copyable_v<Score>);
+  return {reinterpret_cast<const char*>(scores.data()), scores.size() * sizeof(Score)};
+}
+template <typename Score>
+std::vector<Score> from_bytes(const std::string& bytes) {
+  static_assert(std::is_trivially_copyable_v<Score>);
+  std::vector<Score> scores(bytes.size() / sizeof(Score));
+  if (!scores.empty()) std::memcpy(scores.data(), bytes.data(), scores.size() * sizeof(Score));
+  return scores;
+}
+
+/// What the tasks of a group of runs measure in addition to the scores of every experiment. A study
+/// adds measures to its groups and reads their scores by name.
+struct Measure {
+  std::string name;  ///< unique in a group
+
+  /// Scores of the run itself, and of each prediction, as `to_bytes` writes them. An empty function
+  /// or an empty text: nothing is measured there.
+  std::function<std::string(const MeasuredRun&)> of_run = {};
+  std::function<std::string(const MeasuredPrediction&)> of_prediction = {};
+
+  /// The most bytes that these write (for the estimate of disk space).
+  std::size_t bytes_of_run = 0;
+  std::size_t bytes_of_prediction = 0;
+};
+
+/// A measure of predictions with scores of one type, in a fixed order.
+template <typename Score>
+Measure measure_of_predictions(
+    std::string name, std::size_t most,
+    std::function<std::vector<Score>(const MeasuredPrediction&)> of_prediction) {
+  return {std::move(name),
+          {},
+          [of_prediction = std::move(of_prediction)](const MeasuredPrediction& prediction) {
+            return to_bytes(of_prediction(prediction));
+          },
+          0,
+          most * sizeof(Score)};
+}
 
 /// The purpose of a run.
 enum class RunRole : int { fit, test };
@@ -114,7 +183,7 @@ struct Plan {
   std::vector<ModelTasks> model_tasks;  ///< of studies
   std::map<std::string, int> refits;    ///< number of refits, by name of the fit
   /// Fits to a part of the experiment's own training data: the size of the training set
-  /// (experiments/rollouts/training_sets.hpp), by name of the fit. `refits` has an entry for each.
+  /// (experiments/plan/training_data.hpp), by name of the fit. `refits` has an entry for each.
   std::map<std::string, std::size_t> training_sets;
   std::set<std::int64_t> pictured;  ///< indices of own test runs that pictures show
   bool needs_motion = false;        ///< whether test runs keep their motion
@@ -167,5 +236,33 @@ void keep_recordings(const Experiment& experiment, Plan& plan);
 
 /// Adds the tasks of the test runs from index `first` on.
 void plan_tasks(const Experiment& experiment, std::size_t first, Plan& plan);
+
+/// The robot of a scenario as estimators know it: its name, its legs as its file describes them,
+/// and its rate.
+EstimatorSetup robot_setup(const Experiment& experiment, const scenarios::Scenario& scenario,
+                           scenarios::CompiledScenes& scenes);
+
+/// Errors: `InputError` for an estimator with a shipped model that does not serve the robot or the
+/// rate of a scenario, unless the experiment has `transfer`.
+void require_served(const Experiment& experiment, std::string_view estimator,
+                    const scenarios::Scenario& scenario, scenarios::CompiledScenes& scenes);
+
+/// The same for all test runs of a plan, before one of them is simulated.
+void require_served(const Experiment& experiment, const Plan& plan);
+
+/// The size of an experiment. It is known before the plan, which may be too large itself.
+struct Needs {
+  double runs = 0.0;
+  double parts = 0.0;    ///< of the evaluation
+  double seconds = 0.0;  ///< least duration of all runs together, if none fails
+  double steps = 0.0;    ///< control steps of these runs
+  double setups = 1.0;   ///< robots and sensors of the test runs, the experiment's own included
+  bool motion = false;   ///< whether test runs keep their motion
+};
+
+/// Adds runs of a scenario. Each is evaluated with `seeds` noise seeds, and its signals are kept
+/// once for each of `sensors` sensor models.
+void add_runs(Needs& needs, const scenarios::Scenario& scenario, double runs, double seeds,
+              double sensors = 1.0);
 
 }  // namespace touchdown::experiments

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "experiments/config/experiment.hpp"
-#include "experiments/plan/sensors.hpp"  // `setup_caption`, for captions too
+#include "experiments/plan/request.hpp"  // `setup_caption`, for captions too
 #include "experiments/results/scores.hpp"
 
 namespace touchdown::experiments {

@@ -8,7 +8,7 @@
 
 #include "core/files.hpp"
 #include "core/rows.hpp"
-#include "experiments/run_directory/table_columns.hpp"
+#include "experiments/run_directory/directory.hpp"
 
 namespace touchdown::experiments {
 
@@ -138,7 +138,7 @@ void write_results(const RunRequest& request, const RunDirectory& directory) {
   // Line by line: all rows at once would take ten times the memory of their text.
   const auto write = [&](std::ostream& stream) {
     stream << csv_line(long_header);
-    for (const std::string& name : tables_with_columns(directory.path())) {
+    for (const std::string& name : directory.store().names(column_parts)) {
       if (!is_there(directory.file("tables", name))) continue;
       const Table& table = directory.read_table(name);
       const std::string study = std::filesystem::path(name).stem().string();

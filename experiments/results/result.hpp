@@ -8,7 +8,7 @@
 #include "experiments/figures/figure_spec.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/results/scores.hpp"
-#include "experiments/rollouts/rollouts.hpp"
+#include "experiments/plan/rollouts.hpp"
 
 namespace touchdown::experiments {
 

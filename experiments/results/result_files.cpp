@@ -193,7 +193,7 @@ Table evidence_table(const FittedModels& models) {
 void write_model_of(const std::string& key, const std::string& estimator, const FittedModel& model,
                     const RunDirectory& directory) {
   if (is_of_refit(key)) return;
-  write_fitted_model(model, directory.file("models", model_name(key, estimator)));
+  write_fitted_model(model, directory.own_file("models", model_name(key, estimator)));
 }
 
 void write_result_files(const ExperimentResult& result) {

@@ -10,7 +10,7 @@
 #include "core/files.hpp"
 #include "experiments/results/json_table.hpp"
 #include "experiments/results/result.hpp"
-#include "experiments/run_directory/recorded_files.hpp"
+#include "experiments/run_directory/own_files.hpp"
 
 namespace touchdown {
 

@@ -7,7 +7,7 @@
 
 #include "experiments/evaluation/summary.hpp"
 #include "experiments/results/scores.hpp"
-#include "experiments/rollouts/rollouts.hpp"
+#include "experiments/plan/rollouts.hpp"
 
 namespace touchdown::experiments {
 

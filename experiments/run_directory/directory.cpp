@@ -7,6 +7,8 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/fingerprint.hpp"
+#include "experiments/run_directory/own_files.hpp"
 
 namespace touchdown::experiments {
 
@@ -54,7 +56,8 @@ std::string video_name(const std::string& simulator, const std::string& scenario
 
 RunDirectory::RunDirectory(const std::string& experiment, const std::string& id,
                            const fs::path& out)
-    : path_(run_path(experiment, id, out)) {
+    : path_(run_path(experiment, id, out)),
+      store_(path_ / "state", key_of(id, build_fingerprint())) {
   try {
     fs::create_directories(path_);
     if (out.empty()) point(path_.parent_path() / "latest", id);
@@ -78,7 +81,7 @@ fs::path RunDirectory::own_file(std::string_view folder, std::string_view name) 
 
 void RunDirectory::write_table(std::string_view name, Table table) const {
   write_atomically(own_file("tables", name), to_csv(table));
-  if (!table.columns.empty()) write_columns(path_, name, table.columns);
+  if (!table.columns.empty()) store_.put(column_parts, name, table.columns);
   tables_->insert_or_assign(std::string(name), std::move(table));
 }
 
@@ -86,8 +89,21 @@ const Table& RunDirectory::read_table(std::string_view name) const {
   const auto known = tables_->find(name);
   if (known != tables_->end()) return known->second;
   Table table = from_csv(read_file(path_ / "tables" / name));
-  table.columns = read_columns(path_, name);
+  if (auto columns = store_.find<std::vector<ColumnInfo>>(column_parts, name)) {
+    table.columns = *std::move(columns);
+  }
   return tables_->emplace(name, std::move(table)).first->second;
+}
+
+void require_free_space(const fs::path& directory, std::uintmax_t needed,
+                        const std::string& what_for, const SpaceNeed& need) {
+  std::error_code unknown;
+  const std::uintmax_t free = fs::space(directory, unknown).available;
+  if (unknown || free >= needed) return;
+  throw Error(fmt::format("{}: this {} may need {:.1f} GB{}, and {:.1f} GB are free: {}",
+                          directory.string(), need.purpose, 1e-9 * static_cast<double>(needed),
+                          what_for.empty() ? "" : fmt::format(" ({})", what_for),
+                          1e-9 * static_cast<double>(free), need.advice));
 }
 
 }  // namespace touchdown::experiments

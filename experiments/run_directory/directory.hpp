@@ -13,10 +13,13 @@
 
 #include "core/columns.hpp"
 #include "experiments/run_directory/lock.hpp"
-#include "experiments/run_directory/recorded_files.hpp"
-#include "experiments/run_directory/table_columns.hpp"
+#include "experiments/run_directory/own_files.hpp"
+#include "experiments/run_directory/store.hpp"
 
 namespace touchdown::experiments {
+
+/// The columns of tables (`ColumnInfo`) in the store are of this kind, and have the table's name.
+inline constexpr std::string_view column_parts = "columns";
 
 /// The run directory of an experiment: `out` if given, else `runs/<experiment>/<id>`.
 std::filesystem::path run_path(const std::string& experiment, const std::string& id,
@@ -46,6 +49,8 @@ class RunDirectory {
   void require_in_place() const;
 
   const std::filesystem::path& path() const { return path_; }
+  /// What this build computed of this experiment.
+  const Store& store() const { return store_; }
   std::filesystem::path file(std::string_view folder, std::string_view name) const {
     return path_ / folder / name;
   }
@@ -71,9 +76,23 @@ class RunDirectory {
 
  private:
   std::filesystem::path path_;
+  Store store_;
   std::optional<DirectoryLock> lock_;
   using Tables = std::map<std::string, Table, std::less<>>;
   std::shared_ptr<Tables> tables_ = std::make_shared<Tables>();  ///< by file name
 };
+
+/// What needs the space, and the advice if there is too little.
+struct SpaceNeed {
+  const char* purpose = "run";
+  const char* advice =
+      "free some (`touchdown clean` removes old runs), keep fewer recordings (--set "
+      "recordings=pictured), reduce the number of parts, or use another disk (--out)";
+};
+
+/// Checks the disk before anything is computed. Errors: `Error` when the directory's disk has fewer
+/// free bytes than `needed`; the message includes `what_for`.
+void require_free_space(const std::filesystem::path& directory, std::uintmax_t needed,
+                        const std::string& what_for = "", const SpaceNeed& need = {});
 
 }  // namespace touchdown::experiments

@@ -1,7 +1,6 @@
 #include "experiments/run_directory/own_files.hpp"
 
 #include <algorithm>
-#include <set>
 #include <string>
 
 #include <fmt/format.h>
@@ -9,10 +8,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/yaml.hpp"
-#include "experiments/run_directory/directory.hpp"
 #include "experiments/run_directory/lock.hpp"
-#include "experiments/run_directory/owner.hpp"
-#include "experiments/run_directory/recorded_files.hpp"
 
 namespace touchdown::experiments {
 
@@ -20,9 +16,77 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr std::string_view before_request = "experiment ";
+constexpr std::string_view before_build = " build ";
+
+std::string name_in(const fs::path& config) {
+  try {
+    const auto name = YamlDocument::load(config).root()["name"].as<std::string>("");
+    return is_name_word(name) ? name : std::string();
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+/// The owner by the manifest, for a finished run after its `state` was removed.
+std::optional<RunDirectoryOwner> finished_in(const fs::path& directory) {
+  try {
+    // JSON is a subset of YAML.
+    const YAML::Node manifest = YamlDocument::load(directory / "manifest.json").root();
+    if (!manifest["versions"]["touchdown"]) return std::nullopt;
+    return RunDirectoryOwner{
+        {}, manifest["id"].as<std::string>(), name_in(directory / "config.yaml")};
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+/// An entry of a folder that neither a killed start nor a concurrent start leaves there.
+fs::path untracked_file_in(const fs::path& folder) {
+  for (const fs::path& entry : entries_in(folder)) {
+    const bool is_lock = entry == lock_file(folder.parent_path());
+    if (!is_lock && !is_part_file_name(entry.filename())) return entry;
+  }
+  return is_folder(folder) ? fs::path() : folder;
+}
+
+/// A run writes its key first. If there is a key by now, `file` may belong to a run that starts at
+/// the same time.
+void refuse_unless_owned(const fs::path& directory, const fs::path& file) {
+  if (owner_of(directory)) return;
+  throw InputError(
+      fmt::format("{}: {} is there already, and no run of touchdown made it: choose another --out",
+                  directory.string(), file.lexically_relative(directory).string()));
+}
+
+/// Between folder and name in the name of a record.
+constexpr char separator = ':';
+
+fs::path records_in(const fs::path& run_directory) { return run_directory / "state" / "files"; }
+
+std::string record_of(const fs::path& name) {
+  std::string record = name.generic_string();
+  std::replace(record.begin(), record.end(), '/', separator);
+  return record;
+}
+
+fs::path name_of(std::string record) {
+  const std::size_t end = record.find(separator);
+  if (end != std::string::npos) record[end] = '/';
+  return record;
+}
+
+/// A file that is not reached through a link.
+bool is_regular(const fs::path& path) {
+  std::error_code ignored;
+  return !fs::is_symlink(path.parent_path(), ignored) &&
+         fs::symlink_status(path, ignored).type() == fs::file_type::regular;
+}
+
 using Names = std::vector<std::string>;
 
-/// Files with names that do not depend on the experiment.
+/// Files that are recognised by their names: parts of the store and other state, and what training
+/// and pictures write.
 struct FixedNames {
   const char* folder;
   const char* shape;
@@ -41,22 +105,6 @@ constexpr std::array fixed_names = {FixedNames{"state", R"((scenario|sensors)_\d
 
 /// The items of model tasks, in a folder of `state` for each kind.
 constexpr const char* model_task_shape = R"([a-z]+_\d{6,})";
-
-/// Files of earlier versions, which did not record them (`recorded_files.hpp`). The list is closed:
-/// new tables and films need no line here.
-constexpr std::array names_before_records = {
-    FixedNames{
-        "tables",
-        "(agreement|benchmark|benchmark_differences|benchmark_standings|calibration|classification|"
-        "density_overlap|differences|evidence|labels|"
-        "latency|moments|odometry|operating_points|operating_points_by_scene|overlap|reliability|"
-        "results|runs|sample_efficiency|sensitivity|sensor_sweep|success|"
-        "survival|torque_densities|torque_distributions|torques|transfer|"
-        "transitions|tuning|"
-        "verdicts|views)\\.csv|"
-        "(cross_simulator|labels|tables)\\.md|tables\\.tex|(benchmark|summary)\\.json"},
-    FixedNames{"videos", R"(worst_.+\.mp4|closed_loop_.+\.(mp4|jpg))"},
-    FixedNames{"trajectories", R"([^.].*\.tum)"}, FixedNames{".", R"(benchmark\.html)"}};
 
 /// Every folder that a run creates beside `state`.
 constexpr std::array result_folders = {"recordings", "models",       "tables",      "figures",
@@ -90,46 +138,13 @@ Names files_in(const fs::path& folder) {
   return names;
 }
 
-/// A list of names, or one name, under a key of a YAML file; none if the file cannot be read.
-Names names_under(const char* key, const fs::path& file) {
-  try {
-    const YAML::Node node = YamlDocument::load(file).root()[key];
-    if (node.IsScalar()) return {node.as<std::string>()};
-    return node.as<Names>(Names());
-  } catch (const std::exception&) {
-    return {};
-  }
-}
-
-/// Names of models and videos, which consist of the experiment's engines, estimators and scenarios.
-std::vector<fs::path> models_and_videos(const fs::path& directory) {
-  const fs::path config = directory / "config.yaml";
+/// A recording belongs to the run if its part in the store does.
+std::vector<fs::path> recordings_of(const fs::path& directory) {
   std::vector<fs::path> names;
-  for (const std::string& simulator : names_under("simulators", config)) {
-    for (const std::string& estimator : names_under("estimators", config)) {
-      names.push_back(fs::path("models") / model_name(simulator, estimator));
-    }
-    for (const std::string& file : files_in(directory / "state")) {
-      if (!file.starts_with("scenario_")) continue;
-      for (const std::string& scenario : names_under("name", directory / "state" / file)) {
-        if (!is_name_word(scenario)) continue;
-        names.push_back(fs::path("videos") / video_name(simulator, scenario));
-      }
-    }
-  }
-  return names;
-}
-
-/// A recording belongs to the run if it has a stamp.
-std::vector<fs::path> recordings_and_stamps(const fs::path& directory) {
-  std::vector<fs::path> names;
-  for (const std::string& stamp : files_in(directory / "state/recordings")) {
-    const fs::path recording = fs::path(stamp).stem();
-    const bool is_stamp =
-        fs::path(stamp).extension() == ".sum" || fs::path(stamp).extension() == ".failed";
-    if (!is_stamp || recording.extension() != ".mpack") continue;
-    names.push_back("recordings" / recording);
-    names.push_back(fs::path("state/recordings") / stamp);
+  for (const std::string& name : files_in(directory / "state/recordings")) {
+    if (!name.ends_with(".mpack") || name.starts_with('.')) continue;
+    names.push_back(fs::path("recordings") / name);
+    names.push_back(fs::path("state/recordings") / name);
   }
   return names;
 }
@@ -161,12 +176,6 @@ void append(std::vector<fs::path>& all, const std::vector<fs::path>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-bool is_file(const fs::path& path) {
-  std::error_code ignored;
-  return !fs::is_symlink(path.parent_path(), ignored) &&
-         fs::symlink_status(path, ignored).type() == fs::file_type::regular;
-}
-
 void remove_file(const fs::path& path) {
   std::error_code error;
   fs::remove(path, error);
@@ -185,31 +194,92 @@ void remove_empty_folders(const fs::path& directory) {
 
 }  // namespace
 
+fs::path key_file(const fs::path& directory) { return directory / "state" / "key"; }
+
+std::string key_of(const std::string& request, const std::string& build) {
+  return fmt::format("{}{}{}{}", before_request, request, before_build, build);
+}
+
+std::optional<RunDirectoryOwner> owner_of(const fs::path& directory) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(key_file(directory), ignored)) return finished_in(directory);
+  RunDirectoryOwner owner;
+  owner.key = read_file(key_file(directory));
+  owner.key = owner.key.substr(0, owner.key.find('\n'));
+  const std::size_t build = owner.key.find(before_build);
+  if (!owner.key.starts_with(before_request) || build == std::string::npos) return std::nullopt;
+  owner.request = owner.key.substr(before_request.size(), build - before_request.size());
+  owner.name = name_in(directory / "config.yaml");
+  return owner;
+}
+
+void require_place_beside(const fs::path& directory, const std::string& config,
+                          const fs::path& result) {
+  if (const std::optional<RunDirectoryOwner> owner = owner_of(directory)) {
+    throw InputError(fmt::format("{}: holds experiment '{}' (request {}): choose another --out",
+                                 directory.string(), owner->name, owner->request));
+  }
+  std::error_code ignored;
+  const fs::path there = directory / "config.yaml";
+  if (fs::exists(directory / result, ignored) || !fs::exists(there, ignored)) return;
+  if (read_file(there) != config) refuse_unless_owned(directory, there);
+}
+
+void require_no_untracked_files(const fs::path& directory) {
+  std::error_code ignored;
+  for (const char* const name : run_files) {
+    const fs::path file = directory / name;
+    if (fs::exists(fs::symlink_status(file, ignored))) refuse_unless_owned(directory, file);
+  }
+  for (const char* const name : run_folders) {
+    const fs::path folder = directory / name;
+    if (!fs::exists(fs::symlink_status(folder, ignored))) continue;
+    const fs::path untracked = untracked_file_in(folder);
+    if (!untracked.empty()) refuse_unless_owned(directory, untracked);
+  }
+}
+
+fs::path record_file(const fs::path& run_directory, const fs::path& name) {
+  const fs::path record = records_in(run_directory) / record_of(name);
+  if (!is_regular(record)) write_atomically(record, "");
+  return run_directory / name;
+}
+
+std::vector<fs::path> recorded_files(const fs::path& run_directory) {
+  std::vector<fs::path> names;
+  for (const fs::path& entry : entries_in(records_in(run_directory))) {
+    const std::string record = entry.filename().string();
+    const fs::path name = name_of(record);
+    // Half-written records begin with a dot. No record leads out of the run directory.
+    const bool is_inside = !record.starts_with('.') && !name.filename().string().starts_with('.');
+    if (is_inside && is_regular(entry) && is_regular(run_directory / name)) {
+      names.push_back(name);
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 std::vector<fs::path> own_files(const fs::path& directory) {
-  std::vector<fs::path> names = models_and_videos(directory);
-  append(names, recordings_and_stamps(directory));
+  std::vector<fs::path> names = recorded_files(directory);
+  append(names, recordings_of(directory));
   append(names, figures(directory));
   const auto add = [&](const fs::path& folder, const char* shape) {
     for (const std::string& file : files_in(directory / folder)) {
       if (has_shape(file, shape)) names.push_back((folder / file).lexically_normal());
     }
   };
-  append(names, recorded_files(directory));
-  for (const FixedNames& fixed : names_before_records) add(fixed.folder, fixed.shape);
   for (const FixedNames& fixed : fixed_names) add(fixed.folder, fixed.shape);
   for (const std::string& folder : all_folders(directory)) {
     if (folder.starts_with("state/")) add(folder, model_task_shape);
   }
   // Each record comes after its file: after a killed removal it still names it.
   add("state/files", R"([^.].*)");
-  // Scenarios and the experiment come last: after a killed removal they still name the other files.
-  std::stable_partition(names.begin(), names.end(), [](const fs::path& name) {
-    return !name.filename().string().starts_with("scenario_");
-  });
+  // The experiment comes last: it tells whose directory it is after a killed removal.
   for (const char* const file : {"report.html", "manifest.json", "config.yaml"}) {
     names.emplace_back(file);
   }
-  std::erase_if(names, [&](const fs::path& name) { return !is_file(directory / name); });
+  std::erase_if(names, [&](const fs::path& name) { return !is_regular(directory / name); });
   return names;
 }
 
@@ -237,7 +307,7 @@ UntrackedFiles remove_run(const fs::path& directory) {
     const bool is_log = has_shape(file, R"((shard|merge)_\d+(_\d+)?\.txt)");
     if (is_log) remove_file(directory / "logs" / file);
   }
-  if (is_file(key_file(directory))) remove_file(key_file(directory));
+  if (is_regular(key_file(directory))) remove_file(key_file(directory));
   UntrackedFiles left;
   std::error_code gone;
   for (const fs::path& entry : entries_below(directory)) {
@@ -248,7 +318,7 @@ UntrackedFiles remove_run(const fs::path& directory) {
   }
   if (left.files > 0) return left;
   // Other processes detect that the lock file is gone and lock a new one.
-  if (is_file(lock_file(directory))) remove_file(lock_file(directory));
+  if (is_regular(lock_file(directory))) remove_file(lock_file(directory));
   remove_empty_folders(directory);
   std::error_code not_empty;
   fs::remove(directory, not_empty);

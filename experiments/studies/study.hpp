@@ -4,7 +4,7 @@
 
 #include "experiments/evaluation/tasks.hpp"
 #include "experiments/figures/study_result.hpp"
-#include "experiments/plan/needs.hpp"
+#include "experiments/plan/plan.hpp"
 #include "experiments/run_directory/directory.hpp"
 
 namespace touchdown::experiments {

@@ -12,9 +12,9 @@
 #include "core/resources.hpp"
 #include "core/table.hpp"
 #include "experiments/config/yaml_kind.hpp"
-#include "experiments/rollouts/failures.hpp"
-#include "experiments/run_directory/free_space.hpp"
 #include "experiments/studies/experiment_file.hpp"
+#include "experiments/plan/rollouts.hpp"
+#include "experiments/run_directory/directory.hpp"
 
 namespace touchdown::experiments {
 

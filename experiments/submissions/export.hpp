@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "experiments/signals/run_signals.hpp"
-#include "experiments/stages/experiment_context.hpp"
+#include "experiments/plan/rollouts.hpp"
 #include "experiments/submissions/exported_runs.hpp"
 #include "recordings/models/npz.hpp"
 

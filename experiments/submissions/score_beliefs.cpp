@@ -20,7 +20,6 @@
 #include "experiments/results/long_table.hpp"
 #include "experiments/rollouts/rollouts.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "experiments/run_directory/owner.hpp"
 #include "experiments/studies/benchmark/submission_rows.hpp"
 #include "experiments/studies/benchmark/submission_scores.hpp"
 #include "experiments/studies/benchmark/tables.hpp"
@@ -189,7 +188,7 @@ Rollouts runs_as_saved(const ExperimentContext& context) {
   Rollouts runs;
   for (std::size_t i = 0; i < plan.runs.size(); ++i) runs[i].plan = plan.runs[i];
   for (const Task& task : plan.tasks) {
-    const std::optional<TaskCounts> counts = context.saved.read(plan, task);
+    const std::optional<TaskCounts> counts = saved_counts(plan, task, context.directory.store());
     if (!counts) {
       throw InputError(fmt::format("{}: is not finished: run the same experiment again first",
                                    context.directory.path().string()));
@@ -293,12 +292,12 @@ BeliefReport scored(const BeliefRequest& wanted, ExperimentContext& context) {
   }
   const SubmissionScores scores = scores_of(files, exported, context, report);
   if (!context.should_continue()) throw Stopped();
-  save(scores, context.request, context.directory);
+  save(scores, context.directory.store());
   const Plan& plan = context.plan;
-  const CollectedCounts own = collect(plan, plan.runs_in(0), context.saved);
+  const CollectedCounts own = collect(plan, plan.runs_in(0), context.directory.store());
   const FittedModels no_models;
-  const Evaluation evaluation{context.request,          plan, runs, context.saved, own, no_models,
-                              context.saved_model_tasks};
+  const Evaluation evaluation{context.request,           plan, runs,
+                              context.directory.store(), own,  no_models};
   report.table =
       benchmark_text(write_benchmark(evaluation, context.directory), context.request.experiment);
   write_results(context.request, context.directory);

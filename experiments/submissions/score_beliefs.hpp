@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "experiments/signals/run_signals.hpp"
-#include "experiments/stages/experiment_context.hpp"
 #include "recordings/beliefs/beliefs.hpp"
 #include "scoring/score.hpp"
+#include "experiments/experiment_context.hpp"
 
 namespace touchdown::experiments {
 

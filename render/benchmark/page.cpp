@@ -4,7 +4,7 @@
 
 #include "core/files.hpp"
 #include "experiments/results/captions.hpp"
-#include "experiments/run_directory/recorded_files.hpp"
+#include "experiments/run_directory/own_files.hpp"
 #include "render/benchmark/cards.hpp"
 #include "render/benchmark/scene_tables.hpp"
 #include "render/benchmark/standings_figure.hpp"

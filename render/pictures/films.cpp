@@ -78,8 +78,9 @@ void film_runs(const std::vector<FilmedRun>& runs, const fs::path& run_directory
     const recordings::RecordingInfo& info = runs[i].recording.info;
     films.push_back({.runs = {i},
                      .options = full_size(runs[i]),
-                     .path = run_directory / "videos" /
-                             experiments::video_name(info.simulator, info.scenario)});
+                     .path = experiments::record_file(
+                         run_directory, fs::path("videos") / experiments::video_name(
+                                                                 info.simulator, info.scenario))});
   }
   films.push_back(small_film(runs, run_directory));
   paint(runs, std::move(films), workers, "filming", stop);

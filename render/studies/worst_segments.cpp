@@ -7,7 +7,7 @@
 
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/make_estimator.hpp"
-#include "experiments/plan/sensors.hpp"
+#include "experiments/plan/request.hpp"
 #include "render/benchmark/scores.hpp"
 #include "render/film/video.hpp"
 #include "render/pictures/filmed_run.hpp"

@@ -33,6 +33,28 @@ TEST(Clean, RemovesOldRunsAndKeepsTheLatest) {
   EXPECT_EQ(touchdown_program("clean", folder.path()).output, "0.0 MB are free\n");
 }
 
+/// Writes what a run leaves, with 10 MB in it.
+void write_run(const ScratchFolder& folder, const std::string& name, const std::string& id) {
+  folder.write("runs/" + name + "/" + id + "/config.yaml", "name: x\n");
+  folder.write("runs/" + name + "/" + id + "/notes.txt", std::string(9'999'992, 'x'));
+}
+
+TEST(Clean, LeavesOutFoldersThatMayBeNoRuns) {
+  const ScratchFolder folder;
+  write_run(folder, "stairs", "aa");
+  write_run(folder, "stairs", "cc");
+  write_run(folder, "stairs", "bb");
+  fs::create_directory_symlink("bb", folder / "runs/stairs/latest");
+  fs::create_directories(folder / "runs/stairs/my_notes");
+  write_run(folder, "without_latest", "aa");
+  write_run(folder, "broken_link", "bb");
+  fs::create_directory_symlink("gone", folder / "runs/broken_link/latest");
+  write_run(folder, "elsewhere", "dd");
+  fs::create_directory_symlink(folder / "runs/elsewhere/dd", folder / "runs/stairs/linked");
+  EXPECT_EQ(touchdown_program("clean --dry-run", folder.path()).output,
+            "runs/stairs/aa  10.0 MB\nruns/stairs/cc  10.0 MB\n20.0 MB would be free\n");
+}
+
 TEST(Clean, OfAFolderThatIsNotThereIsAWrongRequest) {
   const ScratchFolder folder;
   const Ended ended = touchdown_program("clean rnus", folder.path());

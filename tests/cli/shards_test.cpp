@@ -88,11 +88,10 @@ TEST(DryRun, PrintsTheRunDirectoryAndWritesNothing) {
   const std::string run = "run " + write_tiny_experiment(folder);
   const std::string output = in(folder, run + " --dry-run").output;
   EXPECT_THAT(output, AllOf(HasSubstr("results   runs/tiny/"), HasSubstr("\nparts     12\n")));
-  for (const char* stage : {"\nsimulate ", "\nfit ", "\nevaluate ", "\ntogether "}) {
-    EXPECT_THAT(output, ContainsRegex(std::string(stage) + " *[0-9.e+-]+ s of processor time"));
-  }
-  EXPECT_THAT(output, AllOf(ContainsRegex("\nmemory    about [0-9]+ MB"), HasSubstr("\ndisk "),
-                            HasSubstr("µs a step in mujoco")));
+  EXPECT_THAT(output,
+              AllOf(HasSubstr("\nruns      2 fitted, 6 tested, at most 20 s of simulation\n"),
+                    ContainsRegex("\nmemory    at least [0-9]+ MB\n"),
+                    ContainsRegex("\ndisk      at most [0-9]+ MB\n$")));
   EXPECT_FALSE(fs::exists(folder / "runs"));
   in(folder, run + " --shard 1/12");
   const std::string directory = output.substr(10, output.find('\n') - 10);

@@ -5,7 +5,7 @@
 
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "experiments/evaluation/sweep_run.hpp"
+#include "experiments/evaluation/tasks.hpp"
 #include "experiments/signals/run_signals.hpp"
 #include "experiments/studies/ablation/estimators.hpp"
 #include "noise/gaussian.hpp"

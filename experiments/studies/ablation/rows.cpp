@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "experiments/evaluation/joint_bootstrap.hpp"
-#include "experiments/evaluation/scenes.hpp"
 #include "experiments/studies/ablation/config.hpp"
 
 namespace touchdown::experiments {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/evaluation/scenes.hpp"
+#include "experiments/evaluation/joint_bootstrap.hpp"
 
 namespace touchdown::experiments {
 
@@ -51,7 +51,7 @@ std::vector<BenchmarkRow> benchmark(const Evaluation& evaluation) {
   for (const BenchmarkSetup& setup : setups) {
     for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
       const auto runs = runs_in_scene(evaluation.plan, experiment, setup.group, scene);
-      const SavedCounts saved = in_memory(evaluation.plan, runs, evaluation.saved);
+      const Store saved = in_memory(evaluation.plan, runs, evaluation.saved);
       const CollectedCounts counts = collect(evaluation.plan, runs, saved);
       const auto extended =
           measured_samples<scoring::ExtendedScore>(extended_measure, runs, evaluation.plan, saved);

@@ -26,7 +26,7 @@ Plan plan_for(const std::string& estimator, const noise::NoiseCell& cell,
 
 void add_submission_rows(const Evaluation& evaluation, const RunDirectory& directory,
                          std::vector<BenchmarkRow>& rows) {
-  for (const SubmissionScores& scores : saved_submissions(evaluation.request, directory)) {
+  for (const SubmissionScores& scores : saved_submissions(directory.store())) {
     for (std::size_t cell = 0; cell < scores.by_cell.size(); ++cell) {
       RunRequest request = evaluation.request;
       request.experiment.highlights = {evaluation.request.experiment.highlights[cell]};
@@ -43,14 +43,10 @@ void add_submission_rows(const Evaluation& evaluation, const RunDirectory& direc
       }
       constexpr std::size_t no_group = std::size_t{0} - 1;
       for (const std::size_t run : incomplete) plan.runs[run].group = no_group;
-      const SavedCounts in_memory(std::move(counts));
-      const Evaluation alone{request,
-                             plan,
-                             evaluation.runs,
-                             in_memory,
-                             evaluation.own,
-                             evaluation.models,
-                             evaluation.model_results};
+      const Store in_memory;
+      for (const auto& [name, found] : counts) in_memory.put(task_parts, name, found);
+      const Evaluation alone{request,   plan,           evaluation.runs,
+                             in_memory, evaluation.own, evaluation.models};
       for (BenchmarkRow& row : benchmark(alone)) rows.push_back(std::move(row));
     }
   }

@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "experiments/evaluation/tasks.hpp"
-#include "experiments/plan/request.hpp"
-#include "experiments/run_directory/directory.hpp"
+#include "experiments/run_directory/store.hpp"
 
 namespace touchdown::experiments {
 
@@ -17,11 +16,10 @@ struct SubmissionScores {
   std::vector<std::map<std::string, TaskCounts>> by_cell;
 };
 
-/// Saves the scores in the run directory; replaces those of the same name.
-void save(const SubmissionScores& scores, const RunRequest& request, const RunDirectory& directory);
+/// Saves the scores; replaces those of the same name.
+void save(const SubmissionScores& scores, const Store& store);
 
-/// The scores that this build saved for this request, by name.
-std::vector<SubmissionScores> saved_submissions(const RunRequest& request,
-                                                const RunDirectory& directory);
+/// The saved scores of all submissions, by name.
+std::vector<SubmissionScores> saved_submissions(const Store& store);
 
 }  // namespace touchdown::experiments

@@ -9,8 +9,8 @@
 #include "core/table.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "experiments/plan/served_robots.hpp"
 #include "scenarios/scenario_file.hpp"
+#include "experiments/plan/plan.hpp"
 
 namespace touchdown::experiments {
 

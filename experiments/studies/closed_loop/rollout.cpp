@@ -5,9 +5,9 @@
 #include "core/error.hpp"
 #include "experiments/fitting/make_estimator.hpp"
 #include "experiments/plan/condition.hpp"
-#include "experiments/plan/sensors.hpp"
-#include "experiments/plan/served_robots.hpp"
 #include "experiments/signals/run_signals.hpp"
+#include "experiments/plan/request.hpp"
+#include "experiments/plan/plan.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/rollout.hpp"
 

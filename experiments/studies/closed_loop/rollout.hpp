@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiments/estimators/fitted_model.hpp"
-#include "experiments/rollouts/rollouts.hpp"
+#include "experiments/plan/rollouts.hpp"
 #include "experiments/studies/closed_loop/contact_source.hpp"
 #include "experiments/studies/closed_loop/metrics.hpp"
 #include "experiments/studies/closed_loop/plan.hpp"

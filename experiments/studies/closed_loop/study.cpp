@@ -35,7 +35,7 @@ class ClosedLoopStudy final : public SectionStudy<ClosedLoopConfig> {
     const ModelTasks& runs = evaluation.plan.model_tasks_called(name);
     const std::vector<SurvivalRow> rows =
         survival_rows(evaluation.request, [&](std::size_t run) -> std::optional<ClosedLoopMetrics> {
-          const std::optional<std::string> bytes = evaluation.model_results.read(runs, run);
+          const std::optional<std::string> bytes = saved_result(runs, run, evaluation.saved);
           const auto metrics = from_bytes<ClosedLoopMetrics>(bytes.value_or(std::string()));
           return metrics.empty() ? std::nullopt : std::optional(metrics.front());
         });

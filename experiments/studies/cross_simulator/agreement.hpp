@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiments/config/experiment.hpp"
-#include "experiments/rollouts/rollouts.hpp"
+#include "experiments/plan/rollouts.hpp"
 #include "scoring/bootstrap.hpp"
 #include "scoring/histogram.hpp"
 

@@ -1,8 +1,8 @@
 #include "experiments/studies/labels/study.hpp"
 
 #include "core/files.hpp"
-#include "experiments/plan/sensors.hpp"
 #include "experiments/results/text_tables.hpp"
+#include "experiments/plan/request.hpp"
 #include "experiments/studies/labels/tables.hpp"
 
 namespace touchdown::experiments {

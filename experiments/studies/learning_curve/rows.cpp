@@ -4,8 +4,8 @@
 #include <map>
 #include <optional>
 
-#include "experiments/evaluation/scenes.hpp"
-#include "experiments/rollouts/training_sets.hpp"
+#include "experiments/evaluation/joint_bootstrap.hpp"
+#include "experiments/plan/training_data.hpp"
 #include "experiments/studies/learning_curve/config.hpp"
 #include "experiments/studies/learning_curve/plan.hpp"
 

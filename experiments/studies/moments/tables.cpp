@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/table.hpp"
-#include "experiments/plan/sensors.hpp"
+#include "experiments/plan/request.hpp"
 
 namespace touchdown::experiments {
 

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "experiments/plan/measure.hpp"
+#include "experiments/plan/plan.hpp"
 #include "experiments/studies/operating_points/config.hpp"
 
 namespace touchdown::experiments {

@@ -87,8 +87,8 @@ TEST(ExperimentFile, IsRefusedWithThePlaceAndTheReason) {
        "11:",
        "'phase' among the experiment's estimators",
        {"estimators=[robust]"}},
-      {"video: {torque_noise: 0.25}", "11:", "this key is now called 'noise.torque'"},
-      {"video: {accelerometer_noise: 1}", "11:", "'noise.accelerometer'"},
+      {"video: {torque_noise: 0.25}", "11:", "torque_noise: unknown key"},
+      {"video: {accelerometer_noise: 1}", "11:", "accelerometer_noise: unknown key"},
       {"video: {noise: {torque: 0.25}}", "11:", "accelerometer"},
       {"video: {noise: {torque: -1, accelerometer: 0}}", "11:", "torque"},
       {"video: {noise: 3}", "11:", "noise"}};

@@ -6,7 +6,7 @@
 
 #include "estimator/force/support_force.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "experiments/evaluation/sweep_run.hpp"
+#include "experiments/evaluation/tasks.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/signals/run_signals.hpp"
 #include "scenarios/engine.hpp"

@@ -1,4 +1,3 @@
-#include "experiments/evaluation/sweep_run.hpp"
 
 #include <array>
 #include <cmath>
@@ -7,7 +6,6 @@
 
 #include "core/error.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "experiments/evaluation/sweep_batch.hpp"
 #include "experiments/evaluation/tasks.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 #include "tests/scratch_folder.hpp"
@@ -138,8 +136,8 @@ TEST(Evaluation, SharesScoresWithoutNoiseBetweenSeeds) {
       for (const Task& task : plan.tasks) {
         const RunSignals run = synthetic_run(plan.runs[task.run].run);
         NoiseFreeScores alone;
-        EXPECT_EQ(to_bytes(evaluate(plan, task, run, experiment, models, shared, always)),
-                  to_bytes(evaluate(plan, task, run, experiment, models, alone, always)));
+        EXPECT_EQ(pack(evaluate(plan, task, run, experiment, models, shared, always)),
+                  pack(evaluate(plan, task, run, experiment, models, alone, always)));
       }
     }
   }
@@ -164,7 +162,7 @@ TEST(Evaluation, EqualsTheSumOfSingleConditions) {
   }
   plan_tasks(experiment, 0, plan);
   ASSERT_EQ(plan.tasks.size(), 4U);
-  const SavedCounts saved(folder.path(), "key");
+  const Store saved(folder.path(), "key");
   const std::vector<std::size_t> both = plan.runs_in(0);
   EXPECT_THROW(collect(plan, both, saved), Error);
   // The order of tasks does not matter. Saved tasks are not computed again.
@@ -175,7 +173,7 @@ TEST(Evaluation, EqualsTheSumOfSingleConditions) {
                      always),
             1U);
   EXPECT_FALSE(
-      SavedCounts(folder.path(), "other build").read(plan, plan.tasks.front()).has_value());
+      saved_counts(plan, plan.tasks.front(), Store(folder.path(), "other build")).has_value());
   const CollectedCounts all = collect(plan, both, saved);
 
   ASSERT_EQ(all.counted.size(), conditions.size());

@@ -1,13 +1,12 @@
-#include "experiments/plan/served_robots.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "experiments/experiment_context.hpp"
+#include "experiments/plan/plan.hpp"
 #include "experiments/run_experiment.hpp"
-#include "experiments/stages/experiment_context.hpp"
 #include "experiments/studies/experiment_file.hpp"
 #include "tests/scratch_folder.hpp"
 

@@ -13,9 +13,9 @@
 #include "core/error.hpp"
 #include "estimator/bayes/filter.hpp"
 #include "estimator/phase/config.hpp"
-#include "experiments/evaluation/sweep_run.hpp"
 #include "experiments/fitting/make_estimator.hpp"
 #include "experiments/plan/condition.hpp"
+#include "experiments/evaluation/tasks.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 
 namespace touchdown::experiments {

@@ -5,14 +5,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/error.hpp"
 #include "core/files.hpp"
-#include "experiments/run_directory/recorded_files.hpp"
-#include "experiments/run_directory/saved_state.hpp"
+#include "experiments/run_directory/directory.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 using ::testing::UnorderedElementsAreArray;
 
 namespace fs = std::filesystem;
@@ -61,14 +64,16 @@ struct OwnFiles : ::testing::Test {
                  "# Draws success_mujoco.png, success_mujoco.svg and success_mujoco.pdf\n"
                  "plot 'success_mujoco.dat', 'success_mujoco_2.dat'\n");
     for (const char* file :
-         {"state/recordings/mujoco_step_test_000.mpack.sum",
-          "recordings/mujoco_step_test_000.mpack",
+         {"state/recordings/mujoco_step_test_000.mpack", "recordings/mujoco_step_test_000.mpack",
           "state/evaluation/mujoco_step_test_000_seed_0000", "state/shards/1_of_2",
-          "state/submissions/mine", "models/mujoco_robust.npz", "tables/success.csv",
-          "tables/summary.json", "figures/success_mujoco.png", "figures/success_mujoco.dat",
-          "figures/success_mujoco_2.dat", "figures/style.gp", "videos/mujoco_step.mp4",
-          "videos/report.jpg", "manifest.json", "report.html"}) {
+          "state/submissions/mine", "figures/success_mujoco.png", "figures/success_mujoco.dat",
+          "figures/success_mujoco_2.dat", "figures/style.gp", "videos/report.jpg", "manifest.json",
+          "report.html"}) {
       folder.write(file, "ours");
+    }
+    for (const char* file : {"models/mujoco_robust.npz", "tables/success.csv",
+                             "tables/summary.json", "videos/mujoco_step.mp4"}) {
+      write_atomically(record_file(folder.path(), file), "ours");
     }
     for (const std::string& file : untracked) folder.write(file, "precious");
     folder.write("state/key", "experiment x build y\n");
@@ -124,21 +129,6 @@ TEST_F(OwnFiles, OfAnyNameAreRemovedIfTheRunRecordedThem) {
   EXPECT_THAT(left(), UnorderedElementsAreArray(expected));
 }
 
-TEST_F(OwnFiles, OfEarlierVersionsAreRemovedWithoutRecords) {
-  const std::vector<std::string> earlier = {"tables/benchmark.csv",
-                                            "tables/survival.csv",
-                                            "tables/labels.md",
-                                            "tables/benchmark.json",
-                                            "videos/closed_loop_mujoco.mp4",
-                                            "benchmark.html",
-                                            "trajectories/mujoco_step_truth.tum",
-                                            "state/closed_loop/run_000003"};
-  for (const std::string& file : earlier) folder.write(file, "ours");
-  record_file(folder.path(), "tables/new.csv");  // by a later version, such as its report
-  remove_own_files(folder.path());
-  for (const std::string& file : earlier) EXPECT_FALSE(fs::exists(folder / file)) << file;
-}
-
 TEST_F(OwnFiles, AreNamedByTheirRecordsAfterAKilledRemoval) {
   write_atomically(record_file(folder.path(), "tables/mine.csv"), "ours");
   const std::vector<fs::path> files = own_files(folder.path());
@@ -173,6 +163,108 @@ TEST_F(OwnFiles, OfAWholeRunGoWithItsFolderUnlessUntrackedFilesStay) {
   fs::remove(folder / "data");
   EXPECT_EQ(remove_run(folder.path()).files, 0U);
   EXPECT_FALSE(fs::exists(folder.path()));
+}
+
+namespace fs = std::filesystem;
+
+TEST(RunDirectoryOwner, IsReadFromTheKey) {
+  const ScratchFolder folder;
+  EXPECT_FALSE(owner_of(folder.path()).has_value());
+  folder.write("state/key", key_of("0123", "abcd") + "\n");
+  ASSERT_TRUE(owner_of(folder.path()).has_value());
+  EXPECT_EQ(owner_of(folder.path())->request, "0123");
+  EXPECT_EQ(owner_of(folder.path())->key, key_of("0123", "abcd"));
+  EXPECT_EQ(owner_of(folder.path())->name, "");
+  folder.write("config.yaml", "name: stairs\n");
+  EXPECT_EQ(owner_of(folder.path())->name, "stairs");
+  folder.write("state/key", "ssh-rsa AAAA\n");
+  EXPECT_FALSE(owner_of(folder.path()).has_value());
+}
+
+TEST(RunDirectoryOwner, IsReadFromTheManifestOnceTheStateWasRemoved) {
+  const ScratchFolder folder;
+  folder.write("config.yaml", "name: stairs\n");
+  for (const char* other : {"{}", "[1", R"({"id": "0123", "versions": {"npm": "8"}})",
+                            R"({"versions": {"touchdown": "0.1.0"}})"}) {
+    folder.write("manifest.json", other);
+    EXPECT_FALSE(owner_of(folder.path()).has_value()) << other;
+  }
+  folder.write("manifest.json", R"({"id": "0123", "versions": {"touchdown": "0.1.0"}})");
+  ASSERT_TRUE(owner_of(folder.path()).has_value());
+  EXPECT_EQ(owner_of(folder.path())->request, "0123");
+  EXPECT_EQ(owner_of(folder.path())->name, "stairs");
+  EXPECT_EQ(owner_of(folder.path())->key, "");
+}
+
+TEST(TrainingDirectory, IsRefusedWithAnExperimentOrAnotherConfiguration) {
+  const ScratchFolder folder;
+  const auto ask = [&] {
+    require_place_beside(folder.path(), "name: nmn\n", "tables/training.csv");
+  };
+  EXPECT_NO_THROW(ask());
+  folder.write("config.yaml", "name: nmn\n");
+  EXPECT_NO_THROW(ask());
+  folder.write("config.yaml", "precious: true\n");
+  EXPECT_THAT(ask, ThrowsMessage<InputError>(HasSubstr("config.yaml is there already")));
+  // A training may continue with more iterations.
+  folder.write("tables/training.csv", "iteration\n");
+  EXPECT_NO_THROW(ask());
+  folder.write("state/key", key_of("0123", "abcd") + "\n");
+  EXPECT_THAT(ask, ThrowsMessage<InputError>(HasSubstr("holds experiment")));
+}
+
+TEST(UntrackedFiles, InPlacesOfARunsFilesAreNamed) {
+  for (const std::string file : {"config.yaml", "manifest.json", "report.html", "tables/a.csv",
+                                 "videos/a.mp4", "state/deep/a", "state/notes", "models/.hidden"}) {
+    const ScratchFolder folder;
+    folder.write(file, "precious");
+    const std::string named = file == "state/deep/a" ? "state/deep" : file;
+    EXPECT_THAT([&] { require_no_untracked_files(folder.path()); },
+                ThrowsMessage<InputError>(AllOf(HasSubstr(folder.path().string()),
+                                                HasSubstr(named + " is there already"),
+                                                HasSubstr("--out"))));
+  }
+}
+
+TEST(UntrackedFiles, AreNoneOnceARunOwnsTheDirectory) {
+  const ScratchFolder folder;
+  folder.write("config.yaml", "name: stairs\n");
+  folder.write("state/scenario_000.yaml", "name: stairs\n");
+  EXPECT_THROW(require_no_untracked_files(folder.path()), InputError);
+  // Of two runs that start together, the first writes its key while the second checks the files.
+  folder.write("state/key", key_of("0123", "abcd") + "\n");
+  EXPECT_NO_THROW(require_no_untracked_files(folder.path()));
+}
+
+TEST(UntrackedFiles, AreAllowedElsewhere) {
+  const ScratchFolder folder;
+  EXPECT_NO_THROW(require_no_untracked_files(folder.path()));
+  EXPECT_NO_THROW(require_no_untracked_files(folder / "missing"));
+  folder.write("notes.md", "precious");
+  folder.write("logs/shard_1_1.txt", "of the cluster");
+  folder.write("my/tables/a.csv", "precious");
+  fs::create_directory(folder / "tables");
+  // Files of a killed or concurrent start.
+  folder.write("state/lock", "");
+  folder.write("state/.key.12.0abcdef0.part", "half");
+  EXPECT_NO_THROW(require_no_untracked_files(folder.path()));
+}
+
+TEST(FreeSpace, TooLittleIsAnErrorWithItsPurposeAndAdvice) {
+  const ScratchFolder folder;
+  constexpr std::uintmax_t too_much = std::uintmax_t{1} << 62;
+  EXPECT_NO_THROW(require_free_space(folder.path(), 1));
+  EXPECT_THAT([&] { require_free_space(folder.path(), too_much, "so many parts"); },
+              ThrowsMessage<Error>(
+                  AllOf(HasSubstr(folder.path().string()), HasSubstr("GB are free"),
+                        HasSubstr("this run may need 4611686018.4 GB (so many parts), and "),
+                        HasSubstr("recordings=pictured"))));
+  EXPECT_THAT(
+      [&] {
+        require_free_space(folder.path(), too_much, "", {"export", "choose a part"});
+      },
+      ThrowsMessage<Error>(
+          AllOf(HasSubstr("this export may need"), HasSubstr("are free: choose a part"))));
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/estimators/measurement_fitting.hpp"
-#include "experiments/evaluation/sweep_batch.hpp"
+#include "experiments/evaluation/tasks.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/fitting/make_estimator.hpp"
 #include "tests/experiments/synthetic_runs.hpp"

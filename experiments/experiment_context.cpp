@@ -1,0 +1,157 @@
+#include "experiments/experiment_context.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "experiments/needs.hpp"
+#include "experiments/plan/plan.hpp"
+#include "experiments/run_directory/directory.hpp"
+#include "experiments/run_directory/shard.hpp"
+#include "experiments/studies/registry.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+/// The indices of the tasks that are not finished.
+std::vector<std::size_t> missing_tasks(const ExperimentContext& context) {
+  const Plan& plan = context.plan;
+  std::set<std::size_t> missing_runs;
+  bool fit_is_missing = false;
+  for (std::size_t i = 0; i < plan.runs.size(); ++i) {
+    if (is_recorded(plan.runs[i], context.directory)) continue;
+    missing_runs.insert(i);
+    fit_is_missing = fit_is_missing || plan.runs[i].role == RunRole::fit;
+  }
+  std::vector<std::size_t> missing;
+  for (std::size_t t = 0; t < plan.tasks.size(); ++t) {
+    if (fit_is_missing || missing_runs.contains(plan.tasks[t].run) ||
+        !saved_counts(plan, plan.tasks[t], context.directory.store())) {
+      missing.push_back(t);
+    }
+  }
+  return missing;
+}
+
+/// An upper bound of what the run may still write.
+DiskNeeds disk_needs(const Plan& plan, const RunDirectory& directory) {
+  DiskNeeds needs;
+  for (const PlannedRun& run : plan.runs) {
+    if (run.kept && !has_stamp(run, directory)) needs.recordings += bytes_of_recording(run);
+  }
+  const std::size_t parts = plan.tasks.size();
+  const std::size_t missing = parts - std::min(parts, directory.store().names(task_parts).size());
+  if (missing > 0) {
+    needs.parts = bytes_of_parts(plan) * static_cast<double>(missing) / static_cast<double>(parts);
+  }
+  return needs;
+}
+
+/// Errors: `InputError` when the saved state of a task belongs to another task or request.
+void require_own(const ExperimentContext& context, const Task& task) {
+  const std::optional<WrongPart> wrong =
+      context.directory.store().wrong_part(task_parts, task_name(context.plan, task));
+  if (!wrong) return;
+  throw InputError(fmt::format("{}: holds '{}', expected '{}'", wrong->file.string(), wrong->found,
+                               wrong->expected));
+}
+
+}  // namespace
+
+int threads_of(const Experiment& experiment) {
+  if (experiment.workers > 0) return experiment.workers;
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+Plan whole_plan(const RunRequest& request) {
+  require_memory(request, 0.0);
+  Plan plan = plan_of(request);
+  for (const Study* study : requested_studies(request.experiment)) study->plan(request, plan);
+  plan.kept_signals = kept_signals(request.experiment);
+  keep_recordings(request.experiment, plan);
+  require_served(request.experiment, plan);
+  return plan;
+}
+
+ExperimentContext start(RunRequest request, RunDirectory directory, const RunOptions& options) {
+  Plan plan = whole_plan(request);
+  return start(std::move(request), std::move(plan), std::move(directory), options);
+}
+
+ExperimentContext start(RunRequest request, Plan plan, RunDirectory directory,
+                        const RunOptions& options) {
+  const int threads = threads_of(request.experiment);
+  const DiskNeeds needs = disk_needs(plan, directory);
+  require_free_space(
+      directory.path(), static_cast<std::uintmax_t>(needs.all()),
+      fmt::format("{:.1f} GB for recordings, {:.1f} GB for {} parts of the evaluation, "
+                  "by test.runs={} and noise.seeds={}",
+                  1e-9 * needs.recordings, 1e-9 * needs.parts, plan.tasks.size(),
+                  request.experiment.test.runs, request.experiment.noise.seeds));
+  ShouldContinue should_continue = [stop = options.stop, directory] {
+    directory.require_in_place();
+    return stop == nullptr || !*stop;
+  };
+  request.experiment.intervals.bootstrap.before_resamples = [should_continue] {
+    if (!should_continue()) throw Stopped();
+  };
+  return {std::move(request),
+          std::move(directory),
+          std::move(plan),
+          std::move(should_continue),
+          {options.command, threads, {}},
+          tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                              static_cast<std::size_t>(threads))};
+}
+
+std::string what_is_saved(const ExperimentContext& context) {
+  const std::vector<PlannedRun>& runs = context.plan.runs;
+  const auto kept =
+      std::count_if(runs.begin(), runs.end(), [](const PlannedRun& run) { return run.kept; });
+  const auto recordings = std::count_if(runs.begin(), runs.end(), [&](const PlannedRun& run) {
+    return run.kept && has_stamp(run, context.directory);
+  });
+  const auto parts =
+      std::count_if(context.plan.tasks.begin(), context.plan.tasks.end(), [&](const Task& task) {
+        return saved_counts(context.plan, task, context.directory.store());
+      });
+  return fmt::format(
+      "stopped; {} of {} recordings and {} of {} parts of the evaluation are saved in {}; the "
+      "same command continues from there",
+      recordings, kept, parts, context.plan.tasks.size(), context.directory.path().string());
+}
+
+void require_all_shards(const ExperimentContext& context) {
+  const std::vector<std::size_t> missing = missing_tasks(context);
+  const std::size_t tasks = context.plan.tasks.size();
+  if (missing.empty() &&
+      !lacks_model_tasks(context.plan, context.plan.all_tasks(), context.directory.store()))
+    return;
+  for (const std::size_t task : missing) require_own(context, context.plan.tasks[task]);
+  const std::filesystem::path& directory = context.directory.path();
+  const int count = started_shards(directory);
+  std::vector<std::string> shards;
+  for (int index = 1; index <= count; ++index) {
+    const Shard shard{index, count};
+    const auto first = std::lower_bound(missing.begin(), missing.end(), shard.begin(tasks));
+    const bool is_evaluated = first == missing.end() || *first >= shard.end(tasks);
+    if (is_evaluated && !lacks_model_tasks(context.plan, {shard.begin(tasks), shard.end(tasks)},
+                                           context.directory.store()))
+      continue;
+    shards.push_back(to_text(shard));
+  }
+  throw InputError(fmt::format(
+      "{}: {} of {} parts are missing: finish shard{} {} first, by 'touchdown run {} --out {} "
+      "--shard {}'",
+      directory.string(), missing.size(), tasks, shards.size() == 1 ? "" : "s",
+      fmt::join(shards, ", "), (directory / "config.yaml").string(), directory.string(),
+      shards.front()));
+}
+
+}  // namespace touchdown::experiments

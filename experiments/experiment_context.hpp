@@ -1,0 +1,70 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <string>
+
+#include <tbb/global_control.h>
+
+#include "experiments/evaluation/tasks.hpp"
+#include "experiments/results/result.hpp"
+
+namespace touchdown::experiments {
+
+/// How an experiment is run. No option changes a result.
+struct RunOptions {
+  std::filesystem::path out;  ///< run directory; empty: named after the experiment's content
+  std::string command;        ///< the command line, for the manifest
+  const std::atomic<bool>* stop = nullptr;  ///< set to true when the user asks to stop
+  bool overwrite = false;                   ///< replaces another experiment in the run directory
+};
+
+/// The state that all steps of an experiment share. While it lives, it limits the number of threads
+/// to the experiment's `workers`.
+struct ExperimentContext {
+  RunRequest request;
+  RunDirectory directory;
+  Plan plan;
+  ShouldContinue should_continue;
+  Provenance provenance;
+  tbb::global_control limit;
+};
+
+/// The number of threads that an experiment uses on this machine.
+int threads_of(const Experiment& experiment);
+
+/// Plans everything that the experiment file asks for, its studies included.
+Plan whole_plan(const RunRequest& request);
+
+/// Plans the experiment and checks that the disk has room for it. Errors: `InputError` for a wrong
+/// request; `Error` for too little memory or disk space.
+ExperimentContext start(RunRequest request, RunDirectory directory, const RunOptions& options);
+/// The same with a plan that was made before the directory.
+ExperimentContext start(RunRequest request, Plan plan, RunDirectory directory,
+                        const RunOptions& options);
+
+/// Runs a part of a step and adds its duration to that of the step.
+template <typename Step>
+void timed(ExperimentContext& context, const char* name, const Step& step) {
+  const auto start = std::chrono::steady_clock::now();
+  step();
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  auto& timings = context.provenance.timings;
+  const auto same = std::find_if(timings.begin(), timings.end(),
+                                 [&](const auto& timing) { return timing.first == name; });
+  if (same == timings.end()) {
+    timings.emplace_back(name, elapsed.count());
+  } else {
+    same->second += elapsed.count();
+  }
+}
+
+/// A message for the user who stopped the experiment: how much of it is saved.
+std::string what_is_saved(const ExperimentContext& context);
+
+/// Errors: `InputError` that names the shards with unsaved tasks.
+void require_all_shards(const ExperimentContext& context);
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "experiments/plan/plan.hpp"
+
+namespace touchdown::experiments {
+
+/// The size of an experiment with its studies.
+Needs needs_of(const RunRequest& request);
+
+/// The test runs that keep signals in memory: the most that a study or a picture needs; all for an
+/// experiment without studies.
+KeptSignals kept_signals(const Experiment& experiment);
+
+/// Memory and swap of this machine (bytes).
+double memory_of_machine();
+
+/// Memory that the plan and this share of the runs' signals need at least (bytes).
+double least_memory(const RunRequest& request, double share_of_runs);
+
+/// Checks that the plan and this share of the runs' signals fit into `memory` (bytes). Errors:
+/// `Error` that names the settings to lower.
+void require_memory(const RunRequest& request, double share_of_runs,
+                    double memory = memory_of_machine());
+
+/// An upper bound of what a run writes (bytes).
+struct DiskNeeds {
+  double recordings = 0.0;
+  double parts = 0.0;
+  double results = 50e6;  ///< pictures and tables
+
+  double all() const { return recordings + parts + results; }
+};
+
+/// An upper bound for a whole plan in an empty run directory.
+DiskNeeds disk_needs(const Plan& plan);
+
+/// An upper bound of the size of a run's recording (bytes).
+double bytes_of_recording(const PlannedRun& run);
+
+/// Size of the files of a plan's parts (bytes).
+double bytes_of_parts(const Plan& plan);
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,123 @@
+#include <algorithm>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "experiments/config/experiment.hpp"
+#include "experiments/plan/training_data.hpp"
+#include "experiments/stages.hpp"
+
+namespace touchdown::experiments {
+
+NeededRuns needed_runs(const ExperimentContext& context, const TaskRange& tasks) {
+  const Plan& plan = context.plan;
+  std::set<std::size_t> all = runs_for(plan, tasks);
+  if (has_model_tasks(plan, tasks)) {
+    for (std::size_t i = 0; i < plan.runs.size(); ++i) {
+      if (plan.runs[i].role == RunRole::fit && plan.runs[i].fit.empty()) all.insert(i);
+    }
+  }
+  NeededRuns needed;
+  for (const std::size_t index : all) {
+    (is_streamed(plan.runs[index], plan) ? needed.streamed : needed.held).insert(index);
+  }
+  return needed;
+}
+
+void drop_signals(Rollout& run) {
+  RunSignals left;
+  left.info = std::move(run.signals.info);
+  run.signals = std::move(left);
+}
+
+Rollouts hold_rollouts(const ExperimentContext& context, const std::set<std::size_t>& wanted,
+                       MissingRun missing) {
+  const Experiment& experiment = context.request.experiment;
+  Rollouts runs;
+  for (const std::size_t index : wanted) {
+    runs.emplace(index, Rollout{context.plan.runs[index], {}, {}});
+  }
+  FitRunCheck check(experiment, context.plan, wanted);
+  SegmentCutter segments(experiment.training_segments, runs);
+  for_each_rollout(experiment, context.plan, wanted, context.directory, missing,
+                   context.should_continue, [&](std::size_t index, Rollout run) {
+                     check.add(run);
+                     runs.at(index) = std::move(run);
+                     segments.add(index);
+                     release_free_memory();  // of what is cut off
+                   });
+  return runs;
+}
+
+namespace {
+
+bool is_whole_fit_run(const PlannedRun& run) { return run.role == RunRole::fit && run.group == 0; }
+
+}  // namespace
+
+FitRunCheck::FitRunCheck(const Experiment& experiment, const Plan& plan,
+                         const std::set<std::size_t>& needed) {
+  const bool has_segments = std::any_of(plan.runs.begin(), plan.runs.end(), [](const auto& run) {
+    return run.role == RunRole::fit && run.group != 0;
+  });
+  for (const std::string& name : experiment.estimators) {
+    const EstimatorEntry& entry = estimator_entry(experiment, name);
+    const bool has_other_runs = has_segments && entry.learns_from_segments;
+    if (entry.fits() && !has_other_runs) whole_run_estimators_.push_back(name);
+    if (entry.phase) phase_estimators_.push_back(name);
+    if (entry.config) measurement_estimators_.push_back(name);
+  }
+  for (const std::size_t index : needed) {
+    const PlannedRun& run = plan.runs[index];
+    if (is_whole_fit_run(run)) ++fits_[{run.fit, run.simulator}].left;
+  }
+}
+
+void FitRunCheck::add(const Rollout& run) {
+  if (!is_whole_fit_run(run.plan)) return;
+  Contents own;
+  if (!run.failed()) {
+    const auto& [lefts, rights] = run.signals.contact;
+    for (std::size_t k = 0; k < lefts.size(); ++k) {
+      const bool left = lefts[k] != 0;
+      const bool right = rights[k] != 0;
+      own.contact = own.contact || left || right;
+      own.no_contact = own.no_contact || !left || !right;
+      own.rolling = own.rolling || (left && right);
+      own.flight = own.flight || (!left && !right);
+    }
+  }
+  const std::lock_guard lock(mutex_);
+  Runs& runs = fits_.at({run.plan.fit, run.plan.simulator});
+  runs.scenes.insert(run.plan.scenario.name);
+  runs.is_any_usable = runs.is_any_usable || !run.failed();
+  if (run.failed()) runs.failures[run.plan.file] = run.report.ending;
+  Contents& all = runs.contents;
+  all.contact = all.contact || own.contact;
+  all.no_contact = all.no_contact || own.no_contact;
+  all.rolling = all.rolling || own.rolling;
+  all.flight = all.flight || own.flight;
+  if (--runs.left > 0) return;
+  const std::string& simulator = run.plan.simulator;
+  if (!runs.is_any_usable) {
+    if (whole_run_estimators_.empty()) return;
+    throw InputError(fmt::format("fit on {}: {}: no run of fit.scenarios stayed upright: {}",
+                                 simulator, fmt::join(whole_run_estimators_, ", "),
+                                 failures_text(runs.failures)));
+  }
+  require(all.rolling, phase_estimators_, "rolling on both wheels", simulator, runs);
+  require(all.flight, phase_estimators_, "flight", simulator, runs);
+  require(all.contact, measurement_estimators_, "contact", simulator, runs);
+  require(all.no_contact, measurement_estimators_, "step without contact", simulator, runs);
+}
+
+void FitRunCheck::require(bool holds, const std::vector<std::string>& estimators,
+                          const std::string& missing, const std::string& simulator,
+                          const Runs& runs) {
+  if (holds || estimators.empty()) return;
+  throw InputError(fmt::format("fit on {}: {}: fit.scenarios contain no {}: {}", simulator,
+                               fmt::join(estimators, ", "), missing, fmt::join(runs.scenes, ", ")));
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,70 @@
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "core/files.hpp"
+#include "experiments/run_experiment.hpp"
+#include "experiments/studies/experiment_file.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+RunOutline outline_of_file(const std::filesystem::path& file, const ScratchFolder& folder) {
+  return outline_of(experiment_from_yaml(YamlDocument::load(file)),
+                    {.out = folder / "run", .command = "test"});
+}
+
+TEST(Outline, CountsTheRunsAndPartsOfEveryShippedExperimentAndWritesNothing) {
+  const ScratchFolder folder;
+  int experiments = 0;
+  for (const std::filesystem::path& file : entries_in(TOUCHDOWN_SOURCE_DIR "/experiments")) {
+    if (file.extension() != ".yaml") continue;
+    const Experiment experiment = experiment_from_yaml(YamlDocument::load(file));
+    const RunOutline outline = outline_of_file(file, folder);
+    const auto runs = [&](const RunsConfig& config) {
+      return experiment.simulators.size() * config.scenarios.size() *
+             static_cast<std::size_t>(config.runs);
+    };
+    const std::string name = file.stem().string();
+    // Studies add runs with other robots and sensors, and of scenes of their own.
+    EXPECT_GE(outline.test_runs, runs(experiment.test)) << name;
+    EXPECT_GE(outline.fitted_runs, runs(experiment.fit)) << name;
+    EXPECT_EQ(outline.tasks, outline.test_runs * static_cast<std::size_t>(experiment.noise.seeds))
+        << name;
+    EXPECT_GT(outline.simulated, 0.0) << name;
+    EXPECT_GT(outline.memory, 0.0) << name;
+    EXPECT_GT(outline.disk, 0.0) << name;
+    EXPECT_EQ(outline.model_tasks.empty(), !name.starts_with("closed_loop")) << name;
+    ++experiments;
+  }
+  EXPECT_GT(experiments, 20);
+  EXPECT_FALSE(std::filesystem::exists(folder / "run"));
+}
+
+TEST(Outline, CountsOneSimulationForRunsThatDifferInTheirSensors) {
+  const ScratchFolder folder;
+  const RunOutline plain = outline_of_file(
+      folder.write("plain.yaml",
+                   "name: plain\nestimators: [robust]\n"
+                   "fit: {scenarios: [scenarios/stairs.yaml], runs: 1}\n"
+                   "test: {scenarios: [scenarios/hop.yaml], runs: 3}\nnoise: {seeds: 5}\n"),
+      folder);
+  EXPECT_EQ(plain.fitted_runs, 2U);  // two engines
+  EXPECT_EQ(plain.test_runs, 6U);
+  EXPECT_EQ(plain.tasks, 30U);
+  const RunOutline wide = outline_of_file(
+      folder.write("wide.yaml",
+                   "name: wide\nestimators: [robust]\n"
+                   "fit: {scenarios: [scenarios/stairs.yaml], runs: 1}\n"
+                   "test: {scenarios: [scenarios/hop.yaml], runs: 3}\nnoise: {seeds: 5}\n"
+                   "benchmark: {sensors: [sensors/upkie.yaml]}\n"),
+      folder);
+  EXPECT_EQ(wide.fitted_runs, 4U);
+  EXPECT_EQ(wide.test_runs, 12U);
+  EXPECT_EQ(wide.tasks, 60U);
+  EXPECT_DOUBLE_EQ(wide.simulated, plain.simulated);
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

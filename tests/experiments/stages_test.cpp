@@ -1,0 +1,204 @@
+#include "experiments/stages.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::ThrowsMessage;
+
+/// Two fitted runs and a test run, with these contacts of both wheels at every step.
+struct Case {
+  std::vector<std::string> estimators;
+  std::array<scoring::ContactSequence, 2> first;
+  std::array<scoring::ContactSequence, 2> second;
+};
+
+Rollout rollout(const PlannedRun& plan, const std::array<scoring::ContactSequence, 2>& contact) {
+  Rollout run{plan, {}, {}};
+  run.signals.contact = contact;
+  return run;
+}
+
+/// What the check does with the fitted runs of `given`; the second one has this outcome.
+void check(const Case& given, recordings::Outcome second = recordings::Outcome::finished) {
+  Experiment experiment;
+  experiment.estimators = given.estimators;
+  Plan plan;
+  for (const RunRole role : {RunRole::fit, RunRole::fit, RunRole::test}) {
+    PlannedRun run;
+    run.role = role;
+    run.simulator = "bullet";
+    run.scenario.name = "scene_" + std::to_string(plan.runs.size());
+    plan.runs.push_back(run);
+  }
+  FitRunCheck check(experiment, plan, {0, 1, 2});
+  check.add(rollout(plan.runs[2], {{{1, 1}, {1, 1}}}));
+  check.add(rollout(plan.runs[0], given.first));
+  Rollout last = rollout(plan.runs[1], given.second);
+  last.report.outcome = second;
+  check.add(last);
+}
+
+const std::array<scoring::ContactSequence, 2> rolls = {{{1, 1}, {1, 1}}};
+const std::array<scoring::ContactSequence, 2> hangs = {{{0, 0}, {0, 0}}};
+const std::array<scoring::ContactSequence, 2> lifts_left = {{{1, 0}, {1, 1}}};
+
+TEST(FitRunCheck, NamesWhatTheRunsOfAFitLackTheEstimatorsAndTheScenes) {
+  EXPECT_THAT(
+      [] {
+        check({{"free_fall", "phase", "hmm", "evidence_curves"}, rolls, lifts_left});
+      },
+      ThrowsMessage<InputError>("fit on bullet: phase, hmm: fit.scenarios contain no "
+                                "flight: scene_0, scene_1"));
+  EXPECT_THAT(
+      [] {
+        check({{"phase"}, hangs, hangs});
+      },
+      ThrowsMessage<InputError>(HasSubstr("phase: fit.scenarios contain no rolling")));
+  EXPECT_THAT(
+      [] {
+        check({{"robust", "paper"}, rolls, rolls});
+      },
+      ThrowsMessage<InputError>(
+          HasSubstr("robust, paper: fit.scenarios contain no step without contact")));
+  EXPECT_THAT(
+      [] {
+        check({{"measurement_only"}, hangs, hangs});
+      },
+      ThrowsMessage<InputError>(HasSubstr("contain no contact")));
+}
+
+TEST(FitRunCheck, AcceptsRunsThatHaveItTogether) {
+  EXPECT_NO_THROW(check({{"phase", "robust"}, rolls, hangs}));
+  EXPECT_NO_THROW(check({{"robust"}, rolls, lifts_left}));
+  EXPECT_NO_THROW(check({{"free_fall", "upkie_observer"}, rolls, rolls}));
+}
+
+TEST(FitRunCheck, DoesNotUseRunsThatFell) {
+  EXPECT_THROW(check({{"phase"}, rolls, hangs}, recordings::Outcome::fell), InputError);
+}
+
+/// What the check does with runs of which each one fails in another way. `segment`: whether there
+/// are training segments as well.
+void check_failing(const std::vector<std::string>& estimators, bool segment) {
+  Experiment experiment;
+  experiment.estimators = estimators;
+  Plan plan;
+  const auto failures = {recordings::Outcome::left_terrain, recordings::Outcome::fell,
+                         recordings::Outcome::diverged};
+  for (const recordings::Outcome failure : failures) {
+    PlannedRun run;
+    run.role = RunRole::fit;
+    run.simulator = "bullet";
+    run.file = "run_" + std::to_string(static_cast<int>(failure));
+    plan.runs.push_back(run);
+  }
+  if (segment) {
+    plan.runs.push_back(plan.runs.front());
+    plan.runs.back().group = 1;
+  }
+  FitRunCheck check(experiment, plan, {0, 1, 2});
+  for (std::size_t i = 0; i < failures.size(); ++i) {
+    Rollout run = rollout(plan.runs[i], rolls);
+    run.report.outcome = failures.begin()[i];
+    run.report.ending = "ended badly";
+    check.add(run);
+  }
+}
+
+TEST(FitRunCheck, NamesTheFirstFailureIfEveryRunFails) {
+  EXPECT_THAT(
+      [] {
+        check_failing({"robust", "free_fall", "force_kinematics"}, false);
+      },
+      ThrowsMessage<InputError>(
+          "fit on bullet: robust, force_kinematics: no run of fit.scenarios stayed upright: "
+          "run_2 ended badly, and 2 others"));
+  // Those that are fitted to segments have other runs.
+  EXPECT_THAT(
+      [] {
+        check_failing({"phase", "robust"}, true);
+      },
+      ThrowsMessage<InputError>(HasSubstr("fit on bullet: robust: no run")));
+  EXPECT_NO_THROW(check_failing({"phase"}, true));
+  EXPECT_NO_THROW(check_failing({"free_fall", "upkie_observer"}, false));
+}
+
+/// A plan of test runs in groups, with one task for each run.
+struct SmallPlan {
+  Plan plan;
+
+  void add_group(const std::vector<Condition>& conditions) {
+    plan.groups.push_back({"", conditions, {}, {}});
+  }
+  void add_run(std::size_t group, const std::string& simulator, std::int64_t number) {
+    PlannedRun run;
+    run.simulator = simulator;
+    run.run = number;
+    run.group = group;
+    plan.runs.push_back(run);
+    plan.tasks.push_back({plan.runs.size() - 1, 0, {}});
+  }
+};
+
+FittedModels fits(const std::vector<std::string>& keys) {
+  FittedModels models;
+  for (const std::string& key : keys) models[key];
+  return models;
+}
+
+TEST(PendingTasks, AreReadyOnceAllTheirFitsExist) {
+  SmallPlan small;
+  small.add_group({{"mujoco", "mujoco", "robust"},
+                   {"bullet", "bullet", "robust"},
+                   {"bullet", "mujoco", "robust"},        // a fit of the other engine
+                   {"mujoco", "mujoco", "hmm", "", 1}});  // a refit
+  small.add_run(0, "mujoco", 0);
+  small.add_run(0, "bullet", 1);
+  PendingTasks pending(small.plan, small.plan.all_tasks());
+  EXPECT_THAT(pending.take_ready({}), IsEmpty());
+  EXPECT_THAT(pending.take_ready(fits({"mujoco"})), IsEmpty());
+  EXPECT_TRUE(pending.needs("mujoco"));
+  EXPECT_TRUE(pending.needs("mujoco~1"));
+  EXPECT_FALSE(pending.needs("bullet~1"));
+  EXPECT_THAT(pending.take_ready(fits({"mujoco", "bullet"})), ElementsAre(1U));
+  EXPECT_TRUE(pending.needs("bullet"));
+  EXPECT_THAT(pending.take_ready(fits({"mujoco", "bullet", "mujoco~1"})), ElementsAre(0U));
+  EXPECT_FALSE(pending.needs("bullet"));
+  EXPECT_THAT(pending.take_all(), IsEmpty());
+}
+
+TEST(PendingTasks, OfOneSimulationAreReadyTogether) {
+  SmallPlan small;
+  small.add_group({{"mujoco", "mujoco", "robust"}});
+  small.add_group({{"mujoco", "mujoco", "robust", "_harsh"}});
+  small.add_run(0, "mujoco", 0);
+  small.add_run(0, "mujoco", 1);
+  small.add_run(1, "mujoco", 1);  // the simulation of the run before, with other sensors
+  small.add_run(1, "mujoco", 2);
+  PendingTasks pending(small.plan, small.plan.all_tasks());
+  EXPECT_THAT(pending.take_ready(fits({"mujoco"})), ElementsAre(0U));
+  EXPECT_TRUE(pending.needs("mujoco"));
+  EXPECT_THAT(pending.take_ready(fits({"mujoco", "mujoco_harsh"})), ElementsAre(1U, 2U, 3U));
+}
+
+TEST(PendingTasks, AreThoseOfTheRangeAndAllAreTakenInTheEnd) {
+  SmallPlan small;
+  small.add_group({{"mujoco", "mujoco", "robust"}, {"bullet", "bullet", "robust"}});
+  for (int i = 0; i < 4; ++i) small.add_run(0, i < 3 ? "mujoco" : "bullet", i);
+  PendingTasks pending(small.plan, {1, 3});
+  EXPECT_FALSE(pending.needs("bullet"));
+  EXPECT_THAT(pending.take_all(), ElementsAre(1U, 2U));
+  EXPECT_FALSE(pending.needs("mujoco"));
+  EXPECT_THAT(pending.take_all(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace touchdown::experiments
