@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/program/memory.hpp"
-#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/config/experiment.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/fitting/refits.hpp"
 #include "experiments/plan/training_data.hpp"

@@ -14,7 +14,7 @@
 #include "core/program/memory.hpp"
 #include "experiments/evaluation/tuning_table.hpp"
 #include "experiments/needs.hpp"
-#include "experiments/results/manifest.hpp"
+#include "experiments/results/long_table.hpp"
 #include "experiments/results/result_files.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_directory/test_seed_log.hpp"
@@ -22,7 +22,6 @@
 #include "experiments/stages.hpp"
 #include "experiments/studies/experiment_file.hpp"
 #include "experiments/studies/registry.hpp"
-#include "experiments/tables/results.hpp"
 
 namespace touchdown::experiments {
 

@@ -9,7 +9,7 @@
 #include "experiments/config/experiment.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "noise/gaussian.hpp"
-#include "noise/sensors/profile.hpp"
+#include "noise/sensor_profile.hpp"
 #include "recordings/recording.hpp"
 #include "scenarios/scenario.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/tables/verbs.hpp"
+#include "core/rows.hpp"
 
 namespace touchdown::experiments {
 

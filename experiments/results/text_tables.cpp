@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "experiments/plan/rollouts.hpp"
 #include "experiments/results/captions.hpp"
-#include "experiments/rollouts/failures.hpp"
 
 namespace touchdown::experiments {
 
