@@ -55,11 +55,14 @@ class RunDirectory {
   /// Writes a file of `tables/`.
   void write_table(std::string_view name, const Table& table) const;
   /// The same for measured rows, which `results.csv` repeats: saves what their columns mean.
+  /// Returns the table.
   template <typename Row>
-  void write_table(std::string_view name, const Columns<Row>& columns,
-                   const std::vector<Row>& rows) const {
-    write_table(name, columns.table(rows));
+  Table write_table(std::string_view name, const Columns<Row>& columns,
+                    const std::vector<Row>& rows) const {
+    Table table = columns.table(rows);
+    write_table(name, table);
     write_columns(path_, name, columns.infos());
+    return table;
   }
 
  private:

@@ -10,7 +10,7 @@
 #include "core/file_names.hpp"
 #include "core/tables/verbs.hpp"
 #include "core/yaml.hpp"
-#include "experiments/studies/benchmark/plan.hpp"
+#include "experiments/studies/benchmark.hpp"
 
 namespace touchdown::experiments {
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "experiments/config/experiment_estimators.hpp"
-#include "experiments/figures/groups.hpp"
+#include "experiments/figures/figure_spec.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::experiments {

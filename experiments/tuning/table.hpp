@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/figures/study_result.hpp"
+#include "experiments/figures/figure_spec.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/tuning/tune.hpp"
 

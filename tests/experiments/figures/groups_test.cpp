@@ -1,4 +1,4 @@
-#include "experiments/figures/groups.hpp"
+#include "experiments/figures/figure_spec.hpp"
 
 #include <cmath>
 
