@@ -6,16 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/tables/table.hpp"
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "experiments/run_experiment.hpp"
-#include "experiments/studies/experiment_file.hpp"
-#include "tests/experiments/small_step_scene.hpp"
+#include "tests/experiments/studies/study_test.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
-#include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {
 namespace {
@@ -39,12 +33,7 @@ struct Ablation : ::testing::Test {
   }
 
   std::string complaint(const std::string& more) const {
-    try {
-      (void)experiment(more);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no complaint";
+    return complaint_of([&] { (void)experiment(more); });
   }
 
   ScratchFolder folder;
@@ -57,8 +46,8 @@ TEST_F(Ablation, ComparesEachStepWithTheOneBeforeIt) {
       experiment("estimators: [free_fall, paper, paper_low_pass, paper_switch, robust, hmm]\n"
                  "benchmark: {refits: 1}\nablation: {from: paper, to: robust}\n"),
       options);
-  const Table table = from_csv(read_file(folder / "run/tables/ablation.csv"));
-  const Table standings = from_csv(read_file(folder / "run/tables/benchmark_standings.csv"));
+  const Table table = result.directory.read_table("ablation.csv");
+  const Table standings = result.directory.read_table("benchmark_standings.csv");
   // The benchmark's standings are the same means, with the same intervals.
   std::map<std::string, std::string> mean;
   for (const auto& row : standings.rows) {
@@ -92,10 +81,9 @@ TEST_F(Ablation, ComparesEachStepWithTheOneBeforeIt) {
 }
 
 TEST_F(Ablation, ReadsItsConfigurationBack) {
-  const std::string text =
-      to_yaml(experiment("estimators: [paper, paper_floor, hmm_without_memory]\nablation: {}\n"));
+  const std::string text = reread_yaml(
+      experiment("estimators: [paper, paper_floor, hmm_without_memory]\nablation: {}\n"));
   EXPECT_THAT(text, AllOf(HasSubstr("from: paper"), HasSubstr("to: hmm_without_memory")));
-  EXPECT_EQ(text, to_yaml(experiment_from_yaml(YamlDocument::parse(text, "again.yaml"))));
   EXPECT_THAT(to_yaml(experiment("")), Not(HasSubstr("ablation")));
 }
 
@@ -169,9 +157,7 @@ TEST(BayesAblation, EndsInRobustToTheBitOnASimulatedRun) {
   experiment.test = {.scenarios = {scene}, .runs = 1};
   experiment.highlights = {{}};
   experiment.video.enabled = false;
-  RunOptions options;
-  options.out = folder / "run";
-  const ExperimentResult result = run_experiment(experiment, options);
+  const ExperimentResult result = run_in(folder, experiment);
   const std::vector<const RunSignals*> runs = scored_runs(result.runs);
   ASSERT_EQ(runs.size(), 1U);
   const auto& models = result.models.at("mujoco");

@@ -1,12 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/files.hpp"
-#include "core/tables/table.hpp"
-#include "experiments/run_experiment.hpp"
-#include "experiments/studies/experiment_file.hpp"
-#include "tests/experiments/small_step_scene.hpp"
-#include "tests/scratch_folder.hpp"
+#include "tests/experiments/studies/study_test.hpp"
 
 namespace touchdown::experiments {
 namespace {
@@ -37,10 +32,8 @@ class LostScene : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(LostScene, IsARowWithoutScoresAndNoPartOfTheMean) {
   const ScratchFolder folder;
-  RunOptions options;
-  options.out = folder / "run";
-  const ExperimentResult result = run_experiment(with_a_lost_scene(folder, GetParam()), options);
-  const Table table = from_csv(read_file(folder / "run/tables/benchmark.csv"));
+  const ExperimentResult result = run_in(folder, with_a_lost_scene(folder, GetParam()));
+  const Table table = result.directory.read_table("benchmark.csv");
   int lost = 0;
   double sum = 0.0;
   int scored = 0;
@@ -56,7 +49,7 @@ TEST_P(LostScene, IsARowWithoutScoresAndNoPartOfTheMean) {
     ++scored;
   }
   EXPECT_EQ(lost, 2 * 2) << "engines and estimators";
-  const Table standings = from_csv(read_file(folder / "run/tables/benchmark_standings.csv"));
+  const Table standings = result.directory.read_table("benchmark_standings.csv");
   ASSERT_EQ(standings.rows.size(), 2U);
   for (const std::vector<std::string>& row : standings.rows) {
     EXPECT_EQ(cell(standings, row, "scored_scenes"), "2");

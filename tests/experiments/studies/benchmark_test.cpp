@@ -7,15 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/tables/table.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "experiments/run_experiment.hpp"
 #include "experiments/stages/experiment_context.hpp"
-#include "experiments/studies/experiment_file.hpp"
-#include "tests/experiments/small_step_scene.hpp"
-#include "tests/scratch_folder.hpp"
+#include "tests/experiments/studies/study_test.hpp"
 
 namespace touchdown::experiments {
 namespace {
@@ -125,10 +119,8 @@ TEST(ABenchmark, ScoresTransfersBesideInDomainFits) {
       with_benchmark(folder, "{robots: [models/upkie_actuated.yaml], transfer: true}");
   experiment.simulators = {"mujoco", "bullet"};
   experiment.highlights.resize(1);
-  RunOptions options;
-  options.out = folder / "run";
-  const ExperimentResult result = run_experiment(experiment, options);
-  const Table all = from_csv(read_file(folder / "run/tables/benchmark.csv"));
+  const ExperimentResult result = run_in(folder, experiment);
+  const Table all = result.directory.read_table("benchmark.csv");
   std::map<std::string, int> fits;
   for (const std::vector<std::string>& row : all.rows) {
     if (cell(all, row, "estimator") == "measurement_only") ++fits[cell(all, row, "fitted_on")];
@@ -142,7 +134,7 @@ TEST(ABenchmark, ScoresTransfersBesideInDomainFits) {
   // The experiment's own tables hold in-domain fits alone.
   EXPECT_EQ(result.scores.size(), 2U * 2 * scoring::scored_views().size());
   // A density overlaps fully with itself, and less with another robot's.
-  const Table overlap = from_csv(read_file(folder / "run/tables/density_overlap.csv"));
+  const Table overlap = result.directory.read_table("density_overlap.csv");
   ASSERT_EQ(overlap.rows.size(), 2U * 2 * 2);
   for (const std::vector<std::string>& row : overlap.rows) {
     const double contact = std::stod(cell(overlap, row, "contact_overlap"));
@@ -158,10 +150,8 @@ TEST(ABenchmark, ScoresTransfersBesideInDomainFits) {
 TEST(ABenchmark, ResamplesFitsAndRunsTogether) {
   const ScratchFolder folder;
   const auto table_of = [&](const std::string& benchmark, const char* out) {
-    RunOptions options;
-    options.out = folder / out;
-    run_experiment(with_benchmark(folder, benchmark), options);
-    return from_csv(read_file(folder / out / "tables/benchmark.csv"));
+    return run_in(folder, with_benchmark(folder, benchmark), out)
+        .directory.read_table("benchmark.csv");
   };
   const std::string robots = "{robots: [models/upkie_actuated.yaml]";
   const Table once = table_of(robots + "}", "once");

@@ -7,13 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/tables/table.hpp"
-#include "experiments/run_experiment.hpp"
-#include "experiments/studies/experiment_file.hpp"
-#include "tests/experiments/small_step_scene.hpp"
-#include "tests/scratch_folder.hpp"
+#include "tests/experiments/studies/study_test.hpp"
 
 namespace touchdown::experiments {
 namespace {
@@ -171,12 +165,7 @@ class CrossSimulatorRun : public ::testing::Test {
   }
 
   std::string complaint(const std::string& from, const std::string& to) const {
-    try {
-      outline_of(read(from, to), {folder_ / "refused", "", nullptr});
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "nothing";
+    return complaint_of([&] { outline_of(read(from, to), {folder_ / "refused", "", nullptr}); });
   }
 
   const ScratchFolder folder_;

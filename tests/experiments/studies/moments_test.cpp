@@ -7,15 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/tables/table.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "experiments/run_experiment.hpp"
-#include "experiments/studies/experiment_file.hpp"
 #include "noise/gaussian.hpp"
-#include "tests/experiments/small_step_scene.hpp"
-#include "tests/scratch_folder.hpp"
+#include "tests/experiments/studies/study_test.hpp"
 
 namespace touchdown::experiments {
 namespace {
@@ -214,14 +208,11 @@ TEST(Moments, AreTablesOfAnExperimentWithTheKey) {
 }
 
 TEST(Moments, ComplainOnTheLine) {
-  const auto complaint = [](const std::string& text) -> std::string {
-    try {
+  const auto complaint = [&](const std::string& text) {
+    return complaint_of([&] {
       (void)experiment_from_yaml(YamlDocument::parse(
           "name: x\nfit: {scenarios: [a]}\ntest: {scenarios: [a]}\n" + text, "e.yaml"));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no complaint";
+    });
   };
   EXPECT_THAT(complaint("moments: often\n"),
               AllOf(HasSubstr("e.yaml:4:"), HasSubstr("expected true or false")));

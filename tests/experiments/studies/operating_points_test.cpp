@@ -5,15 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/tables/table.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "experiments/run_directory/shard.hpp"
-#include "experiments/run_experiment.hpp"
-#include "experiments/studies/experiment_file.hpp"
-#include "tests/experiments/small_step_scene.hpp"
-#include "tests/scratch_folder.hpp"
+#include "tests/experiments/studies/study_test.hpp"
 
 namespace touchdown::experiments {
 namespace {
@@ -37,17 +30,10 @@ Experiment with_operating_points(const ScratchFolder& folder, const std::string&
 const char* const points_section =
     "operating_points: {leave_below: [0.2, 0.8], return_above: [0.1, 0.8, 0.95]}\n";
 
-Table table_in(const ScratchFolder& folder, const std::string& name) {
-  return from_csv(read_file(folder / name));
-}
-
 TEST(OperatingPoints, ScoreOtherThresholdsThanTheEstimators) {
   const ScratchFolder folder;
-  RunOptions options;
-  options.out = folder / "run";
-  const ExperimentResult result =
-      run_experiment(with_operating_points(folder, points_section), options);
-  const Table table = table_in(folder, "run/tables/operating_points_by_scene.csv");
+  const ExperimentResult result = run_in(folder, with_operating_points(folder, points_section));
+  const Table table = result.directory.read_table("operating_points_by_scene.csv");
   // Engines, estimators, noise settings; its own decision and two times two pairs: none of 0.1.
   ASSERT_EQ(table.rows.size(), 2U * 2U * 2U * 5U);
   std::map<std::string, std::vector<std::string>> own, at_its_own_threshold;
@@ -73,11 +59,9 @@ TEST(OperatingPoints, ScenesHaveEqualWeightsAndTheFrontIsNotDominated) {
   Experiment experiment = with_operating_points(folder, points_section);
   const std::string stand = folder.write("stand.yaml", "name: stand\nend: {duration: 1.0}\n");
   experiment.test.scenarios.push_back(stand);
-  RunOptions options;
-  options.out = folder / "run";
-  const ExperimentResult result = run_experiment(experiment, options);
-  const Table rows = table_in(folder, "run/tables/operating_points_by_scene.csv");
-  const Table means = table_in(folder, "run/tables/operating_points.csv");
+  const ExperimentResult result = run_in(folder, experiment);
+  const Table rows = result.directory.read_table("operating_points_by_scene.csv");
+  const Table means = result.directory.read_table("operating_points.csv");
   const auto point_of = [](const Table& table, const std::vector<std::string>& row) {
     std::string point;
     for (const char* column : {"torque_noise_nm", "estimator", "leave_below", "return_above"}) {
@@ -139,38 +123,22 @@ TEST(OperatingPoints, ScenesHaveEqualWeightsAndTheFrontIsNotDominated) {
 
 TEST(OperatingPoints, AreTheSameInShards) {
   const ScratchFolder folder;
-  const Experiment experiment = with_operating_points(folder, points_section);
-  RunOptions options;
-  options.out = folder / "whole";
-  run_experiment(experiment, options);
-  options.out = folder / "shards";
-  run_shard(experiment, Shard{1, 2}, options);
-  run_shard(experiment, Shard{2, 2}, options);
-  merge_run(folder / "shards", options);
-  for (const char* name : {"operating_points.csv", "operating_points_by_scene.csv"}) {
-    EXPECT_EQ(read_file(folder / "whole/tables" / name), read_file(folder / "shards/tables" / name))
-        << name;
-  }
+  expect_same_in_shards(folder, with_operating_points(folder, points_section), 2,
+                        {"tables/operating_points.csv", "tables/operating_points_by_scene.csv"});
 }
 
 TEST(OperatingPoints, AreInTheConfigurationOnlyIfSet) {
   const ScratchFolder folder;
   EXPECT_THAT(to_yaml(with_operating_points(folder, "")), Not(HasSubstr("operating_points")));
   const std::string text =
-      to_yaml(with_operating_points(folder, "operating_points: {leave_below: [0.25, 0.5]}\n"));
+      reread_yaml(with_operating_points(folder, "operating_points: {leave_below: [0.25, 0.5]}\n"));
   EXPECT_THAT(text, HasSubstr("leave_below: [0.25, 0.5]"));
-  EXPECT_EQ(text, to_yaml(experiment_from_yaml(YamlDocument::parse(text, "again.yaml"))));
 }
 
 TEST(OperatingPoints, ComplainOnTheLine) {
   const ScratchFolder folder;
-  const auto complaint = [&](const std::string& text) -> std::string {
-    try {
-      (void)with_operating_points(folder, text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no complaint";
+  const auto complaint = [&](const std::string& text) {
+    return complaint_of([&] { (void)with_operating_points(folder, text); });
   };
   EXPECT_THAT(complaint("operating_points: {leave_below: [0.5, 0.2]}\n"),
               AllOf(HasSubstr("small.yaml:9:"), HasSubstr("operating_points.leave_below"),

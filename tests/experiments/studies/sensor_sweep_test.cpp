@@ -1,14 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/tables/table.hpp"
-#include "experiments/run_experiment.hpp"
 #include "experiments/stages/experiment_context.hpp"
-#include "experiments/studies/experiment_file.hpp"
-#include "tests/experiments/small_step_scene.hpp"
-#include "tests/scratch_folder.hpp"
+#include "tests/experiments/studies/study_test.hpp"
 
 namespace touchdown::experiments {
 namespace {
@@ -32,10 +26,8 @@ Experiment swept(const ScratchFolder& folder, const std::string& sweep) {
 TEST(ASensorSweep, EvaluatesTheExperimentsOwnRunsForEveryValue) {
   const ScratchFolder folder;
   const Experiment experiment = swept(folder, "{torque.white: [0, 2], dropout: [0]}");
-  RunOptions options;
-  options.out = folder / "run";
-  const ExperimentResult result = run_experiment(experiment, options);
-  const Table table = from_csv(read_file(folder / "run/tables/sensor_sweep.csv"));
+  const ExperimentResult result = run_in(folder, experiment);
+  const Table table = result.directory.read_table("sensor_sweep.csv");
   EXPECT_THAT(table.header, ::testing::IsSupersetOf({"simulator", "disturbance", "value",
                                                      "estimator", "success", "success_low"}));
   ASSERT_EQ(table.rows.size(), 6U);  // three values, the filter and always contact
