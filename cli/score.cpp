@@ -7,10 +7,10 @@
 #include "core/files.hpp"
 #include "core/program.hpp"
 #include "experiments/submissions/score_beliefs.hpp"
-#include "render/benchmark/standings_figure.hpp"
 #include "render/pictures/filmed_report.hpp"
 #include "render/pictures/films.hpp"
-#include "render/studies/registry.hpp"
+#include "render/studies/benchmark.hpp"
+"render/studies/registry.hpp"
 
 namespace touchdown::cli {
 

@@ -2,7 +2,7 @@
 #include <atomic>
 #include <map>
 
-#include "core/program/memory.hpp"
+#include "core/program.hpp"
 #include "experiments/stages.hpp"
 
 namespace touchdown::experiments {

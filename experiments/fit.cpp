@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/program/memory.hpp"
+#include "core/program.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/fitting/refits.hpp"

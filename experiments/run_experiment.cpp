@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/fingerprint.hpp"
-#include "core/program/memory.hpp"
+#include "core/program.hpp"
 #include "experiments/evaluation/tuning_table.hpp"
 #include "experiments/needs.hpp"
 #include "experiments/results/long_table.hpp"

@@ -115,7 +115,12 @@ Resampled balanced_accuracy(const FitsAndRuns& scores, std::uint64_t scene,
 Resampled balanced_accuracy_of_fits(const std::vector<std::vector<scoring::Classification>>& by_fit,
                                     std::uint64_t scene,
                                     const scoring::BootstrapConfig& bootstrap) {
-  return resampled({by_fit.front(), by_fit}, 0.0, scene, bootstrap);
+  Resampled result = resampled({by_fit.front(), by_fit}, 0.0, scene, bootstrap);
+  result.estimate = 0.0;
+  for (const auto& fit : by_fit) {
+    result.estimate += scoring::sum(fit).balanced_accuracy() / static_cast<double>(by_fit.size());
+  }
+  return result;
 }
 
 Resampled mean(const std::vector<const Resampled*>& all) {
@@ -140,7 +145,9 @@ Resampled mean(const std::vector<const Resampled*>& all) {
 Resampled mean_over_scenes(const std::vector<SceneValues>& scenes,
                            const scoring::BootstrapConfig& bootstrap) {
   std::vector<const Resampled*> all;
-  for (const SceneValues& scene : scenes) all.insert(all.end(), scene.begin(), scene.end());
+  for (const SceneValues& scene : scenes) {
+    for (const Resampled& value : scene) all.push_back(&value);
+  }
   Resampled result = mean(all);
   const std::size_t count = scenes.size();
   if (count < 2) return result;
@@ -150,8 +157,8 @@ Resampled mean_over_scenes(const std::vector<SceneValues>& scenes,
     double weight = 0.0;
     for (std::size_t i = 0; i + 1 < count; ++i) {
       const double u = uniform01(bootstrap.seed, scene_stream, r * count + i);
-      for (const Resampled* value : scenes[drawn(count, u)]) {
-        sum += r < value->of_fits.size() ? value->of_fits[r] : value->estimate;
+      for (const Resampled& value : scenes[drawn(count, u)]) {
+        sum += r < value.of_fits.size() ? value.of_fits[r] : value.estimate;
         weight += 1.0;
       }
     }

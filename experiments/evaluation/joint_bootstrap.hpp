@@ -58,7 +58,7 @@ Resampled balanced_accuracy(const FitsAndRuns& scores, std::uint64_t scene,
                             const scoring::BootstrapConfig& bootstrap);
 
 /// The same for fits of equal rank, such as those to different training sets: nothing is
-/// subtracted. The estimate is that of the first one.
+/// subtracted. The estimate is the mean over fits.
 Resampled balanced_accuracy_of_fits(const std::vector<std::vector<scoring::Classification>>& by_fit,
                                     std::uint64_t scene, const scoring::BootstrapConfig& bootstrap);
 
@@ -67,7 +67,7 @@ Resampled balanced_accuracy_of_fits(const std::vector<std::vector<scoring::Class
 Resampled mean(const std::vector<const Resampled*>& all);
 
 /// One quantity of a scene: of each engine, resampled together.
-using SceneValues = std::vector<const Resampled*>;
+using SceneValues = std::vector<Resampled>;
 
 /// The mean over scenes and engines with equal weights of each value, with scenes, fits and runs
 /// resampled together. A resample draws n − 1 of n scenes with replacement, and a drawn scene

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "experiments/evaluation/tune.hpp"
-#include "experiments/figures/study_result.hpp"
+#include "experiments/figures/figure_spec.hpp"
 #include "experiments/run_directory/directory.hpp"
 
 namespace touchdown::experiments {

@@ -1,6 +1,6 @@
 #include "experiments/results/value_figure.hpp"
 
-#include "experiments/figures/groups.hpp"
+#include "experiments/figures/figure_spec.hpp"
 #include "experiments/results/captions.hpp"
 
 namespace touchdown::experiments {

@@ -79,10 +79,10 @@ fs::path RunDirectory::own_file(std::string_view folder, std::string_view name) 
   return record_file(path_, fs::path(folder) / name);
 }
 
-void RunDirectory::write_table(std::string_view name, Table table) const {
+const Table& RunDirectory::write_table(std::string_view name, Table table) const {
   write_atomically(own_file("tables", name), to_csv(table));
   if (!table.columns.empty()) store_.put(column_parts, name, table.columns);
-  tables_->insert_or_assign(std::string(name), std::move(table));
+  return tables_->insert_or_assign(std::string(name), std::move(table)).first->second;
 }
 
 const Table& RunDirectory::read_table(std::string_view name) const {

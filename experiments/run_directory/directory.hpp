@@ -60,15 +60,15 @@ class RunDirectory {
   std::filesystem::path own_file(std::string_view folder, std::string_view name) const;
 
   /// Writes a table to `tables/`, and keeps it for its readers in this process and in copies of
-  /// this. Saves what its columns mean, if it has them.
-  void write_table(std::string_view name, Table table) const;
+  /// this. Saves what its columns mean, if it has them. Returns it as `read_table` does.
+  const Table& write_table(std::string_view name, Table table) const;
   /// The same for measured rows, which `results.csv` repeats.
   template <typename Row>
-  void write_table(std::string_view name, const Columns<Row>& columns,
+  const Table& write_table(std::string_view name, const Columns<Row>& columns,
                    const std::vector<Row>& rows) const {
     Table table = columns.table(rows);
     table.columns = columns.infos();
-    write_table(name, std::move(table));
+    return write_table(name, std::move(table));
   }
   /// A table of `tables/`: as it was written, or else read once from its file. The reference is
   /// valid until the table is written again. Errors: `Error` when it cannot be read.

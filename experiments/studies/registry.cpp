@@ -2,17 +2,6 @@
 
 #include <utility>
 
-#include "experiments/studies/ablation/study.hpp"
-#include "experiments/studies/benchmark/study.hpp"
-#include "experiments/studies/closed_loop/study.hpp"
-#include "experiments/studies/cross_simulator/study.hpp"
-#include "experiments/studies/labels/study.hpp"
-#include "experiments/studies/learning_curve/study.hpp"
-#include "experiments/studies/moments/study.hpp"
-#include "experiments/studies/odometry/study.hpp"
-#include "experiments/studies/operating_points/study.hpp"
-#include "experiments/studies/sensor_sweep/study.hpp"
-
 namespace touchdown::experiments {
 
 namespace {
@@ -27,7 +16,7 @@ std::vector<std::unique_ptr<const Study>> listed(Studies... studies) {
 }  // namespace
 
 const std::vector<std::unique_ptr<const Study>>& studies() {
-  static const auto all = listed(label_study(),             //
+  static const auto all = listed(labels_study(),            //
                                  cross_simulator_study(),   //
                                  benchmark_study(),         //
                                  odometry_study(),          //

@@ -2,9 +2,10 @@
 
 #include <optional>
 
+#include "experiments/config/optional_section.hpp"
 #include "experiments/evaluation/tasks.hpp"
-#include "experiments/figures/study_result.hpp"
 #include "experiments/plan/plan.hpp"
+#include "experiments/figures/figure_spec.hpp"
 #include "experiments/run_directory/directory.hpp"
 
 namespace touchdown::experiments {
@@ -39,6 +40,20 @@ class Study {
   /// Writes its tables and returns its texts. Computes nothing that a task could have computed.
   virtual StudyResult summarize(const Evaluation& evaluation,
                                 const RunDirectory& directory) const = 0;
+};
+
+/// A study that an experiment file asks for by having its section.
+template <typename Section>
+class SectionStudy : public Study {
+ public:
+  bool is_requested(const Experiment& experiment) const final {
+    return experiment.studies.has<Section>();
+  }
+
+ protected:
+  static const Section& section_of(const Experiment& experiment) {
+    return experiment.studies.at<Section>();
+  }
 };
 
 }  // namespace touchdown::experiments

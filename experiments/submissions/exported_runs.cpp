@@ -10,7 +10,7 @@
 #include "core/files.hpp"
 #include "core/rows.hpp"
 #include "core/yaml.hpp"
-#include "experiments/studies/benchmark/plan.hpp"
+#include "experiments/studies/benchmark.hpp"
 
 namespace touchdown::experiments {
 

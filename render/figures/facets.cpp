@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/figures/groups.hpp"
+#include "experiments/figures/figure_spec.hpp"
 #include "render/figures/facet_data.hpp"
 #include "render/figures/facet_layout.hpp"
 #include "render/figures/facet_script.hpp"

@@ -1,20 +1,201 @@
 #include "render/studies/benchmark.hpp"
 
-#include "experiments/studies/benchmark/config.hpp"
-#include "render/benchmark/page.hpp"
-#include "render/benchmark/standings_figure.hpp"
-#include "render/studies/worst_segments.hpp"
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/files.hpp"
+#include "core/tables/table.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/fitting/make_estimator.hpp"
+#include "experiments/plan/sensors.hpp"
+#include "experiments/studies/benchmark.hpp"
+#include "render/film/video.hpp"
+#include "render/pictures/filmed_run.hpp"
+#include "render/report/tables.hpp"
+#include "render/studies/registry.hpp"
+#include "scenarios/engine.hpp"
 
 namespace touchdown::render {
 
-using experiments::BenchmarkConfig;
+namespace {
+
+/// The rows of a table, with access to their cells by column name.
+class Rows {
+ public:
+  explicit Rows(const std::filesystem::path& file) {
+    if (is_there(file)) table_ = from_csv(read_file(file));
+  }
+
+  template <typename Each>
+  void for_each(const Each& each) {
+    for (row_ = 0; row_ < table_.rows.size(); ++row_) each();
+  }
+
+  /// The cell of the current row.
+  std::string text(const std::string& column) const {
+    return cell(table_, table_.rows[row_], column);
+  }
+  double value(const std::string& column) const { return number(text(column)); }
+  Interval interval(const std::string& column) const {
+    return {value(column), value(column + "_low"), value(column + "_high")};
+  }
+  std::string setting() const {
+    return fmt::format("{}, {} sensors", text("robot"), text("sensors"));
+  }
+  std::string noise() const {
+    return fmt::format("{} N·m, {} m/s²", text("torque_noise_nm"),
+                       text("accelerometer_noise_mps2"));
+  }
+
+ private:
+  Table table_;
+  std::size_t row_ = 0;
+};
+
+}  // namespace
+
+BenchmarkScores benchmark_scores(const std::filesystem::path& run_directory) {
+  const std::filesystem::path tables = run_directory / "tables";
+  BenchmarkScores scores;
+  Rows rows(tables / "benchmark.csv");
+  rows.for_each([&] {
+    if (rows.text("fitted_on") != "own") return;
+    scores.scenes.push_back(
+        {rows.text("simulator"), rows.setting(), rows.noise(), rows.text("scene"),
+         rows.text("estimator"), rows.text("split") == "unseen", rows.interval("balanced_accuracy"),
+         rows.value("no_contact_precision"), rows.value("no_contact_recall"),
+         rows.value("flight_f1"), rows.value("extra_switches_per_minute"),
+         rows.value("false_takeoffs_per_minute"), rows.value("takeoff_latency_median_ms")});
+  });
+  Rows standings(tables / "benchmark_standings.csv");
+  standings.for_each([&] {
+    scores.standings.push_back(
+        {standings.setting(), standings.text("robot"), standings.text("sensors"), standings.noise(),
+         standings.text("estimator"), standings.interval("mean_balanced_accuracy"),
+         standings.value("worst_balanced_accuracy"), standings.text("worst_scene"),
+         standings.text("worst_simulator"), standings.text("is_not_significantly_worse") == "1",
+         standings.value("excess_log_loss_bits")});
+  });
+  Rows pairs(tables / "benchmark_differences.csv");
+  pairs.for_each([&] {
+    scores.pairs.push_back({pairs.setting(), pairs.noise(), pairs.text("scene"),
+                            pairs.text("first"), pairs.text("second"),
+                            pairs.interval("difference")});
+  });
+  return scores;
+}
+
+WorstSegment worst_segment(const std::vector<std::vector<int>>& wrong, std::size_t length) {
+  WorstSegment worst{0, 0, -1};
+  for (std::size_t run = 0; run < wrong.size(); ++run) {
+    std::int64_t sum = 0;
+    for (std::size_t k = 0; k < wrong[run].size(); ++k) {
+      sum += wrong[run][k];
+      if (k >= length) sum -= wrong[run][k - length];
+      if (k + 1 < std::min(length, wrong[run].size()) || sum <= worst.wrong) continue;
+      worst = {run, k + 1 - std::min(length, k + 1), sum};
+    }
+  }
+  return worst;
+}
+
+namespace {
+
+constexpr double shown = 2.0;  ///< length of a film (s)
+
+/// The runs of a standing's worst scene.
+std::vector<experiments::PlannedRun> worst_runs(const experiments::ExperimentResult& result,
+                                                const Standing& standing) {
+  std::vector<experiments::PlannedRun> runs;
+  for (const experiments::Rollout& run : result.runs) {
+    const experiments::PlannedRun& plan = run.plan;
+    if (plan.role == experiments::RunRole::test && !run.failed() && plan.group == 0 &&
+        plan.simulator == standing.worst_simulator && plan.scenario.name == standing.worst_scene) {
+      runs.push_back(plan);
+    }
+  }
+  return runs;
+}
+
+/// The number of wheels about which the estimator decides wrongly, at every scored step.
+std::vector<int> wrong_decisions(const FilmedRun& run, const scoring::ScoringConfig& scoring) {
+  const auto contact = scoring::contact_labels(run.recording, run.labels);
+  const auto& decisions = run.beliefs.front().contact;
+  std::vector<int> wrong(run.recording.steps());
+  for (std::size_t k = scoring::first_scored_step(run.recording.info.control_period_us, scoring);
+       k < wrong.size(); ++k) {
+    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+      wrong[k] += contact[wheel][k] != decisions[wheel][k] ? 1 : 0;
+    }
+  }
+  return wrong;
+}
+
+void film_worst_segment(const experiments::ExperimentResult& result, const Standing& standing,
+                        const noise::SensorProfile& profile, const std::atomic<bool>* stop) {
+  const experiments::Experiment& experiment = result.experiment;
+  const std::vector<experiments::PlannedRun> plans = worst_runs(result, standing);
+  if (plans.empty()) return;
+  const std::vector<std::string> estimators = {standing.estimator};
+  const experiments::FittedModels models =
+      read_models(result.directory.path(), experiment, standing.worst_simulator, estimators);
+  std::vector<FilmedRun> runs;
+  std::vector<std::vector<int>> wrong;
+  for (const experiments::PlannedRun& plan : plans) {
+    runs.push_back(filmed(scenarios::play(plan.scenario, plan.simulator, plan.seed, plan.run),
+                          experiment, profile,
+                          {estimators, models, experiment.highlights.front().levels()}));
+    wrong.push_back(wrong_decisions(runs.back(), experiment.scoring));
+  }
+  const double period = runs.front().recording.period();
+  const WorstSegment segment =
+      worst_segment(wrong, static_cast<std::size_t>(std::llround(shown / period)));
+  const FilmedRun& run = runs[segment.run];
+  VideoOptions options;
+  options.width = 640;
+  options.height = 360;
+  options.crf = 28;
+  options.from = period * static_cast<double>(segment.begin);
+  options.to = options.from + shown;
+  options.speed = 0.5;
+  options.workers = experiment.workers;
+  options.labels = run.labels;
+  options.progress = film_progress(fmt::format("filming {}", standing.estimator), stop);
+  render_video(
+      {run.source()}, options,
+      result.directory.own_file("videos", fmt::format("worst_{}.mp4", standing.estimator)));
+}
+
+/// Films, for every estimator, the two seconds with the most wrong decisions in the scene and
+/// engine of its lowest score, on the experiment's own robot at the first highlighted noise
+/// setting. The film `videos/worst_<estimator>.mp4` runs at half speed.
+void film_worst_segments(const experiments::ExperimentResult& result,
+                         const std::atomic<bool>* stop) {
+  const experiments::Experiment& experiment = result.experiment;
+  const noise::SensorProfile profile = experiments::profile_of(
+      experiments::read_sensors(experiment, result.directory.path()), experiment.sensors);
+  const BenchmarkScores scores = benchmark_scores(result.directory.path());
+  if (scores.standings.empty()) return;
+  const Standing& first = scores.standings.front();  // the experiment's own robot comes first
+  for (const Standing& standing : scores.standings) {
+    if (standing.setting != first.setting || standing.noise != first.noise) continue;
+    const auto& names = experiment.estimators;
+    const bool is_ours = std::find(names.begin(), names.end(), standing.estimator) != names.end();
+    if (is_ours) film_worst_segment(result, standing, profile, stop);
+  }
+}
+
+}  // namespace
 
 StudyPictures benchmark_pictures() {
   const auto draw = [](const experiments::ExperimentResult& result) {
     draw_standings_figures(result.directory.path(), result.experiment.intervals.bootstrap.level);
   };
   const auto film = [](const experiments::ExperimentResult& result, const std::atomic<bool>* stop) {
-    if (result.experiment.studies.at<BenchmarkConfig>().clips) film_worst_segments(result, stop);
+    if (result.experiment.studies.at<experiments::BenchmarkConfig>().clips)
+      film_worst_segments(result, stop);
   };
   const auto section = [](const ReportSubject& subject) {
     write_benchmark_page(subject);
@@ -25,7 +206,7 @@ StudyPictures benchmark_pictures() {
   };
   return {.is_requested =
               [](const experiments::Experiment& experiment) {
-                return experiment.studies.has<BenchmarkConfig>();
+                return experiment.studies.has<experiments::BenchmarkConfig>();
               },
           .draw = draw,
           .film = film,

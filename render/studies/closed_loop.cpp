@@ -1,4 +1,4 @@
-#include "render/studies/closed_loop.hpp"
+#include "experiments/studies/closed_loop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,13 +8,12 @@
 
 #include "core/files.hpp"
 #include "experiments/results/odometry.hpp"
-#include "experiments/studies/closed_loop/config.hpp"
-#include "experiments/studies/closed_loop/rollout.hpp"
 #include "experiments/studies/experiment_file.hpp"
 #include "render/film/video.hpp"
 #include "render/palette.hpp"
 #include "render/pictures/filmed_run.hpp"
 #include "render/report/html.hpp"
+#include "render/studies/registry.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {

@@ -1,11 +1,11 @@
-#include "render/studies/cross_simulator.hpp"
+#include "experiments/studies/cross_simulator.hpp"
 
 #include <fmt/format.h>
 
 #include "experiments/results/captions.hpp"
-#include "experiments/studies/cross_simulator/config.hpp"
 #include "render/curves/drop_overlay.hpp"
 #include "render/pictures/chosen_run.hpp"
+#include "render/studies/registry.hpp"
 
 namespace touchdown::render {
 

@@ -1,7 +1,6 @@
-#include "render/studies/moments.hpp"
-
-#include "experiments/studies/moments/config.hpp"
+#include "experiments/studies/moments.hpp"
 #include "render/curves/moments_figure.hpp"
+#include "render/studies/registry.hpp"
 
 namespace touchdown::render {
 

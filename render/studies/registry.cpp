@@ -1,10 +1,5 @@
 #include "render/studies/registry.hpp"
 
-#include "render/studies/benchmark.hpp"
-#include "render/studies/closed_loop.hpp"
-#include "render/studies/cross_simulator.hpp"
-#include "render/studies/moments.hpp"
-
 namespace touchdown::render {
 
 const std::vector<StudyPictures>& study_pictures() {

@@ -10,4 +10,16 @@ namespace touchdown::render {
 /// drawing.
 const std::vector<StudyPictures>& study_pictures();
 
+/// The rankings of estimators, a page about every scene, and films of the worst segments.
+StudyPictures benchmark_pictures();
+
+/// The film of one closed-loop run with several contact sources.
+StudyPictures closed_loop_pictures();
+
+/// One drop in both engines.
+StudyPictures cross_simulator_pictures();
+
+/// The torques beside the real robot's.
+StudyPictures moments_pictures();
+
 }  // namespace touchdown::render

@@ -7,7 +7,7 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/evaluation/tasks.hpp"
 #include "experiments/signals/run_signals.hpp"
-#include "experiments/studies/ablation/estimators.hpp"
+#include "experiments/studies/registry.hpp"
 #include "noise/gaussian.hpp"
 
 namespace touchdown::experiments {
@@ -50,6 +50,11 @@ inline RunSignals synthetic_run(std::int64_t number, std::size_t steps = 4000) {
     run.up_in_imu.emplace_back(0.1, 0.0, -std::sqrt(0.99));
   }
   return run;
+}
+
+/// The estimators that only the ablation study has.
+inline std::vector<EstimatorEntry> ablation_estimators() {
+  return ablation_study()->section()->estimators();
 }
 
 /// The built-in estimators and those of the ablation study.

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
-#include "experiments/studies/closed_loop/figures.hpp"
-#include "experiments/studies/operating_points/figures.hpp"
+#include "experiments/figures/figure_spec.hpp"
+#include "experiments/results/captions.hpp"
 #include "render/curves/score_figure.hpp"
 #include "render/figures/facets.hpp"
 #include "render/film/strip_rows.hpp"
@@ -24,51 +24,31 @@ using ::testing::Not;
 
 const std::vector<std::string> estimators = {"robust", "paper", "phase"};
 
-experiments::Experiment experiment() {
-  experiments::Experiment experiment;
-  experiment.estimators = estimators;
-  return experiment;
-}
-
-/// Operating points of these estimators, each with its own thresholds alone.
-std::string operating_points_script(const std::vector<std::string>& shown,
-                                    const ScratchFolder& folder, const std::string& name) {
-  std::string text =
-      "torque_noise_nm,accelerometer_noise_mps2,estimator,leave_below,return_above,"
-      "balanced_accuracy,extra_switches_per_minute,on_front\n";
-  for (const std::string& estimator : shown) text += "0,0," + estimator + ",,,0.97,12,1\n";
-  const Table table = from_csv(text);
-  draw_facets(operating_points_figure(table, experiment()), table, folder / name);
-  return read_file(folder / (name + ".gp"));
-}
-
-std::string survival_script(const std::vector<std::string>& shown, const ScratchFolder& folder) {
-  std::string text =
-      "simulator,scenario,policy,contact,runs,finished,finished_low,finished_high,varied,value,"
-      "sensors,landing_speed_rms_mps\n";
-  for (const std::string& contact : shown) {
-    for (const char* at : {"0.5", "0.7"}) {
-      text +=
-          "mujoco,stairs,soft_landing," + contact + ",8,0.75,0.35,0.97,rise," + at + ",upkie,nan\n";
-    }
+/// A figure with a curve for each of these estimators of an experiment that has all.
+std::string script_of(const std::vector<std::string>& shown, const ScratchFolder& folder,
+                      const std::string& name) {
+  std::string text = "estimator,switches,error,error_low,error_high\n";
+  for (const std::string& estimator : shown) {
+    for (const char* at : {"1", "2"}) text += estimator + "," + at + ",0.75,0.35,0.97\n";
   }
   const Table table = from_csv(text);
-  draw_facets(survival_figures(table, experiment()).front(), table, folder / "survival");
-  return read_file(folder / "survival.gp");
+  experiments::FigureSpec spec{.name = name, .table = name + ".csv"};
+  spec.series = experiments::groups_in(table, "estimator", experiments::estimator_title);
+  spec.colour_order = estimators;
+  spec.x = {.column = "switches", .title = "switches"};
+  spec.measures = {experiments::axis_with_interval("error", "error")};
+  draw_facets(spec, table, folder / name);
+  return read_file(folder / (name + ".gp"));
 }
 
 TEST(EstimatorColours, AreTheSameInFiguresOfDifferentSubsets) {
   const ScratchFolder folder;
   // In the experiment, the phase filter is the third estimator.
-  const std::string curve = "lt 3 title 'Phase filter'";
-  const std::string ring = "lt 3 pt 6 ps 1.6 lw 2";
-  EXPECT_THAT(operating_points_script(estimators, folder, "all"), HasSubstr(curve));
-  EXPECT_THAT(operating_points_script({"phase"}, folder, "alone"),
-              AllOf(HasSubstr(ring), Not(HasSubstr("lt 1 pt 6"))));
-  EXPECT_THAT(operating_points_script({"phase", "robust"}, folder, "two"), HasSubstr(curve));
-  const std::string survival = survival_script({"truth", "phase"}, folder);
-  EXPECT_THAT(survival, HasSubstr("with yerrorlines lt 3 "));
-  EXPECT_THAT(survival, Not(HasSubstr("with yerrorlines lt 1 ")));
+  EXPECT_THAT(script_of(estimators, folder, "all"), HasSubstr("lt 3 title 'Phase filter'"));
+  EXPECT_THAT(script_of({"phase", "robust"}, folder, "two"),
+              HasSubstr("lt 3 title 'Phase filter'"));
+  EXPECT_THAT(script_of({"phase"}, folder, "alone"),
+              AllOf(HasSubstr("with yerrorlines lt 3 "), Not(HasSubstr("with yerrorlines lt 1 "))));
 }
 
 TEST(EstimatorColours, AreThoseOfTheScoresAndFilms) {

@@ -127,7 +127,7 @@ TEST(JointBootstrap, OverScenesHasTheTwoLevelVariance) {
         values.push_back(balanced_accuracy(scores, scene, few));
       }
       std::vector<SceneValues> scenes;
-      for (const Resampled& one : values) scenes.push_back({&one});
+      for (const Resampled& one : values) scenes.push_back({one});
       const Resampled mean = mean_over_scenes(scenes, few);
       ASSERT_EQ(mean.values.size(), 200U);
       for (const double value : mean.values) {
@@ -143,7 +143,7 @@ TEST(JointBootstrap, OverScenesHasTheTwoLevelVariance) {
 TEST(JointBootstrap, OfOneSceneResamplesItsRuns) {
   const Resampled one{0.5, {0.4, 0.6}};
   const Resampled other{1.0, {1.0, 0.8}};
-  EXPECT_EQ(mean_over_scenes({{&one, &other}}, many).values, mean({&one, &other}).values);
+  EXPECT_EQ(mean_over_scenes({{one, other}}, many).values, mean({&one, &other}).values);
 }
 
 TEST(JointBootstrap, DrawsTheSameRefitInEveryScene) {
@@ -171,6 +171,20 @@ TEST(JointBootstrap, AddsResampleByResample) {
   EXPECT_DOUBLE_EQ(both.values[1], 0.7);
   const Resampled alone{0.9, {}};
   EXPECT_THAT(mean({&one, &alone}).values, IsEmpty());
+}
+
+TEST(JointBootstrap, OfFitsOfEqualRankAveragesThemAndItsIntervalCoversThem) {
+  const auto runs_of = [](std::int64_t right) {
+    scoring::Classification points;
+    points.contact_as_contact = right;
+    points.contact_as_flight = 100 - right;
+    return std::vector<scoring::Classification>(3, points);  // runs without any difference
+  };
+  const Resampled resampled = balanced_accuracy_of_fits({runs_of(60), runs_of(100)}, 0, {});
+  const Interval interval = interval_of(resampled, 0.95);
+  EXPECT_DOUBLE_EQ(interval.estimate, 0.8);
+  EXPECT_DOUBLE_EQ(interval.low, 0.6);
+  EXPECT_DOUBLE_EQ(interval.high, 1.0);
 }
 
 }  // namespace

@@ -1,0 +1,342 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <span>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/files.hpp"
+#include "core/rows.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/results/captions.hpp"
+#include "experiments/results/json_table.hpp"
+#include "experiments/results/scores.hpp"
+#include "experiments/studies/benchmark.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+/// ".989", "1".
+std::string share_text(double share) {
+  if (std::isnan(share)) return "–";
+  const std::string text = fmt::format("{:.3f}", share);
+  return text.starts_with("0.") ? text.substr(1) : text == "1.000" ? "1" : text;
+}
+
+std::string share_text(const Interval& share) {
+  if (std::isnan(share.low) || std::isnan(share.high)) return share_text(share.estimate);
+  return fmt::format("{} [{}, {}]", share_text(share.estimate), share_text(share.low),
+                     share_text(share.high));
+}
+
+std::string header_of(const noise::NoiseCell& noise) {
+  if (noise.levels() == noise::SensorNoise{}) return "no added noise";
+  return noise.knee == noise.wheel ? fmt::format("{} N·m, {} m/s²", noise.knee, noise.accelerometer)
+                                   : fmt::format("knee {} N·m, wheel {} N·m, {} m/s²", noise.knee,
+                                                 noise.wheel, noise.accelerometer);
+}
+
+const Standings::Entry* entry_called(const std::string& estimator, const Standings& standings) {
+  const auto found =
+      std::find_if(standings.entries.begin(), standings.entries.end(),
+                   [&](const Standings::Entry& entry) { return entry.estimator == estimator; });
+  return found == standings.entries.end() ? nullptr : &*found;
+}
+
+/// Those of `benchmark.table`, or all that are ranked, the best first.
+std::vector<std::string> estimators_of(const Standings& first, const Experiment& experiment) {
+  std::vector<std::string> all = experiment.studies.at<BenchmarkConfig>().table;
+  if (!all.empty()) return all;
+  for (const Standings::Entry& entry : first.entries) {
+    if (!is_upper_bound(entry.estimator)) all.push_back(entry.estimator);
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string unseen_markdown(const std::vector<Standings>& unseen, const Experiment& experiment) {
+  if (unseen.empty()) return {};
+  const Standings& first = unseen.front();
+  std::vector<const Standings*> settings;
+  for (const Standings& one : unseen) {
+    if (one.robot == first.robot && one.sensors == first.sensors) settings.push_back(&one);
+  }
+  std::string text = "| estimator |";
+  std::string line = "|---|";
+  for (const Standings* one : settings) {
+    text += fmt::format(" {} |", header_of(one->noise));
+    line += "---|";
+  }
+  text += " extra switches a minute |\n" + line + "---|\n";
+  for (const std::string& estimator : estimators_of(first, experiment)) {
+    std::string accuracy;
+    std::vector<std::string> switches;
+    for (const Standings* one : settings) {
+      const Standings::Entry* entry = entry_called(estimator, *one);
+      accuracy += fmt::format(" {} |", entry == nullptr ? "–" : share_text(entry->mean));
+      switches.push_back(entry == nullptr ? "–" : fmt::format("{:.1f}", entry->extra_switches));
+    }
+    text += fmt::format("| `{}` |{} {} |\n", estimator, accuracy, fmt::join(switches, " / "));
+  }
+  return text;
+}
+
+namespace {
+
+Columns<BenchmarkRow> row_columns(double level) {
+  using Row = BenchmarkRow;
+  return Columns<Row>()
+      .text("simulator", &Row::simulator)
+      .text("robot", &Row::robot)
+      .text("sensors", &Row::sensors)
+      .text("scene", &Row::scene)
+      .text("split", &Row::split)
+      .text("estimator", &Row::estimator)
+      .interval("balanced_accuracy",
+                [level](const Row& row) { return interval_of(row.balanced_accuracy, level); })
+      .metric("no_contact_precision",
+              [](const Row& r) { return r.score.points.no_contact_precision(); })
+      .metric("no_contact_recall", [](const Row& r) { return r.score.points.no_contact_recall(); })
+      .metric("flight_f1", [](const Row& r) { return r.extended.flights.f1(); })
+      .metric("takeoff_latency_median_ms",
+              [](const Row& r) { return r.extended.takeoff.absolute_median(); })
+      .metric("landing_latency_median_ms",
+              [](const Row& r) { return r.extended.landing.absolute_median(); })
+      .metric("extra_switches_per_minute", extra_switches_per_minute)
+      .metric("calibration_error",
+              [](const Row& r) { return r.score.calibration.expected_error(); })
+      .metric(
+          "log_loss",
+          [](const Row& r) { return r.extended.log_loss / static_cast<double>(r.extended.steps); })
+      .metric("success", [](const Row& r) { return r.score.points.success(); })
+      .metric("loaded_balanced_accuracy",
+              [](const Row& r) { return r.extended.loaded.balanced_accuracy(); })
+      .metric("false_takeoffs_per_minute",
+              [](const Row& r) { return r.score.false_takeoffs_per_minute(); })
+      .metric("takeoff_latency_p90_ms",
+              [](const Row& r) { return r.extended.takeoff.absolute_percentile(0.9); })
+      .metric("landing_latency_p90_ms",
+              [](const Row& r) { return r.extended.landing.absolute_percentile(0.9); })
+      .metric("takeoff_early_share", [](const Row& r) { return r.extended.takeoff.early_share(); })
+      .metric("landing_early_share", [](const Row& r) { return r.extended.landing.early_share(); })
+      .part(&Row::noise, noise_columns())
+      .count("takeoffs", [](const Row& r) { return r.score.takeoff.events; })
+      .runs("runs", &Row::runs)
+      .count("failed", &Row::failed)
+      .text("fitted_on", &Row::fitted_on)
+      .number("refits", &Row::refits)
+      .is(ColumnRole::note);
+}
+
+/// The first columns of the two tables below.
+Columns<Standings> setup_columns() {
+  return Columns<Standings>()
+      .text("robot", &Standings::robot)
+      .text("sensors", &Standings::sensors)
+      .part(&Standings::noise, noise_columns());
+}
+
+/// A part of standings, and what it belongs to.
+template <typename Part>
+struct PartOfStandings {
+  const Standings* all;
+  const Part* part;
+};
+
+template <typename Part>
+std::vector<PartOfStandings<Part>> parts_of(const std::vector<Standings>& all,
+                                            std::vector<Part> Standings::*list) {
+  std::vector<PartOfStandings<Part>> parts;
+  for (const Standings& standings : all) {
+    for (const Part& part : standings.*list) parts.push_back({&standings, &part});
+  }
+  return parts;
+}
+
+template <typename Part>
+Columns<PartOfStandings<Part>> with_setup(const Columns<Part>& columns) {
+  using Row = PartOfStandings<Part>;
+  return Columns<Row>()
+      .part([](const Row& row) -> const Standings& { return *row.all; }, setup_columns())
+      .part([](const Row& row) -> const Part& { return *row.part; }, columns);
+}
+
+Columns<Standings::Entry> entry_columns() {
+  using Entry = Standings::Entry;
+  return Columns<Entry>()
+      .text("estimator", &Entry::estimator)
+      .interval("mean_balanced_accuracy", &Entry::mean)
+      .metric("worst_balanced_accuracy", &Entry::worst)
+      .text("worst_scene", &Entry::worst_scene)
+      .is(ColumnRole::note)
+      .text("worst_simulator", &Entry::worst_simulator)
+      .is(ColumnRole::note)
+      .flag("is_not_significantly_worse", &Entry::is_not_significantly_worse)
+      .metric("extra_switches_per_minute", &Entry::extra_switches)
+      .metric("log_loss_bits", &Entry::log_loss)
+      .metric("excess_log_loss_bits", &Entry::excess_log_loss)
+      .number("scored_scenes", &Entry::scored)
+      .is(ColumnRole::note)
+      .number("planned_scenes", &Entry::planned)
+      .is(ColumnRole::note);
+}
+
+Columns<Standings::Difference> pair_columns() {
+  using Difference = Standings::Difference;
+  return Columns<Difference>()
+      .text("scene", &Difference::scene)
+      .text("first", &Difference::first)
+      .text("second", &Difference::second)
+      .interval("difference", &Difference::value);
+}
+
+/// Rows: estimators. Columns: scenes, then the mean and the worst scene of estimators that were
+/// scored in every scene with a scored run.
+Table scene_table(const std::vector<BenchmarkRow>& rows, const Experiment& experiment) {
+  const auto shown = [](double value) {
+    return std::isnan(value) ? std::string("–") : fmt::format("{:.3f}", value);
+  };
+  Table table = pivot(
+      rows, [&](const BenchmarkRow& row) { return estimator_title_in(experiment, row.estimator); },
+      &BenchmarkRow::scene,
+      [&](const BenchmarkRow& row) { return shown(row.balanced_accuracy.estimate); });
+  const std::size_t scenes = table.header.size() - 1;
+  table.header.insert(table.header.end(), {"mean", "worst"});
+  auto cells = table.rows.begin();
+  for (const auto& scored : group_by(rows, &BenchmarkRow::estimator)) {
+    double mean = 0.0;
+    double worst = 1.0;
+    const auto scored_rows = where(scored.rows, &BenchmarkRow::is_scored);
+    for (const BenchmarkRow& row : scored_rows) {
+      mean += row.balanced_accuracy.estimate / static_cast<double>(scored_rows.size());
+      worst = std::fmin(worst, row.balanced_accuracy.estimate);
+    }
+    const bool is_complete = scored.rows.size() == scenes && !scored_rows.empty();
+    for (const double value : {mean, worst}) {
+      cells->push_back(is_complete ? shown(value) : "–");
+    }
+    ++cells;
+  }
+  return table;
+}
+
+/// What the estimator is given; "–" for submissions.
+std::string given_in(const Experiment& experiment, const std::string& estimator) {
+  const auto find = [&](std::span<const EstimatorEntry> entries) -> const EstimatorEntry* {
+    for (const EstimatorEntry& entry : entries) {
+      if (entry.name == estimator) return &entry;
+    }
+    return nullptr;
+  };
+  if (find(experiment.external_estimators) != nullptr) return "signals";
+  const EstimatorEntry* const own = find(estimator_entries());
+  return own == nullptr ? "–" : given_text(*own, experiment.fit_servo_load);
+}
+
+std::string standings_text(const Standings& standings, const Experiment& experiment) {
+  const bool has_upper_bound = !std::isnan(standings.entries.front().excess_log_loss);
+  Table table{{"", "mean", "not significantly worse than the best", "worst", "in", "given"}, {}};
+  if (has_upper_bound) table.header.emplace_back("excess log loss (bits)");
+  for (const Standings::Entry& entry : standings.entries) {
+    table.rows.push_back({estimator_title_in(experiment, entry.estimator),
+                          with_interval(entry.mean), entry.is_not_significantly_worse ? "yes" : "",
+                          fmt::format("{:.3f}", entry.worst),
+                          fmt::format("{}, {}", entry.worst_scene, entry.worst_simulator),
+                          given_in(experiment, entry.estimator)});
+    if (has_upper_bound) table.rows.back().push_back(fmt::format("{:.3f}", entry.excess_log_loss));
+  }
+  const Standings::Entry& first = standings.entries.front();
+  const std::string fewer =
+      first.scored == first.planned
+          ? ""
+          : fmt::format(" ({} of {}: the others have no scored run)", first.scored, first.planned);
+  return fmt::format("\n{}, sensors {}, {}: mean over scenes and engines{}\n{}", standings.robot,
+                     standings.sensors, noise_text(standings.noise), fewer, to_text(table));
+}
+
+/// Every scene of one engine, robot, sensors and noise.
+std::string scenes_text(const Standings& standings, const std::string& simulator,
+                        const std::vector<BenchmarkRow>& rows, const Experiment& experiment) {
+  const auto alike = where(rows, [&](const BenchmarkRow& row) {
+    return row.fitted_on == "own" && row.simulator == simulator && row.robot == standings.robot &&
+           row.sensors == standings.sensors && row.noise == standings.noise;
+  });
+  if (alike.empty()) return {};
+  std::string text =
+      fmt::format("\n{}, {}, sensors {}, {}\n{}", simulator, standings.robot, standings.sensors,
+                  noise_text(standings.noise), to_text(scene_table(alike, experiment)));
+  std::set<std::string> failures;
+  std::set<std::string> unscored;
+  for (const BenchmarkRow& row : alike) {
+    if (row.failed == 0) continue;
+    if (!row.is_scored()) unscored.insert(row.scene);
+    failures.insert(fmt::format("{} of {} in {}", row.failed, row.runs, row.scene));
+  }
+  if (!failures.empty()) {
+    text += fmt::format("Failed runs, not scored: {}\n", fmt::join(failures, ", "));
+  }
+  if (!unscored.empty()) {
+    text +=
+        fmt::format("Without a scored run, not in mean and worst: {}\n", fmt::join(unscored, ", "));
+  }
+  return text;
+}
+
+/// Writes `benchmark.csv`, `benchmark_standings.csv`, `benchmark_unseen.csv`,
+/// `benchmark_differences.csv`, all four as `benchmark.json`, and `benchmark_unseen.md`.
+void write_results(const BenchmarkResult& result, const Experiment& experiment,
+                   const RunDirectory& directory) {
+  const double level = experiment.intervals.bootstrap.level;
+  nlohmann::ordered_json json;
+  const auto write = [&](const std::string& name, const char* key, const auto& columns,
+                         const auto& rows) {
+    json[key] = json_of(directory.write_table(name, columns, rows));
+  };
+  write("benchmark.csv", "rows", row_columns(level), result.rows);
+  write("benchmark_standings.csv", "standings", with_setup(entry_columns()),
+        parts_of(result.standings, &Standings::entries));
+  write("benchmark_unseen.csv", "unseen", with_setup(entry_columns()),
+        parts_of(result.unseen, &Standings::entries));
+  write("benchmark_differences.csv", "differences", with_setup(pair_columns()),
+        parts_of(result.standings, &Standings::differences));
+  write_atomically(directory.own_file("tables", "benchmark.json"), json.dump(1) + "\n");
+  const std::string markdown = unseen_markdown(result.unseen, experiment);
+  if (markdown.empty()) return;
+  write_atomically(directory.own_file("tables", "benchmark_unseen.md"), markdown);
+}
+
+}  // namespace
+
+BenchmarkResult write_benchmark(const Evaluation& evaluation, const RunDirectory& directory) {
+  const scoring::BootstrapConfig& intervals = evaluation.request.experiment.intervals.bootstrap;
+  BenchmarkResult result{benchmark_rows(evaluation, directory), {}, {}};
+  result.standings = standings(result.rows, intervals);
+  result.unseen = standings_of_unseen(result.rows, intervals);
+  write_results(result, evaluation.request.experiment, directory);
+  return result;
+}
+
+std::string benchmark_text(const BenchmarkResult& result, const Experiment& experiment) {
+  std::string text = fmt::format("Balanced accuracy by scene ({})\n", labels_text(experiment));
+  if (result.standings.empty()) return text + "No run was scored.\n";
+  const Standings& first = result.standings.front();
+  for (const Standings& standings : result.standings) {
+    text += standings_text(standings, experiment);
+    if (standings.robot != first.robot || standings.sensors != first.sensors) continue;
+    for (const std::string& simulator : experiment.simulators) {
+      text += scenes_text(standings, simulator, result.rows, experiment);
+    }
+  }
+  const std::string markdown = unseen_markdown(result.unseen, experiment);
+  if (markdown.empty()) return text;
+  return text + fmt::format(
+                    "\n{}, sensors {}: mean over the {} pairs of an unseen scene and an engine "
+                    "(tables/benchmark_unseen.md)\n\n{}",
+                    result.unseen.front().robot, result.unseen.front().sensors,
+                    result.unseen.front().entries.front().scored, markdown);
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,223 @@
+#include "experiments/studies/cross_simulator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/error.hpp"
+#include "core/tables/table.hpp"
+#include "experiments/config/optional_section.hpp"
+#include "experiments/studies/registry.hpp"
+#include "scenarios/perturbation.hpp"
+#include "scenarios/varied.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+/// Describes names that must be among the experiment's own.
+KeyNotes describe_subset(Fields& fields, std::string_view key,
+                         const std::vector<std::string>& known, std::vector<std::string>& names) {
+  const KeyNotes notes = fields(key, names);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    fields.check_item(std::find(known.begin(), known.end(), names[i]) != known.end(), key, i,
+                      fmt::format("'{}' is not one of the experiment's: {}{}", names[i],
+                                  fmt::join(known, ", "), did_you_mean(names[i], known)));
+  }
+  return notes;
+}
+
+}  // namespace
+
+static void describe(Fields& fields, Factor& factor, const std::vector<std::string>& simulators) {
+  fields("name", factor.name).fallback("the key").doc("Name in tables.");
+  fields.require("key", factor.key).doc("Dotted key of the scenario, such as `terrain.friction`.");
+  if (!fields.present("name", true)) factor.name = factor.key;
+  fields.require("values", factor.values).doc("Values of the key.");
+  fields.check(!factor.values.empty(), "values", "expected at least one number");
+  describe_subset(fields, "simulators", simulators, factor.simulators)
+      .fallback("all")
+      .doc("Engines with this quantity.");
+  if (fields.reading() && factor.simulators.empty()) factor.simulators = simulators;
+}
+
+static void describe(Fields& section, CrossSimulatorConfig& config, const Experiment& experiment) {
+  section
+      .within("sensitivity",
+              [&](Fields& fields) {
+                if (fields.reading())
+                  config.sensitivity_runs = std::min(config.sensitivity_runs, experiment.test.runs);
+                fields("runs", config.sensitivity_runs, 1, 100'000)
+                    .range("1 to test.runs")
+                    .doc("Test runs per engine and value.");
+                fields.check(config.sensitivity_runs <= experiment.test.runs, "runs",
+                             fmt::format("expected at most test.runs, {}", experiment.test.runs));
+                fields.list_if_any("factors", config.factors, experiment.simulators)
+                    .doc("Quantities of the scenario that are varied, one at a time.");
+              })
+      .doc("How the results depend on quantities of the scenario.");
+  section
+      .within("verdict",
+              [&](Fields& fields) {
+                fields("largest_loss", config.verdict.largest_loss, 0.0, 1.0)
+                    .doc("Limit of the accuracy lost by a fit in the other engine.");
+                fields("smallest_gain", config.verdict.smallest_gain, -1.0, 1.0)
+                    .doc("Accuracy that must be gained over constant contact.");
+                describe_subset(fields, "demanded", experiment.estimators, config.verdict.demanded)
+                    .type("list of the experiment's estimators")
+                    .doc("Estimators that must pass, or the run fails.");
+              })
+      .doc("What an estimator must achieve.");
+  section
+      .within("overlay",
+              [&](Fields& fields) {
+                fields("run", config.overlay.run, 0, experiment.test.runs - 1)
+                    .range("0 to test.runs - 1")
+                    .doc("Index of the test run.");
+                fields("drop", config.overlay.drop, 0, 1000).doc("Index of the drop in the run.");
+              })
+      .doc("The drop that is plotted in both engines.");
+}
+
+namespace {
+
+std::string group_name(const Variation& variation) {
+  return fmt::format("factor {} {} {}", variation.factor_index, exact(variation.value),
+                     variation.simulator);
+}
+
+/// Adds the runs of one value, with the perturbations of the experiment's test runs.
+void plan_varied_runs(const RunRequest& request, const Variation& variation, Plan& plan) {
+  const Experiment& experiment = request.experiment;
+  const auto& config = experiment.studies.at<CrossSimulatorConfig>();
+  const Factor& factor = config.factors[variation.factor_index];
+  const NamedScenario& named = scenario_of(request, experiment.test.scenarios.front());
+  try {
+    const scenarios::Scenario scenario =
+        scenarios::varied(named.scenario, factor.key, variation.value, named.file);
+    for (int i = 0; i < config.sensitivity_runs; ++i) {
+      plan.runs.push_back(
+          {.role = RunRole::test,
+           .simulator = variation.simulator,
+           .scenario = experiment.test.perturbed
+                           ? scenarios::perturbed(scenario, experiment.seed, i)
+                           : scenario,
+           .run = i,
+           .file = fmt::format("{}_{}_factor_{}_{}_{:03}.mpack", variation.simulator, scenario.name,
+                               variation.factor_index, exact(variation.value), i),
+           .seed = experiment.seed,
+           .group = plan.groups.size()});
+    }
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("cross_simulator.sensitivity.factors.{}: {}={}: {}",
+                                 variation.factor_index, factor.key, exact(variation.value),
+                                 error.what()));
+  }
+}
+
+}  // namespace
+
+std::vector<Variation> variations(const RunRequest& request) {
+  const Experiment& experiment = request.experiment;
+  const NamedScenario& named = scenario_of(request, experiment.test.scenarios.front());
+  std::vector<Variation> all;
+  const std::vector<Factor>& factors = experiment.studies.at<CrossSimulatorConfig>().factors;
+  for (std::size_t f = 0; f < factors.size(); ++f) {
+    const double nominal = scenarios::number_at(named.scenario, factors[f].key);
+    if (std::isnan(nominal)) {
+      throw InputError(fmt::format("cross_simulator.sensitivity.factors.{}: {} has no number at {}",
+                                   f, named.file, factors[f].key));
+    }
+    std::set<double> values(factors[f].values.begin(), factors[f].values.end());
+    values.insert(nominal);
+    for (const std::string& simulator : factors[f].simulators) {
+      for (const double value : values) {
+        all.push_back({f, factors[f].name, value, nominal, simulator});
+      }
+    }
+  }
+  return all;
+}
+
+std::vector<std::size_t> runs_of(const Variation& variation, const RunRequest& request,
+                                 const Plan& plan) {
+  if (const auto group = plan.group_called(group_name(variation))) return plan.runs_in(*group);
+  std::vector<std::size_t> runs = plan.runs_in(0);
+  std::erase_if(runs,
+                [&](std::size_t run) { return plan.runs[run].simulator != variation.simulator; });
+  runs.resize(static_cast<std::size_t>(
+      request.experiment.studies.at<CrossSimulatorConfig>().sensitivity_runs));
+  return runs;
+}
+
+namespace {
+
+class CrossSimulatorStudy final : public SectionStudy<CrossSimulatorConfig> {
+ public:
+  std::optional<StudySection> section() const override {
+    constexpr const char* key = "cross_simulator";
+    StudySection section =
+        optional_section<CrossSimulatorConfig>(key, "How much the results depend on the engine.");
+    section.describe = [describe_config = section.describe](Fields& fields,
+                                                            Experiment& experiment) {
+      if (!fields.present(key, experiment.studies.has<CrossSimulatorConfig>())) return;
+      fields.finish();
+      fields.check(experiment.simulators.size() == 2, "simulators",
+                   "expected two engines to compare");
+      describe_config(fields, experiment);
+      fields.check(experiment.recordings != KeptRecordings::none, "recordings",
+                   "expected all or pictured: the cross-simulator overlay is drawn from them");
+    };
+    return section;
+  }
+
+  void add_needs(const RunRequest& request, Needs& needs) const override {
+    const Experiment& experiment = request.experiment;
+    const auto& config = section_of(experiment);
+    double variations = 0.0;
+    for (const Factor& factor : config.factors) {
+      // One of the values may be the nominal one, which the experiment's own runs cover.
+      variations += static_cast<double>((factor.values.size() - 1) * factor.simulators.size());
+    }
+    add_runs(needs, scenario_of(request, experiment.test.scenarios.front()).scenario,
+             variations * config.sensitivity_runs, experiment.noise.seeds);
+  }
+
+  /// Estimators that were fitted in the other engine are evaluated, too. Every value but the
+  /// nominal ones gets a group of runs, evaluated at the first highlighted noise setting. Errors:
+  /// `InputError` that names the factor and the invalid value.
+  void plan(const RunRequest& request, Plan& plan) const override {
+    const Experiment& experiment = request.experiment;
+    RunGroup& own = plan.groups.front();
+    for (const Condition& condition : transfer_conditions(experiment)) {
+      if (!condition.is_fitted_in_domain()) own.conditions.push_back(condition);
+    }
+    const std::size_t first = plan.runs.size();
+    for (const Variation& variation : variations(request)) {
+      if (variation.is_nominal()) continue;
+      plan_varied_runs(request, variation, plan);
+      plan.groups.push_back({group_name(variation),
+                             tested_on(own_engine_conditions(experiment), variation.simulator),
+                             {experiment.highlights.front()},
+                             {}});
+    }
+    plan_tasks(experiment, first, plan);
+    plan.pictured.insert(section_of(request.experiment).overlay.run);
+  }
+
+  StudyResult summarize(const Evaluation& evaluation,
+                        const RunDirectory& directory) const override {
+    return summarize_check(check_across_simulators(evaluation), directory);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Study> cross_simulator_study() {
+  return std::make_unique<const CrossSimulatorStudy>();
+}
+
+}  // namespace touchdown::experiments

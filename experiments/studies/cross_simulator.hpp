@@ -1,0 +1,199 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/interval.hpp"
+#include "experiments/studies/study.hpp"
+#include "scoring/bootstrap.hpp"
+#include "scoring/distributions/histogram.hpp"
+
+namespace touchdown::experiments {
+
+/// One quantity of the scenario that is varied, with all others unchanged.
+struct Factor {
+  std::string name;
+  std::string key;                      ///< of the scenario, dotted: `terrain.friction`
+  std::vector<double> values;           ///< in the key's own unit
+  std::vector<std::string> simulators;  ///< engines with this quantity; empty: all
+};
+
+/// The conditions for an estimator's verdict.
+struct VerdictConfig {
+  /// Fitted in the other engine, it must lose less accuracy than this (upper end of the paired
+  /// interval).
+  double largest_loss = 0.01;
+  /// Fitted in the other engine, it must exceed always contact by more than this (lower end).
+  double smallest_gain = 0.0;
+  std::vector<std::string> demanded;  ///< estimators that must pass, or the run fails
+};
+
+/// The drop that is plotted in both engines.
+struct OverlayConfig {
+  int run = 0;   ///< index of the test run
+  int drop = 3;  ///< of that run, from 0
+};
+
+/// The section `cross_simulator`: how much the results depend on the engine.
+struct CrossSimulatorConfig {
+  std::vector<Factor> factors;
+  int sensitivity_runs = 4;  ///< test runs per engine and value of a factor, at most
+  VerdictConfig verdict;
+  OverlayConfig overlay;
+};
+
+/// One value of one factor in one engine.
+struct Variation {
+  std::size_t factor_index = 0;  ///< in the file's list
+  std::string factor;
+  double value = 0.0;
+  double nominal = 0.0;
+  std::string simulator;
+
+  bool is_nominal() const { return value == nominal; }
+};
+
+/// Every value of every factor, nominal ones included, in each engine of the factor. Errors:
+/// `InputError` that names the factor when the scenario has no such key.
+std::vector<Variation> variations(const RunRequest& request);
+
+/// The runs of one value; for a nominal value, the experiment's own first test runs.
+std::vector<std::size_t> runs_of(const Variation& variation, const RunRequest& request,
+                                 const Plan& plan);
+
+/// A mean as a sum and a count, so that parts can be added.
+struct Mean {
+  double sum = 0.0;
+  double count = 0.0;
+
+  void add(double value) {
+    sum += value;
+    count += 1.0;
+  }
+  Mean& operator+=(const Mean& other) {
+    sum += other.sum;
+    count += other.count;
+    return *this;
+  }
+  double value() const { return sum / count; }
+};
+
+/// Quantities of the runs that are compared between engines, independent of estimators.
+/// docs/reference/metrics.md defines each.
+enum class Quantity : int {
+  flight_duration,    ///< ms
+  peak_acceleration,  ///< of a landing (m/s²)
+  edge_contacts,      ///< per drop
+  bounces,            ///< per drop
+  contact_ratio,
+  descent,  ///< time to the bottom (s)
+};
+inline constexpr std::size_t quantity_count = 6;
+
+/// Torque distributions: joint by joint, in contact and in flight.
+enum class TorqueSet : int { knee_contact, knee_flight, wheel_contact, wheel_flight };
+inline constexpr std::size_t torque_set_count = 4;
+
+/// The compared quantities of one run; those of several runs can be added.
+struct RunFacts {
+  std::array<Mean, quantity_count> quantity;
+  std::array<scoring::Histogram, torque_set_count> torque;
+
+  RunFacts& operator+=(const RunFacts& other);
+};
+
+RunFacts facts_of(const Rollout& run, const Experiment& experiment);
+
+/// One quantity in both engines, and the second's minus the first's on the same runs.
+struct QuantityAgreement {
+  std::string name;
+  std::string unit;
+  Interval first, second, difference;
+};
+
+/// The distance between the engines' torque distributions.
+struct TorqueAgreement {
+  std::string name;
+  Interval distance;  ///< Wasserstein (N·m)
+  Interval overlap;
+  /// Distance between the even and the odd runs of one engine, the greater of both engines (N·m):
+  /// the value to expect for equal distributions.
+  double within_engine = 0.0;
+};
+
+struct Agreement {
+  std::size_t runs = 0;  ///< completed in both engines
+  std::vector<QuantityAgreement> quantities;
+  std::vector<TorqueAgreement> torques;
+};
+
+/// Entry i of both has the same draw of the perturbations.
+Agreement agreement(const std::vector<RunFacts>& first, const std::vector<RunFacts>& second,
+                    const scoring::BootstrapConfig& config);
+
+/// An estimator fitted in one engine and tested in one, the same or the other, at one noise
+/// setting.
+struct Transfer {
+  Condition condition;
+  noise::NoiseCell cell;
+  bool is_fitted = true;  ///< false: nothing to fit, the engine of the fit is irrelevant
+  Interval success;       ///< accuracy
+  Interval no_contact_recall;
+  /// Accuracy of the same estimator fitted in the test engine, minus this one's, on the same runs.
+  Interval loss;
+  /// Accuracy minus that of always contact on the same runs.
+  Interval gain;
+};
+
+/// Every estimator, fit engine and test engine of the experiment, "always contact" last.
+std::vector<Condition> transfer_conditions(const Experiment& experiment);
+
+/// The verdict on an estimator's transfers.
+struct Verdict {
+  std::string estimator;
+  bool holds = false;
+  bool is_demanded = false;
+  double loss = 0.0;  ///< greatest upper end over test engines and noise settings
+  double gain = 0.0;  ///< least lower end, fitted in the other engine
+  std::string words;  ///< the criterion and the numbers
+};
+
+/// One verdict per estimator, except always contact. An estimator passes if, fitted in the other
+/// engine, its loss is below the limit and its gain over always contact is above the limit. This
+/// must hold for the ends of the intervals in every engine and noise setting. Undefined numbers
+/// fail.
+std::vector<Verdict> verdicts(const std::vector<Transfer>& transfers, const Experiment& experiment);
+
+/// The estimators that fail a demanded verdict.
+std::vector<std::string> failed_demands(const std::vector<Verdict>& verdicts);
+
+/// Scores of an estimator, fitted on the nominal scene, in a varied one.
+struct Sensitivity {
+  Variation variation;
+  std::string estimator;
+  std::size_t runs = 0;    ///< scored
+  std::size_t failed = 0;  ///< fell or diverged
+  Interval success;        ///< accuracy; NaN without scored runs
+};
+
+/// The result of the cross-simulator check.
+struct CrossSimulatorResult {
+  Experiment experiment;
+  Agreement agreement;
+  std::vector<Transfer> transfers;
+  std::vector<Sensitivity> sensitivities;
+  std::vector<Verdict> verdicts;
+};
+
+/// Compares the runs of the two engines, the loss of estimators that were fitted in the other
+/// engine, and the effect of one factor at a time, and gives verdicts. A failed verdict is a
+/// result, not an error. Errors: `Error` when the robot completes no test run in both engines.
+CrossSimulatorResult check_across_simulators(const Evaluation& evaluation);
+
+/// Writes `tables/{agreement,torques,transfer,sensitivity,verdicts}.csv` and
+/// `tables/cross_simulator.md`, and returns texts and figures.
+StudyResult summarize_check(const CrossSimulatorResult& result, const RunDirectory& directory);
+
+}  // namespace touchdown::experiments

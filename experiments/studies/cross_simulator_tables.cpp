@@ -1,0 +1,268 @@
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/files.hpp"
+#include "core/rows.hpp"
+#include "experiments/config/experiment.hpp"
+#include "experiments/estimators/baselines.hpp"
+#include "experiments/results/captions.hpp"
+#include "experiments/results/scores.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/results/value_figure.hpp"
+#include "experiments/studies/cross_simulator.hpp"
+#include "simulators/registry.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+Columns<QuantityAgreement> agreement_columns(const std::vector<std::string>& engines) {
+  return Columns<QuantityAgreement>()
+      .text("quantity", &QuantityAgreement::name)
+      .as("metric")
+      .text("unit", &QuantityAgreement::unit)
+      .interval(engines[0], &QuantityAgreement::first)
+      .interval(engines[1], &QuantityAgreement::second)
+      .interval("difference", &QuantityAgreement::difference);
+}
+
+Columns<TorqueAgreement> torque_columns() {
+  return Columns<TorqueAgreement>()
+      .text("torque", &TorqueAgreement::name)
+      .interval("wasserstein_nm", &TorqueAgreement::distance)
+      .interval("overlap", &TorqueAgreement::overlap)
+      .metric("within_engine_nm", &TorqueAgreement::within_engine);
+}
+
+Columns<Transfer> transfer_columns() {
+  return Columns<Transfer>()
+      .part(&Transfer::cell, noise_columns())
+      .text("estimator", [](const Transfer& t) { return t.condition.estimator; })
+      .text("fit_simulator", [](const Transfer& t) { return t.condition.fit_simulator; })
+      .text("test_simulator", [](const Transfer& t) { return t.condition.test_simulator; })
+      .as("simulator")
+      .flag("is_fitted", &Transfer::is_fitted)
+      .is(ColumnRole::note)
+      .interval("success", &Transfer::success)
+      .interval("no_contact_recall", &Transfer::no_contact_recall)
+      .interval("loss", &Transfer::loss)
+      .interval("gain", &Transfer::gain);
+}
+
+Columns<Sensitivity> sensitivity_columns() {
+  return Columns<Sensitivity>()
+      .text("factor", [](const Sensitivity& s) { return s.variation.factor; })
+      .level("value", [](const Sensitivity& s) { return s.variation.value; })
+      .level("nominal", [](const Sensitivity& s) { return s.variation.nominal; })
+      .is(ColumnRole::note)
+      .text("simulator", [](const Sensitivity& s) { return s.variation.simulator; })
+      .text("estimator", &Sensitivity::estimator)
+      .runs("runs", &Sensitivity::runs)
+      .count("failed", &Sensitivity::failed)
+      .interval("success", &Sensitivity::success);
+}
+
+Columns<Verdict> verdict_columns() {
+  return Columns<Verdict>()
+      .text("estimator", &Verdict::estimator)
+      .text("verdict", [](const Verdict& verdict) { return verdict.holds ? "holds" : "fails"; })
+      .is(ColumnRole::note)
+      .flag("demanded", &Verdict::is_demanded)
+      .is(ColumnRole::note)
+      .metric("loss_high", &Verdict::loss)
+      .metric("gain_low", &Verdict::gain)
+      .text("words", &Verdict::words)
+      .is(ColumnRole::note);
+}
+
+CaptionedTable agreement_table(const CrossSimulatorResult& result) {
+  const std::vector<std::string>& engine = result.experiment.simulators;
+  CaptionedTable table{
+      fmt::format("Agreement of the engines without estimators: the same {} runs in both{}.",
+                  result.agreement.runs, setup_caption(result.experiment)),
+      "agreement",
+      {{"quantity", "unit", engine[0], engine[1], engine[1] + " − " + engine[0]}, {}}};
+  for (const QuantityAgreement& q : result.agreement.quantities) {
+    const int decimals = std::abs(q.first.estimate) >= 10.0 ? 1 : 3;
+    table.table.rows.push_back({q.name, q.unit.empty() ? "–" : q.unit,
+                                with_interval(q.first, decimals), with_interval(q.second, decimals),
+                                with_interval(q.difference, decimals)});
+  }
+  return table;
+}
+
+CaptionedTable torque_table(const CrossSimulatorResult& result) {
+  const Agreement& agreement = result.agreement;
+  CaptionedTable table{
+      fmt::format("Torque distributions of both engines; \"within\" is the distance between "
+                  "even and odd runs of one engine{}.",
+                  setup_caption(result.experiment)),
+      "torques",
+      {{"torque", "unit", "Wasserstein distance", "within", "overlap"}, {}}};
+  for (const TorqueAgreement& t : agreement.torques) {
+    table.table.rows.push_back({t.name, "N·m", with_interval(t.distance, 3),
+                                fmt::format("{:.3f}", t.within_engine),
+                                with_interval(t.overlap, 3)});
+  }
+  return table;
+}
+
+CaptionedTable transfer_table(const CrossSimulatorResult& result, const noise::NoiseCell& cell) {
+  CaptionedTable table{
+      fmt::format("Transfer: accuracy by engine of the fit and of the test; loss of accuracy when "
+                  "fitted in the other engine ({}{}).",
+                  noise_text(cell), setup_caption(result.experiment)),
+      "transfer",
+      {{"estimator", "fit → test", "accuracy", "no contact recall", "loss",
+        "gain over always contact"},
+       {}}};
+  for (const Transfer& t : result.transfers) {
+    if (!(t.cell == cell)) continue;
+    const bool own = t.condition.fit_simulator == t.condition.test_simulator;
+    if (!t.is_fitted && !own) continue;
+    const std::string where = t.is_fitted
+                                  ? t.condition.fit_simulator + " → " + t.condition.test_simulator
+                                  : "– → " + t.condition.test_simulator;
+    table.table.rows.push_back(
+        {estimator_entry(result.experiment, t.condition.estimator).title, where,
+         with_interval(t.success), with_interval(t.no_contact_recall),
+         own ? "–" : with_interval(t.loss, 4),
+         t.condition.estimator == always_contact_name ? "–" : with_interval(t.gain)});
+  }
+  return table;
+}
+
+/// One row per value and engine, one column per estimator.
+CaptionedTable sensitivity_table(const CrossSimulatorResult& result) {
+  CaptionedTable table{
+      fmt::format("Sensitivity: accuracy of estimators fitted on the nominal scene (*), one "
+                  "factor at a time, {} runs each ({}{}).",
+                  result.experiment.studies.at<CrossSimulatorConfig>().sensitivity_runs,
+                  noise_text(result.experiment.highlights.front()),
+                  setup_caption(result.experiment)),
+      "sensitivity",
+      {{"factor", "simulator", "value", "fell"}, {}}};
+  for (const std::string& estimator : unique(result.sensitivities, &Sensitivity::estimator)) {
+    table.table.header.push_back(estimator_entry(result.experiment, estimator).title);
+  }
+  const auto value_of = [](const Sensitivity& s) {
+    return std::tuple(s.variation.factor, s.variation.simulator, s.variation.value);
+  };
+  for (const auto& alike : group_by(result.sensitivities, value_of)) {
+    const Sensitivity& first = alike.rows.front();
+    const Variation& variation = first.variation;
+    std::vector<std::string>& cells = table.table.rows.emplace_back(
+        std::vector{variation.factor, variation.simulator,
+                    exact(variation.value) + (variation.is_nominal() ? " *" : ""),
+                    fmt::format("{}/{}", first.failed, first.runs + first.failed)});
+    for (const Sensitivity& s : alike.rows) {
+      cells.push_back(std::isnan(s.success.estimate) ? "–"
+                                                     : fmt::format("{:.3f}", s.success.estimate));
+    }
+  }
+  return table;
+}
+
+std::string verdict_lines(const std::vector<Verdict>& verdicts, const char* bullet) {
+  std::string text;
+  for (const Verdict& verdict : verdicts) {
+    text +=
+        fmt::format("{}{}{}\n", bullet, verdict.is_demanded ? "[demanded] " : "", verdict.words);
+  }
+  return text;
+}
+
+/// The tables of the report: agreement, transfer, sensitivity.
+std::vector<CaptionedTable> report_tables(const CrossSimulatorResult& result) {
+  std::vector<CaptionedTable> tables = {agreement_table(result), torque_table(result)};
+  for (const noise::NoiseCell& cell : result.experiment.highlights) {
+    tables.push_back(transfer_table(result, cell));
+  }
+  if (!result.sensitivities.empty()) tables.push_back(sensitivity_table(result));
+  return tables;
+}
+
+/// The series of a transfer: fitted in one engine and tested in the other.
+FigureGroups directions(const Experiment& experiment) {
+  FigureGroups groups{{"fit_simulator", "test_simulator"}, {}};
+  for (const std::string& fit : experiment.simulators) {
+    for (const std::string& test : experiment.simulators) {
+      if (fit == test) continue;
+      groups.groups.push_back({{fit, test},
+                               fmt::format("{} → {}", simulators::simulator_title(fit),
+                                           simulators::simulator_title(test))});
+    }
+  }
+  return groups;
+}
+
+/// What each fitted estimator loses in the other engine.
+FigureSpec transfer_figure(const Table& transfer, const Experiment& experiment) {
+  FigureSpec spec{.name = "transfer", .table = "transfer.csv"};
+  spec.where = {{"is_fitted", "1"}};
+  spec.panels = noise_panels(transfer);
+  spec.series = directions(experiment);
+  spec.rows = groups_in(transfer, "estimator", estimator_title, spec.where);
+  spec.measures = {axis_with_interval("loss", "loss of accuracy"),
+                   axis_with_interval("gain", "gain over always contact")};
+  spec.title = "Transfer between the engines";
+  spec.caption = fmt::format(
+      "Estimators fitted in one engine and tested in the other, \"fitted → tested\". Loss: "
+      "accuracy of the same estimator fitted in the test engine, minus this one's, on the same "
+      "runs. Gain: "
+      "accuracy minus that of always contact ({}{}; {}).",
+      labels_text(experiment), setup_caption(experiment), intervals_text(experiment));
+  spec.alt = "Loss of accuracy when fitted in the other engine." + values_text(spec, transfer);
+  return spec;
+}
+
+/// Accuracy over each factor: a figure for every engine, `sensitivity_<engine>`.
+std::vector<FigureSpec> sensitivity_figures(const Table& sensitivity,
+                                            const Experiment& experiment) {
+  std::vector<FigureSpec> specs;
+  for (const std::string& simulator : experiment.simulators) {
+    FigureSpec spec = accuracy_by_value(sensitivity, "sensitivity", "factor", "value of the factor",
+                                        simulator, experiment);
+    spec.title =
+        fmt::format("Sensitivity of the accuracy: {}", simulators::simulator_title(simulator));
+    spec.caption = fmt::format(
+        "Accuracy of estimators fitted on the nominal scene, one factor at a time, {} runs each "
+        "({}; {}{}; {}). Values are equally spaced; curves are shifted sideways a little.",
+        experiment.studies.at<CrossSimulatorConfig>().sensitivity_runs,
+        noise_text(experiment.highlights.front()), labels_text(experiment),
+        setup_caption(experiment), intervals_text(experiment));
+    if (!spec.panels.groups.empty()) specs.push_back(std::move(spec));
+  }
+  return specs;
+}
+
+}  // namespace
+
+StudyResult summarize_check(const CrossSimulatorResult& result, const RunDirectory& directory) {
+  const Experiment& experiment = result.experiment;
+  directory.write_table("agreement.csv", agreement_columns(experiment.simulators),
+                        result.agreement.quantities);
+  directory.write_table("torques.csv", torque_columns(), result.agreement.torques);
+  const Table transfer =
+      directory.write_table("transfer.csv", transfer_columns(), result.transfers);
+  const Table sensitivity =
+      directory.write_table("sensitivity.csv", sensitivity_columns(), result.sensitivities);
+  directory.write_table("verdicts.csv", verdict_columns(), result.verdicts);
+  std::string text;
+  std::string markdown;
+  for (const CaptionedTable& table : report_tables(result)) {
+    text += '\n' + to_text(table);
+    markdown += to_markdown(table) + "\n";
+  }
+  text += "\nVerdicts\n\n" + verdict_lines(result.verdicts, "  ");
+  markdown += "Verdicts\n\n" + verdict_lines(result.verdicts, "- ");
+  write_atomically(directory.own_file("tables", "cross_simulator.md"), markdown);
+  std::vector<FigureSpec> figures = sensitivity_figures(sensitivity, experiment);
+  figures.insert(figures.begin(), transfer_figure(transfer, experiment));
+  return {{std::move(text)}, failed_demands(result.verdicts), std::move(figures)};
+}
+
+}  // namespace touchdown::experiments

@@ -1,0 +1,339 @@
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "core/files.hpp"
+#include "core/tables/verbs.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/results/captions.hpp"
+#include "experiments/run_directory/recorded_files.hpp"
+#include "render/report/html.hpp"
+#include "render/report/page.hpp"
+#include "render/studies/benchmark.hpp"
+#include "simulators/registry.hpp"
+
+namespace touchdown::render {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+std::string short_number(double value) {
+  return std::isnan(value) ? "–" : fmt::format("{:.3g}", value);
+}
+
+/// With the digits that the cells have.
+std::string accuracy_text(double accuracy) {
+  return std::isnan(accuracy) ? "–" : fmt::format("{:.3f}", accuracy);
+}
+
+std::string accuracy_text(const Interval& accuracy) {
+  return fmt::format("balanced accuracy {} [{}, {}]", accuracy_text(accuracy.estimate),
+                     accuracy_text(accuracy.low), accuracy_text(accuracy.high));
+}
+
+/// The text that a cell shows when the user points at it.
+std::string tooltip(const SceneScore& score) {
+  return fmt::format(
+      "{}; flight F1 {}; {} extra switches per minute; {} false takeoffs per minute; median "
+      "takeoff latency {} ms",
+      accuracy_text(score.accuracy), short_number(score.flight_f1),
+      short_number(score.extra_switches_per_minute), short_number(score.false_takeoffs_per_minute),
+      short_number(score.takeoff_latency_median_ms));
+}
+
+/// The shade of a cell, from 0: the darkest and worst.
+std::size_t level_of(double accuracy) {
+  constexpr std::array limits = {0.6, 0.8, 0.9, 0.95, 0.98};
+  return static_cast<std::size_t>(std::upper_bound(limits.begin(), limits.end(), accuracy) -
+                                  limits.begin());
+}
+
+struct AccuracyCell {
+  double value = nothing;
+  std::string tooltip = {};
+};
+
+/// A table with a row per estimator. The best of each column is bold, and columns can be sorted.
+std::string accuracy_table(const std::string& caption, const std::vector<std::string>& columns,
+                           const std::vector<std::string>& estimators,
+                           const std::vector<std::vector<AccuracyCell>>& cells) {
+  std::string html = fmt::format(
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\">\n<table "
+      "class=\"shares\">\n<caption><span>{0}</span></caption>\n<thead><tr><th class=\"name\" "
+      "scope=\"col\">estimator</th>",
+      escaped(caption));
+  for (const std::string& column : columns) {
+    html +=
+        fmt::format("<th scope=\"col\"><button class=\"sort\">{}</button></th>", escaped(column));
+  }
+  html += "</tr></thead>\n<tbody>\n";
+  for (std::size_t row = 0; row < estimators.size(); ++row) {
+    html += fmt::format("<tr><th class=\"name\" scope=\"row\">{}</th>",
+                        escaped(experiments::estimator_title(estimators[row])));
+    for (std::size_t column = 0; column < columns.size(); ++column) {
+      const AccuracyCell& cell = cells[row][column];
+      if (std::isnan(cell.value)) {
+        html += "<td>–</td>";
+        continue;
+      }
+      double best = 0.0;
+      for (const auto& other : cells) best = std::fmax(best, other[column].value);
+      html += fmt::format("<td class=\"level-{}{}\" data-value=\"{}\" title=\"{}\">{:.3f}</td>",
+                          level_of(cell.value), cell.value >= best - 0.0005 ? " best" : "",
+                          cell.value, escaped(cell.tooltip), cell.value);
+    }
+    html += "</tr>\n";
+  }
+  return html + "</tbody></table></div>\n";
+}
+
+std::string name_of(const SceneScore& score) {
+  return score.is_unseen ? score.scene + " *" : score.scene;
+}
+
+std::string scene_table(const std::vector<SceneScore>& scores, const std::string& caption) {
+  const auto estimators = unique(scores, [](const SceneScore& s) { return s.estimator; });
+  const auto columns = unique(scores, name_of);
+  std::vector<std::vector<AccuracyCell>> cells(estimators.size());
+  for (std::size_t row = 0; row < estimators.size(); ++row) {
+    for (const std::string& column : columns) {
+      const auto found = std::find_if(scores.begin(), scores.end(), [&](const SceneScore& score) {
+        return score.estimator == estimators[row] && name_of(score) == column;
+      });
+      cells[row].push_back(found == scores.end()
+                               ? AccuracyCell{}
+                               : AccuracyCell{found->accuracy.estimate, tooltip(*found)});
+    }
+  }
+  return accuracy_table(caption, columns, estimators, cells);
+}
+
+/// Mean balanced accuracy over all scenes and engines: a table for every noise setting, with a row
+/// per estimator and a column per robot with its sensors.
+std::string matrix_html(const BenchmarkScores& scores) {
+  const auto estimators = unique(scores.standings, [](const Standing& p) { return p.estimator; });
+  const auto settings = unique(scores.standings, [](const Standing& p) { return p.setting; });
+  std::string html;
+  for (const std::string& noise :
+       unique(scores.standings, [](const Standing& p) { return p.noise; })) {
+    std::vector<std::vector<AccuracyCell>> cells(estimators.size(),
+                                                 std::vector<AccuracyCell>(settings.size()));
+    for (const Standing& standing : scores.standings) {
+      if (standing.noise != noise) continue;
+      const auto index = [](const std::vector<std::string>& all, const std::string& one) {
+        return static_cast<std::size_t>(std::find(all.begin(), all.end(), one) - all.begin());
+      };
+      cells[index(estimators, standing.estimator)][index(settings, standing.setting)] = {
+          standing.mean.estimate,
+          fmt::format("mean {}; worst scene: {} in {}, {}", accuracy_text(standing.mean),
+                      accuracy_text(standing.worst), standing.worst_scene,
+                      simulators::simulator_title(standing.worst_simulator))};
+    }
+    html += accuracy_table(
+        fmt::format("Mean balanced accuracy over all scenes and engines, by robot and sensors, {}",
+                    noise),
+        settings, estimators, cells);
+  }
+  return html;
+}
+
+/// Balanced accuracy by scene for one robot with its sensors: a table for every engine and noise
+/// setting, with a row per estimator and a column per scene. A star marks scenes that no estimator
+/// was fitted to.
+std::string scenes_html(const BenchmarkScores& scores, const std::string& setting,
+                        const std::vector<std::string>& simulators) {
+  std::string html;
+  for (const std::string& noise : unique(scores.scenes, [](const auto& s) { return s.noise; })) {
+    for (const std::string& simulator : simulators) {
+      std::vector<SceneScore> alike;
+      std::copy_if(scores.scenes.begin(), scores.scenes.end(), std::back_inserter(alike),
+                   [&](const SceneScore& s) {
+                     return s.setting == setting && s.noise == noise && s.simulator == simulator;
+                   });
+      if (alike.empty()) continue;
+      html +=
+          scene_table(alike, fmt::format("Balanced accuracy by scene: {}, {}, {}",
+                                         simulators::simulator_title(simulator), setting, noise));
+    }
+  }
+  return html;
+}
+
+constexpr std::size_t most_failures = 4;  ///< scenes on a card
+constexpr double failure = 0.95;          ///< a card lists scenes of lower balanced accuracy
+
+std::string summary_of(const std::string& estimator) {
+  for (const experiments::EstimatorEntry& entry : experiments::estimator_entries()) {
+    if (entry.name == estimator) return entry.summary;
+  }
+  return "Submitted as beliefs";
+}
+
+/// The errors in a scene, of both kinds: missed flight and false flight.
+std::string errors_of(const SceneScore& score) {
+  const double missed = 1.0 - score.no_contact_recall;
+  const double is_contact = 1.0 - score.no_contact_precision;
+  if (std::isnan(missed)) {
+    return fmt::format("the scene has no flight, and it reports {:.3g} false takeoffs per minute",
+                       score.false_takeoffs_per_minute);
+  }
+  std::string text = fmt::format("misses {:.0f} % of the time in the air", 100.0 * missed);
+  if (std::isnan(is_contact)) return text + " and never reports flight";
+  return text + fmt::format("; {:.0f} % of the flight it reports is contact", 100.0 * is_contact);
+}
+
+std::string standing_text(const Standing& standing) {
+  return fmt::format("{:.3f} ({}, {})", standing.mean.estimate, standing.setting, standing.noise);
+}
+
+std::string card(const BenchmarkScores& scores, const std::string& estimator,
+                 const fs::path& run_directory) {
+  const Standing* best = nullptr;
+  const Standing* worst = nullptr;
+  std::size_t not_worse = 0;
+  std::size_t settings = 0;
+  std::string excess;
+  for (const Standing& standing : scores.standings) {
+    if (standing.estimator != estimator) continue;
+    ++settings;
+    if (excess.empty() && !std::isnan(standing.excess_log_loss) &&
+        !experiments::is_upper_bound(estimator)) {
+      excess = fmt::format(
+          " Its log loss exceeds that of the best reference upper bound by {:.3f} bits per wheel "
+          "and step ({}, {}).",
+          standing.excess_log_loss, standing.setting, standing.noise);
+    }
+    not_worse += standing.is_not_significantly_worse ? 1U : 0U;
+    if (best == nullptr || standing.mean.estimate > best->mean.estimate) best = &standing;
+    if (worst == nullptr || standing.mean.estimate < worst->mean.estimate) worst = &standing;
+  }
+  std::vector<const SceneScore*> failures;
+  for (const SceneScore& score : scores.scenes) {
+    if (score.estimator == estimator && score.accuracy.estimate < failure) {
+      failures.push_back(&score);
+    }
+  }
+  std::stable_sort(failures.begin(), failures.end(), [](const auto* one, const auto* other) {
+    return one->accuracy.estimate < other->accuracy.estimate;
+  });
+  std::string items;
+  std::vector<std::string> listed;
+  for (const SceneScore* score : failures) {
+    if (listed.size() == most_failures) break;
+    if (std::find(listed.begin(), listed.end(), score->scene) != listed.end()) continue;
+    listed.push_back(score->scene);
+    items += fmt::format("<li><b>{}</b> {:.3f}: {} ({}, {}, {})</li>\n", escaped(score->scene),
+                         score->accuracy.estimate, errors_of(*score),
+                         escaped(simulators::simulator_title(score->simulator)),
+                         escaped(score->setting), escaped(score->noise));
+  }
+  const fs::path film = run_directory / "videos" / fmt::format("worst_{}.mp4", estimator);
+  const std::string film_html =
+      is_there(film)
+          ? fmt::format(
+                "<figure class=\"film\"><video controls muted playsinline "
+                "preload=\"metadata\" aria-label=\"The worst two seconds of {0}\" "
+                "src=\"{1}\"></video>\n<figcaption>The two seconds in which it makes the most "
+                "errors.</figcaption></figure>\n",
+                escaped(experiments::estimator_title(estimator)), data_uri("video/mp4", film))
+          : "";
+  return fmt::format(
+      "<article class=\"card\">\n<h3>{}</h3>\n<p>{}. Not significantly worse than the best in {} "
+      "of {} settings. Mean balanced accuracy: {} to {}.{}</p>\n{}{}</article>\n",
+      escaped(experiments::estimator_title(estimator)), escaped(summary_of(estimator)), not_worse,
+      settings, escaped(standing_text(*worst)), escaped(standing_text(*best)), escaped(excess),
+      items.empty() ? fmt::format("<p>At least {:.2f} in every scene.</p>\n", failure)
+                    : "<ul>\n" + items + "</ul>\n",
+      film_html);
+}
+
+/// A card for each estimator: a summary, its best and worst mean, and the scenes in which it fails,
+/// with its errors there. A card shows `videos/worst_<estimator>.mp4` if the run directory has it.
+std::string cards_html(const BenchmarkScores& scores, const fs::path& run_directory) {
+  std::string html = "<div class=\"cards\">\n";
+  for (const std::string& estimator :
+       unique(scores.standings, [](const Standing& standing) { return standing.estimator; })) {
+    if (estimator == experiments::always_contact_name) continue;
+    html += card(scores, estimator, run_directory);
+  }
+  return html + "</div>\n";
+}
+
+std::string header_of(const ReportSubject& subject, const BenchmarkScores& scores) {
+  const auto fact = [](const char* name, const auto& rows, const auto& of) {
+    return fact_html(name, std::to_string(unique(rows, of).size()));
+  };
+  return fmt::format(
+             "<p class=\"kicker\">Contact estimation on a wheeled biped</p>\n<h1>{}: which "
+             "estimator works where?</h1>\n<p class=\"lead\">Balanced accuracy is the mean of the "
+             "recall of contact and the recall of flight. In a scene with only one of the two, it "
+             "is the recall of that one. A constant answer scores 0.5 where both occur.</p>\n<dl "
+             "class=\"facts\">\n",
+             escaped(subject.experiment.name)) +
+         fact("estimators", scores.standings, [](const Standing& s) { return s.estimator; }) +
+         fact("scenes", scores.scenes, [](const SceneScore& s) { return s.scene; }) +
+         fact("robots", scores.standings, [](const Standing& s) { return s.robot; }) +
+         fact("sensor profiles", scores.standings, [](const Standing& s) { return s.sensors; }) +
+         fact("noise settings", scores.standings, [](const Standing& s) { return s.noise; }) +
+         fact_html("physics engines", std::to_string(subject.experiment.simulators.size())) +
+         fmt::format(
+             "</dl>\n<p class=\"note\">{} {} runs per scene and engine. All numbers of "
+             "this page: <a href=\"tables/benchmark.csv\">benchmark.csv</a>, <a "
+             "href=\"tables/benchmark_standings.csv\">standings</a>, <a "
+             "href=\"tables/benchmark_differences.csv\">differences</a>, all as <a "
+             "href=\"tables/benchmark.json\">JSON</a>. The <a href=\"report.html\">report"
+             "</a> shows the rest of the experiment.</p>\n",
+             escaped(experiments::conditions_text(subject.experiment)),
+             subject.experiment.test.runs);
+}
+
+/// The figure of one robot with its sensors; empty when it was not drawn.
+std::string figure_html(const fs::path& run_directory, const Standing& standing) {
+  const fs::path stem = standings_stem(run_directory, standing);
+  const fs::path svg = stem.string() + ".svg";
+  const fs::path script = stem.string() + ".gp";
+  if (!is_there(svg) || !is_there(script)) return {};
+  const FigureText text = figure_text(read_file(script));
+  return fmt::format(
+      "<figure class=\"wide\"><div class=\"pan\" tabindex=\"0\" role=\"group\" aria-label=\"{0}\">"
+      "<img alt=\"{1}\" src=\"{2}\"></div></figure>\n",
+      escaped(text.title), escaped(text.alt), data_uri("image/svg+xml", svg));
+}
+
+}  // namespace
+
+fs::path write_benchmark_page(const ReportSubject& subject) {
+  const BenchmarkScores scores = benchmark_scores(subject.directory);
+  std::string standings;
+  std::string scenes =
+      "<p>Cells show balanced accuracy: the best of each column is bold, and darker cells are "
+      "worse. A star marks scenes that are unlike all training scenes. Click a heading to sort; "
+      "point at a cell for more numbers.</p>\n";
+  std::string last;
+  for (const Standing& standing : scores.standings) {
+    if (standing.setting == last) continue;
+    const char* open = last.empty() ? " open" : "";
+    last = standing.setting;
+    const auto folded = [&](const std::string& html) {
+      return html.empty() ? html
+                          : fmt::format("<details{}><summary>{}</summary>\n{}</details>\n", open,
+                                        escaped(last), html);
+    };
+    standings += folded(figure_html(subject.directory, standing));
+    scenes += folded(scenes_html(scores, last, subject.experiment.simulators));
+  }
+  fs::path path = experiments::record_file(subject.directory, "benchmark.html");
+  write_page(subject, path, header_of(subject, scores),
+             {{"standings", "Ranking", standings},
+              {"matrix", "Robots and sensors", matrix_html(scores)},
+              {"scenes", "Scene by scene", scenes},
+              {"cards", "Failures of each estimator", cards_html(scores, subject.directory)}});
+  return path;
+}
+
+}  // namespace touchdown::render

@@ -1,0 +1,219 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "core/tables/verbs.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/results/captions.hpp"
+#include "render/gnuplot/frame.hpp"
+#include "render/gnuplot/text.hpp"
+#include "render/studies/benchmark.hpp"
+#include "simulators/registry.hpp"
+
+namespace touchdown::render {
+
+namespace {
+
+constexpr double row_height = 26.0, names_width = 190.0, mean_width = 380.0, bars_width = 96.0;
+constexpr double worst_width = 230.0, words_width = 170.0, gap_y = 84.0;
+
+/// One noise setting.
+struct Panel {
+  std::vector<Standing> standings;
+  std::vector<Standing> upper_bounds = {};  ///< without ranks
+};
+
+/// The ranks of neighbours that do not differ significantly.
+struct TiedRanks {
+  std::size_t first, last;
+};
+
+bool differ_significantly(const BenchmarkScores& scores, const Standing& one,
+                          const Standing& other) {
+  return std::any_of(scores.pairs.begin(), scores.pairs.end(), [&](const PairedBand& pair) {
+    const bool is_this_pair = pair.scene.empty() && pair.setting == one.setting &&
+                              pair.noise == one.noise &&
+                              ((pair.first == one.estimator && pair.second == other.estimator) ||
+                               (pair.second == one.estimator && pair.first == other.estimator));
+    return is_this_pair && (pair.difference.low > 0.0 || pair.difference.high < 0.0);
+  });
+}
+
+/// The maximal groups of two or more neighbours of which no two differ significantly.
+std::vector<TiedRanks> ties(const BenchmarkScores& scores, const std::vector<Standing>& standings) {
+  std::vector<TiedRanks> all;
+  for (std::size_t first = 0; first < standings.size(); ++first) {
+    std::size_t last = first;
+    const auto joins = [&](std::size_t next) {
+      for (std::size_t i = first; i < next; ++i) {
+        if (differ_significantly(scores, standings[i], standings[next])) return false;
+      }
+      return true;
+    };
+    while (last + 1 < standings.size() && joins(last + 1)) ++last;
+    const bool is_part = !all.empty() && all.back().last >= last;
+    if (last > first && !is_part) all.push_back({first, last});
+  }
+  return all;
+}
+
+/// Blocks (gnuplot's `index`): for every noise setting the standings (mean, low, high, height,
+/// worst, its label) and the bars (position, lower end, upper end).
+std::string data_of(const std::vector<Panel>& panels, const BenchmarkScores& scores) {
+  std::string text = "#mean\tlow\thigh\theight\tworst\twhere\n";
+  const auto out = std::back_inserter(text);
+  for (const Panel& panel : panels) {
+    const std::vector<Standing>& standings = panel.standings;
+    const std::size_t count = standings.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Standing& standing = standings[i];
+      fmt::format_to(out, "{}\t{}\t{}\t{}\t{}\t\"{:.3f} {}, {}\"\n", number(standing.mean.estimate),
+                     number(standing.mean.low), number(standing.mean.high), count - 1 - i,
+                     number(standing.worst), standing.worst, standing.worst_scene,
+                     simulators::simulator_title(standing.worst_simulator));
+    }
+    text += "\n\n";
+    const std::vector<TiedRanks> all = ties(scores, standings);
+    if (all.empty()) text += "NaN\tNaN\tNaN\n";
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      fmt::format_to(out, "{}\t{}\t{}\n", i, static_cast<double>(count - 1 - all[i].last) - 0.3,
+                     static_cast<double>(count - 1 - all[i].first) + 0.3);
+    }
+    text += "\n\n";
+  }
+  return text;
+}
+
+/// The lines of the reference upper bounds, in turn.
+struct BoundLine {
+  int dash_type;  ///< gnuplot's number
+  const char* text;
+};
+constexpr std::array<BoundLine, 2> bound_lines = {{{2, "dashed"}, {3, "dotted"}}};
+
+const BoundLine& line_of(std::size_t bound) { return bound_lines[bound % bound_lines.size()]; }
+
+/// A sentence about the lines of the reference upper bounds; empty without any.
+std::string legend_of(const std::vector<Standing>& upper_bounds) {
+  std::string text;
+  for (std::size_t i = 0; i < upper_bounds.size(); ++i) {
+    text += fmt::format("{}{}, {}", i > 0 ? "; " : " Reference upper bounds: ", line_of(i).text,
+                        experiments::estimator_title(upper_bounds[i].estimator));
+  }
+  return text.empty() ? text : text + ".";
+}
+
+std::string described(const std::vector<Panel>& panels) {
+  std::string text = "Mean balanced accuracy, the best first.";
+  for (const Panel& panel : panels) {
+    fmt::format_to(std::back_inserter(text), " {}:", panel.standings.front().noise);
+    for (const Standing& bound : panel.upper_bounds) {
+      fmt::format_to(std::back_inserter(text), " reference upper bound, {}, {:.3f};",
+                     experiments::estimator_title(bound.estimator), bound.mean.estimate);
+    }
+    for (const Standing& standing : panel.standings) {
+      fmt::format_to(std::back_inserter(text), " {} {:.3f} (worst {:.3f}, {});",
+                     experiments::estimator_title(standing.estimator), standing.mean.estimate,
+                     standing.worst, standing.worst_scene);
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::filesystem::path standings_stem(const std::filesystem::path& run_directory,
+                                     const Standing& standing) {
+  return run_directory / "figures" /
+         fmt::format("benchmark_{}_{}", standing.robot, standing.sensors);
+}
+
+Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& setting,
+                             double level, const std::filesystem::path& stem) {
+  std::vector<Panel> panels;
+  std::string noise;
+  double lowest = 0.99;  // an axis from 1 to 1 cannot be drawn
+  for (const Standing& standing : scores.standings) {
+    if (standing.setting != setting) continue;
+    if (panels.empty() || noise != standing.noise) panels.emplace_back();
+    noise = standing.noise;
+    if (experiments::is_upper_bound(standing.estimator)) {
+      panels.back().upper_bounds.push_back(standing);
+      continue;
+    }
+    panels.back().standings.push_back(standing);
+    lowest = std::fmin(lowest,
+                       std::isnan(standing.mean.low) ? standing.mean.estimate : standing.mean.low);
+  }
+  const double height = row_height * static_cast<double>(panels.front().standings.size());
+  const FigureFrame frame(
+      fmt::format("Balanced accuracy by estimator: {}", setting),
+      fmt::format(
+          "Balanced accuracy, averaged over all scenes and engines, with {:.0f} % intervals over "
+          "runs, and over fits where these were repeated. A bar joins estimators that do not "
+          "differ significantly: the simultaneous bands of their paired differences include zero. "
+          "On the right, the worst scene of each estimator.{}",
+          100.0 * level, legend_of(panels.front().upper_bounds)),
+      names_width + mean_width + bars_width + worst_width + words_width,
+      static_cast<double>(panels.size()) * (height + gap_y));
+  const std::string file = gnuplot_file(stem.filename().string() + ".dat");
+  std::string commands = "unset key\nset grid noytics\n";
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    const std::vector<Standing>& standings = panels[p].standings;
+    std::string estimators;
+    for (std::size_t i = 0; i < standings.size(); ++i) {
+      estimators += fmt::format("{}{} {}", i > 0 ? ", " : "",
+                                gnuplot_text(experiments::estimator_title(standings[i].estimator)),
+                                standings.size() - 1 - i);
+    }
+    const double top = 24.0 + static_cast<double>(p) * (height + gap_y);
+    commands += frame.panel(names_width, top, mean_width, height);
+    for (std::size_t i = 0; i < panels[p].upper_bounds.size(); ++i) {
+      commands += fmt::format(
+          "set arrow {0} from {1},graph 0 to {1},graph 1 nohead dt {2} lw 1.4 lc rgb '#22262b'\n",
+          i + 1, number(panels[p].upper_bounds[i].mean.estimate), line_of(i).dash_type);
+    }
+    commands += fmt::format(
+        "set border 1\nset title {0} offset 0,-0.6\nset yrange [-0.6:{1}]\nset xrange [{2:.2f}:1]\n"
+        "set xtics nomirror autofreq\nset ytics scale 0 ({3})\n"
+        "set xlabel 'mean balanced accuracy'\n"
+        "plot {4} index {5} using 1:4 with points lt 1 pt 7 ps 0.9, \\\n"
+        "     '' index {5} using 1:4:2:3 with xerrorbars lt 1 lw 1.6 dt 1 pt 7 ps 0.9\n",
+        gnuplot_text("noise: " + standings.front().noise),
+        static_cast<double>(standings.size()) - 0.4, std::floor(20.0 * lowest) / 20.0, estimators,
+        file, 2 * p);
+    commands += "unset arrow\n";
+    commands += FigureFrame::end_panel();
+    commands += frame.panel(names_width + mean_width + 14.0, top, bars_width - 28.0, height);
+    commands += fmt::format(
+        "unset border\nunset title\nunset xlabel\nunset xtics\nunset ytics\nset xrange [-0.5:8]\n"
+        "plot {} index {} using 1:2:(0):($3-$2) with vectors nohead lc rgb '#22262b' lw 4 dt 1\n",
+        file, 2 * p + 1);
+    commands += FigureFrame::end_panel();
+    commands += frame.panel(names_width + mean_width + bars_width, top, worst_width, height);
+    commands += fmt::format(
+        "set border 1\nset xtics nomirror 0.25\nset xrange [0:1]\nset xlabel 'worst scene'\n"
+        "plot {0} index {1} using (0):4:5:(0) with vectors nohead lc rgb '#9aa1a8' lw 2 dt 1, \\\n"
+        "     '' index {1} using 5:4 with points lt 2 pt 7 ps 0.8, \\\n"
+        "     '' index {1} using (1):4:6 with labels left offset 1,0 font ',9'\n",
+        file, 2 * p);
+    commands += FigureFrame::end_panel();
+  }
+  return frame.draw(stem, commands, data_of(panels, scores), described(panels));
+}
+
+void draw_standings_figures(const std::filesystem::path& run_directory, double level) {
+  const BenchmarkScores scores = benchmark_scores(run_directory);
+  std::string last;
+  for (const Standing& standing : scores.standings) {
+    const std::string stem = standings_stem(run_directory, standing).string();
+    if (stem == last) continue;
+    last = stem;
+    draw_standings_figure(scores, standing.setting, level, stem);
+  }
+}
+
+}  // namespace touchdown::render

@@ -1,0 +1,346 @@
+#include "experiments/studies/benchmark.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/table.hpp"
+#include "experiments/run_directory/own_files.hpp"
+#include "experiments/stages/experiment_context.hpp"
+#include "tests/experiments/studies/study_test.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
+using ::testing::ThrowsMessage;
+
+/// A filter in a scene that it is fitted to and one in which nothing happens.
+Experiment with_benchmark(const ScratchFolder& folder, const std::string& benchmark) {
+  const std::string step = folder.write("small_step.yaml", small_step_scene).string();
+  const std::string stand =
+      folder.write("stand.yaml", "name: stand\nend: {duration: 1.0}\n").string();
+  return experiment_from_yaml(YamlDocument::parse(
+      "name: small\nsimulators: [mujoco]\nestimators: [measurement_only]\nfit: {scenarios: [" +
+          step + "], runs: 2, perturbed: true}\ntest: {scenarios: [" + step + ", " + stand +
+          "], runs: 2}\nnoise: {torque: [0, 1]}\nhighlights: [{torque: 0, accelerometer: 0}, "
+          "{torque: 1, accelerometer: 0}]\nrecordings: none\nvideo: {enabled: false}\n"
+          "benchmark: " +
+          benchmark + "\n",
+      "small.yaml"));
+}
+
+class Benchmark : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = new ScratchFolder;
+    RunOptions options;
+    options.out = *folder / "run";
+    result = new ExperimentResult(
+        run_experiment(with_benchmark(*folder,
+                                      "{robots: [models/upkie_actuated.yaml], sensors: "
+                                      "[sensors/harsh.yaml]}"),
+                       options));
+    table = from_csv(read_file(*folder / "run/tables/benchmark.csv"));
+  }
+  static void TearDownTestSuite() {
+    delete result;
+    delete folder;
+  }
+
+  static ScratchFolder* folder;
+  static ExperimentResult* result;
+  static Table table;
+};
+ScratchFolder* Benchmark::folder = nullptr;
+ExperimentResult* Benchmark::result = nullptr;
+Table Benchmark::table;
+
+TEST_F(Benchmark, HasARowForEverySceneRobotSensorsNoiseAndEstimator) {
+  EXPECT_THAT(table.header,
+              IsSupersetOf({"simulator", "robot", "sensors", "scene", "split", "estimator",
+                            "balanced_accuracy", "balanced_accuracy_low", "balanced_accuracy_high",
+                            "no_contact_precision", "no_contact_recall", "flight_f1",
+                            "takeoff_latency_median_ms", "landing_latency_median_ms",
+                            "extra_switches_per_minute", "calibration_error"}));
+  // Two robots, two kinds of sensors, two scenes, two noise settings, the filter and always
+  // contact.
+  ASSERT_EQ(table.rows.size(), 2U * 2 * 2 * 2 * 2);
+  std::set<std::string> settings;
+  for (const std::vector<std::string>& row : table.rows) {
+    settings.insert(cell(table, row, "robot") + " " + cell(table, row, "sensors"));
+    const bool is_fitted = cell(table, row, "scene") == "small_step";
+    EXPECT_EQ(cell(table, row, "split"), is_fitted ? "test" : "unseen");
+    EXPECT_EQ(cell(table, row, "runs"), "2");
+    EXPECT_EQ(cell(table, row, "failed"), "0");
+  }
+  EXPECT_EQ(settings, (std::set<std::string>{"upkie ideal", "upkie harsh", "upkie_actuated ideal",
+                                             "upkie_actuated harsh"}));
+}
+
+TEST_F(Benchmark, HasScoresForEveryScene) {
+  // There are no takeoffs on level ground, so that accuracy is that of contact alone.
+  for (const std::vector<std::string>& row : table.rows) {
+    const bool stands = cell(table, row, "scene") == "stand";
+    EXPECT_EQ(cell(table, row, "takeoffs") == "0", stands);
+    if (stands) {
+      EXPECT_EQ(cell(table, row, "balanced_accuracy"), cell(table, row, "success"));
+    }
+    if (cell(table, row, "estimator") != "always_contact") continue;
+    EXPECT_EQ(cell(table, row, "balanced_accuracy"), stands ? "1.000000" : "0.500000");
+    EXPECT_EQ(cell(table, row, "extra_switches_per_minute"), "0.000000");
+  }
+}
+
+TEST_F(Benchmark, FitsToEveryRobotAndItsSensors) {
+  for (const char* fit : {"", "_upkie_harsh", "_upkie_actuated_ideal", "_upkie_actuated_harsh"}) {
+    ASSERT_TRUE(result->models.contains(std::string("mujoco") + fit)) << fit;
+  }
+  const auto density = [&](const std::string& fit) {
+    return result->models.at("mujoco" + fit).at("measurement_only").measurement->grids().contact;
+  };
+  EXPECT_NE(density(""), density("_upkie_harsh"));
+  EXPECT_NE(density("_upkie_harsh"), density("_upkie_actuated_harsh"));
+}
+
+TEST_F(Benchmark, IsTheRunsOwnTable) {
+  EXPECT_THAT(own_files(*folder / "run"),
+              Contains(std::filesystem::path("tables") / "benchmark.csv"));
+  EXPECT_THAT(result->studies, Contains(HasSubstr("upkie_actuated, sensors harsh")));
+}
+
+TEST(ABenchmark, ScoresTransfersBesideInDomainFits) {
+  const ScratchFolder folder;
+  Experiment experiment =
+      with_benchmark(folder, "{robots: [models/upkie_actuated.yaml], transfer: true}");
+  experiment.simulators = {"mujoco", "bullet"};
+  experiment.highlights.resize(1);
+  const ExperimentResult result = run_in(folder, experiment);
+  const Table all = result.directory.read_table("benchmark.csv");
+  std::map<std::string, int> fits;
+  for (const std::vector<std::string>& row : all.rows) {
+    if (cell(all, row, "estimator") == "measurement_only") ++fits[cell(all, row, "fitted_on")];
+  }
+  // Two engines, two robots and two scenes; each from its own, from the other robot and engine.
+  EXPECT_EQ(fits, (std::map<std::string, int>{{"own", 8},
+                                              {"mujoco", 4},
+                                              {"bullet", 4},
+                                              {"upkie ideal", 4},
+                                              {"upkie_actuated ideal", 4}}));
+  // The experiment's own tables hold in-domain fits alone.
+  EXPECT_EQ(result.scores.size(), 2U * 2 * scoring::scored_views().size());
+  // A density overlaps fully with itself, and less with another robot's.
+  const Table overlap = result.directory.read_table("density_overlap.csv");
+  ASSERT_EQ(overlap.rows.size(), 2U * 2 * 2);
+  for (const std::vector<std::string>& row : overlap.rows) {
+    const double contact = std::stod(cell(overlap, row, "contact_overlap"));
+    if (cell(overlap, row, "robot") == cell(overlap, row, "other_robot")) {
+      EXPECT_NEAR(contact, 1.0, 1e-6);
+    } else {
+      EXPECT_LT(contact, 0.97);
+      EXPECT_GT(contact, 0.1);
+    }
+  }
+}
+
+TEST(ABenchmark, ResamplesFitsAndRunsTogether) {
+  const ScratchFolder folder;
+  const auto table_of = [&](const std::string& benchmark, const char* out) {
+    return run_in(folder, with_benchmark(folder, benchmark), out)
+        .directory.read_table("benchmark.csv");
+  };
+  const std::string robots = "{robots: [models/upkie_actuated.yaml]";
+  const Table once = table_of(robots + "}", "once");
+  const Table own = table_of(robots + ", refits: 3}", "own");
+  const Table all = table_of(robots + ", refits: 2, refits_everywhere: true}", "all");
+  ASSERT_EQ(own.rows.size(), once.rows.size());
+  int wider = 0;
+  for (std::size_t row = 0; row < own.rows.size(); ++row) {
+    const auto of = [&](const Table& table, const char* column) {
+      return cell(table, table.rows.at(row), column);
+    };
+    const bool is_fitted = of(own, "estimator") == "measurement_only";
+    const bool is_own = of(own, "robot") == "upkie";
+    EXPECT_EQ(of(once, "refits"), "0");
+    EXPECT_EQ(of(own, "refits"), is_fitted && is_own ? "3" : "0");
+    EXPECT_EQ(of(all, "refits"), is_fitted ? "2" : "0");
+    // What is scored is the fit to all runs.
+    for (const char* column : {"balanced_accuracy", "flight_f1", "log_loss"}) {
+      EXPECT_EQ(of(own, column), of(once, column)) << column;
+    }
+    const auto width = [&](const Table& table) {
+      return std::stod(of(table, "balanced_accuracy_high")) -
+             std::stod(of(table, "balanced_accuracy_low"));
+    };
+    if (!(is_fitted && is_own)) {
+      EXPECT_EQ(width(own), width(once));
+    } else if (width(own) > width(once)) {
+      ++wider;
+    }
+  }
+  EXPECT_GT(wider, 0);
+  for (const auto& file : std::filesystem::directory_iterator(folder / "own" / "models")) {
+    EXPECT_EQ(file.path().string().find('~'), std::string::npos) << file.path();
+  }
+  EXPECT_THAT(own_files(folder / "own"),
+              IsSupersetOf({std::filesystem::path("tables") / "benchmark_standings.csv",
+                            std::filesystem::path("tables") / "benchmark_differences.csv",
+                            std::filesystem::path("tables") / "benchmark.json"}));
+}
+
+TEST(ABenchmark, SimulatesARobotOnceForAllItsSensors) {
+  const ScratchFolder folder;
+  const RunRequest request = request_of(with_benchmark(folder, "{sensors: [sensors/harsh.yaml]}"));
+  const Plan plan = whole_plan(request);
+  const auto harsh = benchmark_setups(request, plan).at(1);
+  const auto own = plan.runs_in(0);
+  const auto reported = plan.runs_in(harsh.group);
+  ASSERT_EQ(own.size(), reported.size());
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    EXPECT_EQ(plan.runs[own[i]].file, plan.runs[reported[i]].file);
+    EXPECT_NE(plan.runs[own[i]].sensors, plan.runs[reported[i]].sensors);
+  }
+}
+
+/// The text of a run's table.
+std::string table_text(const std::filesystem::path& run, const std::string& name) {
+  return read_file(run / "tables" / name);
+}
+
+TEST(ABenchmark, HasTheSameTablesWhetherItKeepsSignalsInMemoryOrNot) {
+  const ScratchFolder folder;
+  const auto run = [&](const std::string& name, bool has_films, const std::string& more) {
+    Experiment experiment = with_benchmark(folder,
+                                           "{robots: [models/upkie_heavy.yaml], sensors: "
+                                           "[sensors/upkie.yaml], refits: 1, clips: true}" +
+                                               more);
+    experiment.video.enabled = has_films;
+    const Plan plan = whole_plan(request_of(experiment));
+    (void)run_experiment(experiment, {.out = folder / name, .command = "test"});
+    return plan.kept_signals;
+  };
+  EXPECT_EQ(run("streamed", false, ""), KeptSignals::none);
+  EXPECT_EQ(run("own", true, ""), KeptSignals::own);
+  EXPECT_EQ(run("kept", false, "\nmoments: true"), KeptSignals::all);
+  for (const char* name : {"benchmark.csv", "benchmark_standings.csv", "success.csv", "runs.csv",
+                           "transitions.csv", "latency.csv"}) {
+    const std::string expected = table_text(folder / "kept", name);
+    EXPECT_FALSE(expected.empty()) << name;
+    EXPECT_EQ(table_text(folder / "streamed", name), expected) << name;
+    EXPECT_EQ(table_text(folder / "own", name), expected) << name;
+  }
+}
+
+TEST(ABenchmark, RefitsInAShardOfOneEngineAreThoseOfTheWholeRun) {
+  const ScratchFolder folder;
+  Experiment experiment = with_benchmark(folder, "{refits: 2}");
+  experiment.simulators = {"mujoco", "bullet"};
+  (void)run_experiment(experiment, {.out = folder / "whole", .command = "test"});
+  for (int shard = 1; shard <= 4; ++shard) {  // two of each engine
+    (void)run_shard(experiment, {shard, 4}, {.out = folder / "parts", .command = "test"});
+  }
+  (void)merge_run(folder / "parts", {.out = {}, .command = "test"});
+  const std::string expected = table_text(folder / "whole", "benchmark.csv");
+  EXPECT_THAT(expected, HasSubstr("bullet"));
+  EXPECT_EQ(table_text(folder / "parts", "benchmark.csv"), expected);
+}
+
+TEST(ABenchmark, FitsUpperBoundsOnce) {
+  const ScratchFolder folder;
+  for (const char* benchmark :
+       {"{refits: 2}", "{refits: 3, refits_everywhere: true, robots: [models/upkie_heavy.yaml]}"}) {
+    Experiment experiment = with_benchmark(folder, benchmark);
+    experiment.estimators = {"measurement_only", "boosted_channels", "boosted_signals"};
+    std::map<std::string, int> refits;
+    for (const RunGroup& group : whole_plan(request_of(experiment)).groups) {
+      for (const Condition& condition : group.conditions) {
+        refits[condition.estimator] += condition.refit > 0 ? 1 : 0;
+      }
+    }
+    EXPECT_GT(refits.at("measurement_only"), 0) << benchmark;
+    EXPECT_EQ(refits.at("boosted_channels"), 0) << benchmark;
+    EXPECT_EQ(refits.at("boosted_signals"), 0) << benchmark;
+  }
+}
+
+TEST(ABenchmark, ContinuesAndMergesWithoutSignalsInMemory) {
+  const ScratchFolder folder;
+  const Experiment experiment = with_benchmark(folder, "{robots: [models/upkie_heavy.yaml]}");
+  const auto options = [&](const char* name) {
+    return RunOptions{.out = folder / name, .command = "test"};
+  };
+  (void)run_experiment(experiment, options("whole"));
+  EXPECT_GT(run_shard(experiment, {1, 3}, options("parts")).computed, 0U);
+  EXPECT_EQ(run_shard(experiment, {1, 3}, options("parts")).computed, 0U);
+  (void)run_shard(experiment, {2, 3}, options("parts"));
+  (void)run_shard(experiment, {3, 3}, options("parts"));
+  (void)merge_run(folder / "parts", options("parts"));
+  for (const char* name : {"benchmark.csv", "success.csv", "runs.csv"}) {
+    EXPECT_EQ(table_text(folder / "parts", name), table_text(folder / "whole", name)) << name;
+  }
+}
+
+TEST(ABenchmark, UsesEveryRobotsOwnPostureAndBalancer) {
+  const ScratchFolder folder;
+  const RunRequest request =
+      request_of(with_benchmark(folder, "{robots: [models/upkie_straight.yaml]}"));
+  const Plan plan = whole_plan(request);
+  const auto straight = benchmark_setups(request, plan).at(1);
+  const scenarios::Scenario& own = plan.runs[plan.runs_in(0).front()].scenario;
+  const scenarios::Scenario& other = plan.runs[plan.runs_in(straight.group).front()].scenario;
+  EXPECT_LT(other.start.hip, 0.5 * own.start.hip);
+  EXPECT_NE(other.balancer.pitch_damping, own.balancer.pitch_damping);
+  EXPECT_EQ(other.terrain.pieces.size(), own.terrain.pieces.size());
+  // The request reads back as written.
+  const std::filesystem::path run = folder / "run";
+  write_request(request, RunDirectory("small", request.id, run), false);
+  EXPECT_EQ(read_request(run).id, request.id);
+}
+
+TEST(ABenchmark, CountsTheContentOfItsRobotsAndSensors) {
+  const ScratchFolder folder;
+  const std::string mine = folder.write("mine.yaml", "torque: {white: 0.1}\n").string();
+  const auto id = [&] {
+    return request_of(with_benchmark(folder, "{sensors: [" + mine + "]}")).id;
+  };
+  const std::string first = id();
+  folder.write("mine.yaml", "torque: {white: 0.2}\n");
+  EXPECT_NE(id(), first);
+  const std::string robot =
+      folder.write("mine_too.yaml", "mjcf: " TOUCHDOWN_SOURCE_DIR "/models/upkie.xml\n").string();
+  const auto of_robot = [&] {
+    return request_of(with_benchmark(folder, "{robots: [" + robot + "]}")).id;
+  };
+  const std::string before = of_robot();
+  folder.write("mine_too.yaml", "mjcf: " TOUCHDOWN_SOURCE_DIR
+                                "/models/upkie.xml\nactuators: {knee: {friction: 0.1}}\n");
+  EXPECT_NE(of_robot(), before);
+}
+
+TEST(ABenchmark, RefusesRobotsAndSensorsWithEqualNames) {
+  const ScratchFolder folder;
+  const auto planned = [&](const std::string& benchmark) {
+    (void)whole_plan(request_of(with_benchmark(folder, benchmark)));
+  };
+  EXPECT_THAT([&] { planned("{sensors: [sensors/ideal.yaml]}"); },
+              ThrowsMessage<InputError>(
+                  HasSubstr("benchmark.sensors: 'ideal' is there already: the experiment's own")));
+  EXPECT_THAT([&] { planned("{robots: [models/upkie.xml]}"); },
+              ThrowsMessage<InputError>(HasSubstr("benchmark.robots: 'upkie' is there already")));
+  EXPECT_THAT([&] { planned("{sensors: [sensors/harsh.yaml, sensors/harsh.yaml]}"); },
+              ThrowsMessage<InputError>(HasSubstr("small.yaml:10:22: benchmark.sensors")));
+  EXPECT_THAT([&] { planned("{sensor: [sensors/harsh.yaml]}"); },
+              ThrowsMessage<InputError>(HasSubstr("did you mean 'sensors'?")));
+  EXPECT_THAT([&] { planned("{robots: [models/upkie_actuatd.yaml]}"); },
+              ThrowsMessage<InputError>(HasSubstr("upkie_actuated.yaml")));
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

@@ -1,0 +1,342 @@
+#include "experiments/studies/closed_loop.hpp"
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <tuple>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/table.hpp"
+#include "estimator/evidence/curves.hpp"
+#include "estimator/models/parameters.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/run_directory/own_files.hpp"
+#include "experiments/stages/experiment_context.hpp"
+#include "recordings/models/parameter_model.hpp"
+#include "tests/experiments/studies/study_test.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::ThrowsMessage;
+
+Experiment with_closed_loop(const ScratchFolder& folder, const std::string& section,
+                            const std::string& sensors = "sensors/upkie.yaml",
+                            const std::string& estimators = "[support_force, robust]") {
+  const std::string step = folder.write("small_step.yaml", small_step_scene).string();
+  return experiment_from_yaml(
+      YamlDocument::parse("name: small\nestimators: " + estimators + "\nsensors: " + sensors +
+                              "\nfit: {scenarios: [" + step + "]}\ntest: {scenarios: [" + step +
+                              "], runs: 1}\nrecordings: none\nvideo: {enabled: false}\n" + section,
+                          "small.yaml"));
+}
+
+std::string of_steps(const ScratchFolder& folder, const std::string& scene) {
+  return "closed_loop:\n  runs: 2\n  scenes: [{scenario: " + (folder / "small_step.yaml").string() +
+         scene + "}]\n";
+}
+
+const char* const two_heights = ", key: terrain.pieces.1.step.drop, values: [0.1, 0.3]";
+
+TEST(ClosedLoop, CountsFinishedRunsForEveryContactSourceAndPoint) {
+  const ScratchFolder folder;
+  const ExperimentResult result =
+      run_in(folder, with_closed_loop(folder, of_steps(folder, two_heights)));
+  const Table table = result.directory.read_table("survival.csv");
+  ASSERT_GE(table.header.size(), 9U);
+  EXPECT_THAT(std::vector<std::string>(table.header.begin(), table.header.begin() + 9),
+              ElementsAre("simulator", "scenario", "policy", "contact", "rise_m", "runs",
+                          "finished", "finished_low", "finished_high"));
+  ASSERT_EQ(table.rows.size(), 2U * 4U * 2U);  // engines, contact sources, heights
+  std::vector<std::string> contacts;
+  for (const std::vector<std::string>& row : table.rows) {
+    const auto number = [&](const char* column) { return std::stod(cell(table, row, column)); };
+    if (contacts.size() < 4 && number("value") == 0.1)
+      contacts.push_back(cell(table, row, "contact"));
+    EXPECT_EQ(cell(table, row, "policy"), "soft_landing");
+    EXPECT_EQ(cell(table, row, "is_oracle"), cell(table, row, "contact") == "truth" ? "1" : "0");
+    EXPECT_EQ(number("finished"), 1.0) << "a drop of 0.3 m is no danger";
+    EXPECT_NEAR(number("finished_low"), 0.1581, 1e-4);  // of two runs
+    EXPECT_EQ(number("landings"), 4.0);
+    EXPECT_GT(number("largest_force_n"), 100.0);
+  }
+  EXPECT_THAT(contacts, ElementsAre("truth", "always", "support_force", "robust"));
+  EXPECT_THAT(result.studies.back(), AllOf(HasSubstr("Truth (oracle)"), HasSubstr("drop 0.3")));
+  EXPECT_THAT(own_files(folder / "run"), Contains(std::filesystem::path("tables/survival.csv")));
+  EXPECT_THAT(own_files(folder / "run"),
+              Contains(std::filesystem::path("state/closed_loop/run_000000")));
+}
+
+TEST(ClosedLoop, HasAFigureForEverySceneAndVariedQuantity) {
+  const ScratchFolder folder;
+  const std::string step = (folder / "small_step.yaml").string();
+  Experiment experiment = with_closed_loop(
+      folder,
+      "closed_loop:\n  runs: 1\n  contact: [truth, support_force]\n  scenes:\n    - {scenario: " +
+          step + two_heights + "}\n    - {scenario: " + step +
+          ", delay: [0, 0.02]}\n    - {scenario: " + step + "}\n");
+  experiment.simulators = {"mujoco"};
+  const std::vector<FigureSpec> figures = run_in(folder, experiment).figures;
+  ASSERT_EQ(figures.size(), 3U);
+  EXPECT_EQ(figures[0].name, "survival_small_step_soft_landing_drop");
+  ASSERT_EQ(figures[0].series.groups.size(), 2U);
+  EXPECT_EQ(figures[0].series.groups[0].title, "Truth (oracle)");
+  EXPECT_EQ(figures[0].colour_order, experiment.estimators);
+  EXPECT_EQ(figures[0].x.column, "value");
+  EXPECT_THAT(figures[0].caption, HasSubstr("1 runs per point"));
+  EXPECT_THAT(figures[0].alt, HasSubstr("MuJoCo, Truth (oracle): 1 at 0.1"));
+  EXPECT_EQ(figures[1].x.column, "delay_ms");
+  EXPECT_EQ(figures[1].x.unit, "ms");
+  EXPECT_EQ(figures[2].name, "survival_small_step_soft_landing");
+  EXPECT_EQ(figures[2].rows.groups.size(), 2U);  // a row per contact source
+}
+
+TEST(ClosedLoop, IsTheSameInShardsAndWhenResumed) {
+  const ScratchFolder folder;
+  const Experiment experiment = with_closed_loop(folder, of_steps(folder, two_heights));
+  RunOptions options;
+  options.out = folder / "whole";
+  run_experiment(experiment, options);
+  const std::string table = read_file(folder / "whole/tables/survival.csv");
+  const std::string results = read_file(folder / "whole/tables/results.csv");
+  const std::string state = read_file(folder / "whole/state/closed_loop/run_000019");
+
+  std::filesystem::remove(folder / "whole/state/closed_loop/run_000019");
+  std::filesystem::remove(folder / "whole/tables/survival.csv");
+  run_experiment(experiment, options);
+  EXPECT_EQ(read_file(folder / "whole/tables/survival.csv"), table);
+  EXPECT_EQ(read_file(folder / "whole/state/closed_loop/run_000019"), state);
+
+  options.out = folder / "shards";
+  run_shard(experiment, Shard{1, 2}, options);
+  EXPECT_THAT([&] { merge_run(folder / "shards", options); },
+              ThrowsMessage<InputError>(HasSubstr("finish shard 2/2 first")));
+  run_shard(experiment, Shard{2, 2}, options);
+  std::filesystem::remove(folder / "shards/state/closed_loop/run_000031");
+  EXPECT_THAT([&] { merge_run(folder / "shards", options); },
+              ThrowsMessage<InputError>(HasSubstr("finish shard 2/2 first")));
+  run_shard(experiment, Shard{2, 2}, options);
+  merge_run(folder / "shards", options);
+  EXPECT_EQ(read_file(folder / "shards/tables/survival.csv"), table);
+  EXPECT_EQ(read_file(folder / "shards/tables/results.csv"), results);
+}
+
+/// A model that decides by the load of the servos' laws alone.
+FittedModel model_by_servo_load() {
+  EvidenceModel model;
+  model.servo_curve.assign(std::tuple_size_v<ServoLoadInputs>, EvidenceCurve{});
+  model.servo_seen.resize(model.servo_curve.size());
+  for (std::size_t k = 0; k < evidence_knots; ++k) {
+    model.servo_curve[3][k] = 4.0F * (static_cast<float>(k) - 22.0F);  // 0 nats at 12 N
+  }
+  return {.parameters = std::make_shared<const recordings::ParameterModelFile>(
+              recordings::ParameterModelFile{"evidence_curves", parameters_of(model), {}})};
+}
+
+TEST(ClosedLoop, ContactSourcesDecideAsInOfflineEvaluation) {
+  // The reference: the recorded run, evaluated offline with the same sensors and noise.
+  const ScratchFolder folder;
+  const std::map<std::string, FittedModel> models = {{"support_force", {}},
+                                                     {"evidence_curves", model_by_servo_load()}};
+  for (const auto& [name, model] : models) {
+    for (const char* sensors : {"sensors/upkie.yaml", "sensors/harsh.yaml", "sensors/ideal.yaml"}) {
+      const RunRequest request = request_of(
+          with_closed_loop(folder,
+                           of_steps(folder, ", noise: [{torque: 0.3, accelerometer: 1.0}]") +
+                               "  contact: [" + name + "]\n",
+                           sensors, "[" + name + "]"));
+      const Experiment& experiment = request.experiment;
+      scenarios::CompiledScenes scenes;
+      const ClosedLoopCell cell = closed_loop_cells(experiment).front();
+      const FittedModels fitted = {{cell.simulator, {{name, model}}}};
+      const ClosedLoopRun loop =
+          run_closed_loop(request, cell, 1, fitted, scenes, [] { return true; });
+      recordings::Recording reported = loop.recording;
+      report_through_sensors(profile_of(request.sensors, experiment.sensors), experiment, 1,
+                             reported);
+      const RunSignals run =
+          signals_of(reported, experiment.labels, experiment.scoring, experiment.intervals.over);
+      const EstimatorEntry& entry = estimator_entry(name);
+      const auto estimator = entry.make(entry, {.model = &model, .legs = run.legs});
+      const auto offline = predict(*estimator, run, noise_run(run, noise_key(experiment, 0, 1)),
+                                   cell.noise.levels());
+      for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+        EXPECT_EQ(loop.trace.contact[wheel], offline[wheel].contact) << name << ", " << sensors;
+      }
+      EXPECT_THAT(loop.trace.contact[0], AllOf(Contains(0), Contains(1))) << name;
+    }
+  }
+}
+
+TEST(ClosedLoop, StartsAllRunsEquallyForEveryContactSource) {
+  const ScratchFolder folder;
+  const RunRequest request = request_of(with_closed_loop(folder, of_steps(folder, "")));
+  scenarios::CompiledScenes scenes;
+  std::vector<std::string> scripts;
+  for (const ClosedLoopCell& cell : closed_loop_cells(request.experiment)) {
+    if (cell.contact == "robust") continue;  // it needs a fit
+    scenarios::Scenario rollout =
+        run_closed_loop(request, cell, 1, {}, scenes, [] { return true; }).scenario;
+    EXPECT_EQ(rollout.policy.contact, cell.contact);
+    rollout.policy = {};
+    scripts.push_back(scenarios::to_yaml(rollout));
+  }
+  ASSERT_GT(scripts.size(), 4U);
+  EXPECT_THAT(scripts, ::testing::Each(scripts.front()));
+}
+
+TEST(ClosedLoop, ConfigurationReadsBackAsWritten) {
+  const ScratchFolder folder;
+  EXPECT_THAT(to_yaml(with_closed_loop(folder, "")), Not(HasSubstr("closed_loop")));
+  const std::string text = reread_yaml(with_closed_loop(
+      folder,
+      of_steps(folder, two_heights) +
+          "  laws: [soft_landing, balancer]\n  contact: [truth, robust]\n  film: {point: 1}\n"));
+  EXPECT_THAT(text, AllOf(HasSubstr("values"), HasSubstr("film")));
+}
+
+TEST(ClosedLoop, ComplainsOnTheLine) {
+  const ScratchFolder folder;
+  const auto complaint = [&](const std::string& section) {
+    return complaint_of([&] { (void)whole_plan(request_of(with_closed_loop(folder, section))); });
+  };
+  const auto of_scene = [&](const std::string& scene) {
+    return complaint(of_steps(folder, scene));
+  };
+  EXPECT_EQ(of_scene(""), "no complaint");
+  EXPECT_THAT(of_scene(", key: terrain.friction"),
+              AllOf(HasSubstr("small.yaml:10:"), HasSubstr("values")));
+  EXPECT_THAT(of_scene(", values: [1, 2]"), HasSubstr("key"));
+  EXPECT_THAT(of_scene(", key: terrain.friction, values: [1, 0.5]"),
+              HasSubstr("expected increasing numbers"));
+  EXPECT_THAT(of_scene(", key: terrain.friction, values: [0.5, 1], delay: [0, 0.1]"),
+              HasSubstr("at most one varied quantity"));
+  EXPECT_THAT(of_scene(", delay: [-0.1]"), HasSubstr("from 0 to 1 s"));
+  EXPECT_THAT(of_scene(", dela: [0.1]"), HasSubstr("did you mean"));
+  EXPECT_THAT(of_scene(", key: terrain.frction, values: [1]"),
+              AllOf(HasSubstr("closed_loop.scenes.0"), HasSubstr("no number there")));
+  EXPECT_THAT(of_scene(", key: terrain.friction, values: [-1]"),
+              AllOf(HasSubstr("closed_loop.scenes.0"), HasSubstr("terrain.friction")));
+  const std::string scene = of_steps(folder, "");
+  EXPECT_THAT(complaint(scene + "  contact: [robst]\n"), HasSubstr("did you mean 'robust'?"));
+  EXPECT_THAT(complaint(scene + "  laws: [soft]\n"), HasSubstr("soft_landing"));
+  EXPECT_THAT(complaint(scene + "  film: {run: 2}\n"), HasSubstr("film.run"));
+  EXPECT_THAT(complaint(scene + "  film: {contact: [phase]}\n"), HasSubstr("film.contact"));
+  EXPECT_THAT(complaint("closed_loop: {runs: 2}\n"), HasSubstr("scenes"));
+}
+
+using RecordedContact = std::array<scoring::ContactSequence, models::wheel_count>;
+
+/// A robot that glides level at .5 m/s with wheels that turn at `wheel_speed`, m/s along the
+/// ground: 100 ms on it, 100 ms off it, 100 ms on it.
+recordings::Recording gliding(double wheel_speed) {
+  recordings::Recording recording;
+  recording.info.outcome = recordings::Outcome::finished;
+  for (int k = 0; k < 300; ++k) {
+    models::Observation observation;
+    observation.time = 1e-3 * k;
+    observation.pitch = k == 150 ? -0.25 : 0.1;
+    observation.servo[models::index(models::Servo::left_wheel)].velocity = wheel_speed / 0.05;
+    observation.servo[models::index(models::Servo::right_wheel)].velocity = -wheel_speed / 0.05;
+    models::GroundTruth truth;
+    truth.imu_linear_velocity = {0.5, 0.0, 0.0};
+    const bool in_contact = k < 100 || k >= 200;
+    truth.wheel_normal_force = {in_contact ? 26.0 : 0.0, in_contact ? 30.0 : 0.0};
+    recording.observation.push_back(observation);
+    recording.action.emplace_back();
+    recording.truth.push_back(truth);
+  }
+  return recording;
+}
+
+RecordedContact true_contact() {
+  RecordedContact trace;
+  for (scoring::ContactSequence& wheel : trace) {
+    wheel.assign(300, 1);
+    std::fill(wheel.begin() + 100, wheel.begin() + 200, 0);
+  }
+  return trace;
+}
+
+ClosedLoopMetrics metrics_of(const recordings::Recording& recording, const RecordedContact& trace) {
+  return closed_loop_metrics_of(recording, trace, odometry::upkie(), {}, {.skip = 0.0});
+}
+
+TEST(TyreSpeeds, AreThoseOfTheWheelsOverTheGround) {
+  const recordings::Recording run = gliding(0.8);
+  for (const double speed : tyre_speeds(run.observation[0], run.truth[0], odometry::upkie())) {
+    EXPECT_NEAR(speed, 0.3, 1e-12);
+  }
+}
+
+TEST(TyreSpeeds, AreZeroWhereARobotPitchesAboutItsAxlesAndRolls) {
+  // The robot pitches about the axle .471 m below the IMU at 2 rad/s; the axle moves at .4 m/s and
+  // the wheels roll. The legs turn with the base, so the wheels' spin relative to it is 2 rad/s
+  // less.
+  models::Observation observation;
+  const double spin = 0.4 / 0.05 - 2.0;
+  observation.servo[models::index(models::Servo::left_wheel)].velocity = spin;
+  observation.servo[models::index(models::Servo::right_wheel)].velocity = -spin;
+  models::GroundTruth truth;
+  truth.base_angular_velocity = {0.0, 2.0, 0.0};
+  const double height = 0.064 + 0.168 + 0.175;
+  truth.imu_linear_velocity = {0.4 + 2.0 * height, 0.0, 0.0};
+  for (const double speed : tyre_speeds(observation, truth, odometry::upkie())) {
+    EXPECT_NEAR(speed, 0.0, 1e-12);
+  }
+}
+
+TEST(ClosedLoopMetrics, CountsLandingsByTheSpeedOfTheirTyres) {
+  const ClosedLoopMetrics found = metrics_of(gliding(0.8), true_contact());
+  EXPECT_EQ(found.runs, 1);
+  EXPECT_EQ(found.finished, 1);
+  EXPECT_EQ(found.fell, 0);
+  EXPECT_EQ(found.landings, 2);  // one of each wheel
+  EXPECT_NEAR(found.landing_speed_rms(), 0.3, 1e-12);
+  EXPECT_EQ(found.mean_largest_pitch(), 0.25);
+  EXPECT_EQ(found.mean_largest_force(), 30.0);
+  EXPECT_EQ(found.contact_us, 200'000);
+  EXPECT_EQ(found.false_takeoffs, 0);
+}
+
+TEST(ClosedLoopMetrics, CountsFalseTakeoffsOfTheRobot) {
+  RecordedContact trace = true_contact();
+  for (scoring::ContactSequence& wheel : trace) wheel[20] = 0;
+  EXPECT_EQ(metrics_of(gliding(0.5), trace).false_takeoffs, 1);
+  trace[1] = true_contact()[1];  // one wheel alone is no takeoff: the robot stands on the other
+  EXPECT_EQ(metrics_of(gliding(0.5), trace).false_takeoffs, 0);
+}
+
+TEST(ClosedLoopMetrics, TakesNoHopForALanding) {
+  recordings::Recording run = gliding(0.8);
+  for (int k = 100; k < 160; ++k) {  // 40 ms are left
+    run.truth[static_cast<std::size_t>(k)].wheel_normal_force = {26.0, 26.0};
+  }
+  const ClosedLoopMetrics found = metrics_of(run, true_contact());
+  EXPECT_EQ(found.landings, 0);
+  EXPECT_TRUE(std::isnan(found.landing_speed_rms()));
+}
+
+TEST(ClosedLoopMetrics, AddsUp) {
+  recordings::Recording fallen = gliding(0.4);
+  fallen.info.outcome = recordings::Outcome::fell;
+  ClosedLoopMetrics sum = metrics_of(gliding(0.8), true_contact());
+  sum += metrics_of(fallen, true_contact());
+  EXPECT_EQ(sum.runs, 2);
+  EXPECT_EQ(sum.finished, 1);
+  EXPECT_EQ(sum.fell, 1);
+  EXPECT_NEAR(sum.landing_speed_rms(), std::sqrt(0.5 * (0.3 * 0.3 + 0.1 * 0.1)), 1e-12);
+  EXPECT_NEAR(sum.mean_largest_pitch(), 0.25, 1e-12);
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

@@ -1,0 +1,246 @@
+#include "experiments/studies/cross_simulator.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/table.hpp"
+#include "experiments/run_experiment.hpp"
+#include "experiments/studies/experiment_file.hpp"
+#include "tests/experiments/small_step_scene.hpp"
+#include "tests/scratch_folder.hpp"
+#include "tests/experiments/studies/study_test.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+Transfer transfer(const std::string& fit, const std::string& test, double loss_high,
+                  double gain_low) {
+  Transfer t;
+  t.condition = {fit, test, "robust"};
+  t.loss = {loss_high - 0.002, loss_high - 0.004, loss_high};
+  t.gain = {gain_low + 0.01, gain_low, gain_low + 0.02};
+  return t;
+}
+
+Verdict verdict_of(const std::vector<Transfer>& transfers) {
+  Experiment experiment;
+  experiment.studies.emplace<CrossSimulatorConfig>().verdict = {
+      .largest_loss = 0.01, .smallest_gain = 0.0, .demanded = {"robust"}};
+  const std::vector<Verdict> all = verdicts(transfers, experiment);
+  EXPECT_EQ(all.size(), 1U);
+  return all.front();
+}
+
+TEST(Verdict, HoldsWhenBothTransfersDo) {
+  const Verdict verdict =
+      verdict_of({transfer("a", "b", 0.004, 0.05), transfer("b", "a", 0.009, 0.08)});
+  EXPECT_TRUE(verdict.holds);
+  EXPECT_DOUBLE_EQ(verdict.loss, 0.009);
+  EXPECT_DOUBLE_EQ(verdict.gain, 0.05);
+  EXPECT_THAT(verdict.words, AllOf(HasSubstr("holds"), HasSubstr("0.0090"), HasSubstr("0.01")));
+  EXPECT_TRUE(failed_demands({verdict}).empty());
+}
+
+TEST(Verdict, FailsWhenOnlyTheIntervalsEndIsBeyond) {
+  // The estimate of the loss is 0.009, below what is allowed; its upper end is not.
+  const Verdict verdict =
+      verdict_of({transfer("a", "b", 0.011, 0.05), transfer("b", "a", 0.001, 0.05)});
+  EXPECT_FALSE(verdict.holds);
+  EXPECT_THAT(verdict.words, AllOf(HasSubstr("FAILS"), HasSubstr("too much")));
+  EXPECT_EQ(failed_demands({verdict}), std::vector<std::string>{"robust"});
+}
+
+TEST(Verdict, FailsWhenItIsNotBetterThanAlwaysContact) {
+  EXPECT_FALSE(
+      verdict_of({transfer("a", "b", 0.001, -0.001), transfer("b", "a", 0.001, 0.05)}).holds);
+}
+
+TEST(Verdict, FailsWhenANumberIsNotDefined) {
+  EXPECT_FALSE(
+      verdict_of({transfer("a", "b", std::nan(""), 0.1), transfer("b", "a", 0.0, 0.1)}).holds);
+  EXPECT_FALSE(
+      verdict_of({transfer("a", "b", 0.0, 0.1), transfer("b", "a", 0.0, std::nan(""))}).holds);
+}
+
+TEST(Verdict, IgnoresTheOwnEngine) {
+  EXPECT_TRUE(verdict_of({transfer("a", "a", 0.5, -0.5), transfer("a", "b", 0.0, 0.1),
+                          transfer("b", "a", 0.0, 0.1)})
+                  .holds);
+}
+
+TEST(Agreement, OfTwoEnginesThatDifferByAConstantIsThatConstant) {
+  std::vector<RunFacts> first(6);
+  std::vector<RunFacts> second(6);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const double duration = 150.0 + static_cast<double>(i);
+    first[i].quantity[0].add(duration);
+    second[i].quantity[0].add(duration + 4.0);
+    first[i].torque[0] = second[i].torque[0] = scoring::Histogram(-1.0, 1.0, 200);
+    first[i].torque[0].add(-0.205);
+    second[i].torque[0].add(0.195);
+  }
+  const Agreement found = agreement(first, second, {});
+  EXPECT_EQ(found.runs, 6U);
+  EXPECT_DOUBLE_EQ(found.quantities[0].first.estimate, 152.5);
+  // Paired: every resample has the same difference.
+  EXPECT_NEAR(found.quantities[0].difference.low, 4.0, 1e-9);
+  EXPECT_NEAR(found.quantities[0].difference.high, 4.0, 1e-9);
+  EXPECT_LT(found.quantities[0].first.low, 152.5);
+  EXPECT_NEAR(found.torques[0].distance.estimate, 0.4, 1e-9);
+  EXPECT_DOUBLE_EQ(found.torques[0].overlap.estimate, 0.0);
+  EXPECT_DOUBLE_EQ(found.torques[0].within_engine, 0.0);
+  EXPECT_TRUE(std::isnan(found.torques[1].distance.estimate));
+}
+
+/// A hand-made run of one wheel pair: contact as given, one acceleration peak.
+Rollout hand_made(const std::vector<std::pair<int, int>>& state_and_length, std::size_t peak_at) {
+  Rollout run;
+  run.signals.info.control_period_us = 1000;
+  for (const auto& [state, length] : state_and_length) {
+    for (auto& wheel : run.signals.contact) {
+      wheel.insert(wheel.end(), static_cast<std::size_t>(length), static_cast<std::uint8_t>(state));
+    }
+  }
+  run.signals.signals.resize(run.signals.contact[0].size());
+  run.signals.signals[peak_at].vertical_acceleration = -123.0;
+  run.report.duration = 9.0;
+  run.plan.scenario.end.x = 5.0;
+  run.plan.scenario.end.settle = 1.5;
+  return run;
+}
+
+TEST(RunFacts, CountAnEdgeContactAfterTheNosingAndABounce) {
+  // Off for 8 steps, an edge contact of 12, a drop of 150, contact 20, a bounce of 15, contact to
+  // the end.
+  const Rollout run =
+      hand_made({{1, 500}, {0, 8}, {1, 12}, {0, 150}, {1, 20}, {0, 15}, {1, 295}}, 680);
+  const RunFacts facts = facts_of(run, Experiment{});
+  const auto value = [&](Quantity q) {
+    return facts.quantity[static_cast<std::size_t>(q)].value();
+  };
+  EXPECT_DOUBLE_EQ(value(Quantity::flight_duration), 150.0);
+  EXPECT_DOUBLE_EQ(value(Quantity::peak_acceleration), 123.0);
+  EXPECT_DOUBLE_EQ(value(Quantity::edge_contacts), 1.0);
+  EXPECT_DOUBLE_EQ(value(Quantity::bounces), 1.0);
+  // 173 of the 700 steps after the first 300 are in the air.
+  EXPECT_DOUBLE_EQ(value(Quantity::contact_ratio), 1.0 - 173.0 / 700.0);
+  EXPECT_DOUBLE_EQ(value(Quantity::descent), 7.5);
+}
+
+constexpr const char* small_check = R"(name: small_cross
+estimators: [measurement_only]
+fit: {scenarios: [SCENE]}
+test: {scenarios: [SCENE], runs: 2}
+noise: {torque: [0.25], accelerometer: [0.23]}
+video: {enabled: false}
+cross_simulator:
+  sensitivity:
+    runs: 1
+    factors:
+      - {key: terrain.friction, values: [0.8]}
+      - {key: simulation.contact.bullet_stiffness, values: [20000], simulators: [bullet]}
+  verdict: {demanded: [measurement_only]}
+  overlay: {drop: 0}
+)";
+
+class CrossSimulatorRun : public ::testing::Test {
+ protected:
+  CrossSimulatorRun() { folder_.write("small_step.yaml", small_step_scene); }
+
+  Experiment read(const std::string& from = "", const std::string& to = "") const {
+    std::string text = small_check;
+    const auto put = [&](const std::string& what, const std::string& with) {
+      for (std::size_t at = text.find(what); at != std::string::npos;
+           at = text.find(what, at + with.size())) {
+        text.replace(at, what.size(), with);
+      }
+    };
+    if (!from.empty()) put(from, to);
+    put("SCENE", (folder_ / "small_step.yaml").string());
+    return experiment_from_yaml(YamlDocument::parse(text, "small.yaml"));
+  }
+
+  std::string complaint(const std::string& from, const std::string& to) const {
+    return complaint_of([&] { outline_of(read(from, to), {folder_ / "refused", "", nullptr}); });
+  }
+
+  const ScratchFolder folder_;
+};
+
+TEST_F(CrossSimulatorRun, ComparesTransfersVariesAndJudges) {
+  const ExperimentResult result = run_experiment(read(), {folder_ / "out", "", nullptr});
+  const auto rows = [&](const char* table) {
+    return from_csv(read_file(folder_ / "out/tables" / table)).rows;
+  };
+  ASSERT_EQ(rows("agreement.csv").size(), quantity_count);
+  // From 0.2 m a wheel falls freely for a little less than sqrt(2 h / g) = 0.202 s.
+  const double flight_ms = std::stod(rows("agreement.csv")[0][2]);
+  EXPECT_GT(flight_ms, 100.0);
+  EXPECT_LT(flight_ms, 203.0);
+  // Two estimators (with always contact), two fit engines, two test engines.
+  ASSERT_EQ(rows("transfer.csv").size(), 8U);
+  for (const std::vector<std::string>& row : rows("transfer.csv")) {
+    if (row[3] == row[4]) {
+      EXPECT_EQ(std::stod(row[12]), 0.0);  // the loss
+    }
+    EXPECT_GT(std::stod(row[6]), 0.5);
+  }
+  // Friction: two values in two engines; stiffness: two values in one. Two estimators.
+  EXPECT_EQ(rows("sensitivity.csv").size(), 12U);
+  ASSERT_EQ(rows("verdicts.csv").size(), 1U);
+  EXPECT_EQ(rows("verdicts.csv")[0][2], "1");
+  // The experiment's own tables hold in-domain fits alone.
+  EXPECT_EQ(result.summaries.size(), 4U);
+  EXPECT_THAT(result.studies, ::testing::ElementsAre(HasSubstr("Verdicts")));
+  ASSERT_EQ(result.figures.size(), 3U);
+  EXPECT_EQ(result.figures[0].name, "transfer");
+  ASSERT_EQ(result.figures[0].series.groups.size(), 2U);  // both directions
+  EXPECT_THAT(result.figures[0].series.groups[0].values, ElementsAre("mujoco", "bullet"));
+  EXPECT_THAT(result.figures[0].series.groups[1].values, ElementsAre("bullet", "mujoco"));
+  EXPECT_EQ(result.figures[0].rows.groups.size(), 1U);  // always contact is not fitted
+  EXPECT_EQ(result.figures[1].name, "sensitivity_mujoco");
+  EXPECT_EQ(result.figures[1].panels.groups.size(), 1U);  // stiffness is Bullet's
+  EXPECT_EQ(result.figures[2].panels.groups.size(), 2U);
+  for (const char* file : {"config.yaml", "manifest.json", "tables/agreement.csv",
+                           "tables/torques.csv", "tables/transfer.csv", "tables/sensitivity.csv",
+                           "tables/verdicts.csv", "tables/cross_simulator.md"}) {
+    EXPECT_TRUE(fs::exists(folder_ / "out" / file)) << file;
+  }
+}
+
+TEST_F(CrossSimulatorRun, ConfigurationReadsBackAsWritten) {
+  const Experiment config = read();
+  const Experiment again = experiment_from_yaml(YamlDocument::parse(to_yaml(config), "again.yaml"));
+  ASSERT_TRUE(again.studies.has<CrossSimulatorConfig>());
+  EXPECT_EQ(to_yaml(again), to_yaml(config));
+}
+
+TEST_F(CrossSimulatorRun, RefusesWhatItDoesNotUnderstand) {
+  EXPECT_THAT(complaint("verdict:", "verdikt:"),
+              AllOf(HasSubstr("small.yaml:13:3"), HasSubstr("verdict")));
+  EXPECT_THAT(complaint("demanded: [measurement_only]", "demanded: [measurment_only]"),
+              HasSubstr("did you mean 'measurement_only'?"));
+  EXPECT_THAT(complaint("name: small_cross", "name: small_cross\nsimulators: [bullet]"),
+              HasSubstr("expected two engines"));
+  EXPECT_THAT(complaint("key: terrain.friction", "key: terrain.frition"),
+              AllOf(HasSubstr("factors.0"), HasSubstr("terrain.frition")));
+  EXPECT_THAT(complaint("values: [0.8]", "values: [-0.8]"), HasSubstr("factors.0"));
+  EXPECT_THAT(complaint("values: [0.8]", "values: []"), HasSubstr("at least one number"));
+  EXPECT_THAT(complaint("runs: 1\n", "runs: 3\n"), HasSubstr("at most test.runs"));
+  EXPECT_THAT(complaint("overlay: {drop: 0}", "overlay: {drop: first}"),
+              HasSubstr("a whole number"));
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "experiments/run_directory/own_files.hpp"
+#include "tests/experiments/studies/study_test.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Experiment with_operating_points(const ScratchFolder& folder, const std::string& more) {
+  const std::string step = folder.write("small_step.yaml", small_step_scene).string();
+  return experiment_from_yaml(YamlDocument::parse(
+      "name: small\nestimators: [robust, free_fall]\nfit: {scenarios: [" + step +
+          "]}\ntest: {scenarios: [" + step +
+          "], runs: 2}\nrecordings: none\nvideo: {enabled: false}\n"
+          "noise: {torque: [0, 1], accelerometer: [0, 5]}\n"
+          "highlights: [{torque: 0, accelerometer: 0}, {torque: 1, accelerometer: 5}]\n" +
+          more,
+      "small.yaml"));
+}
+
+const char* const points_section =
+    "operating_points: {leave_below: [0.2, 0.8], return_above: [0.1, 0.8, 0.95]}\n";
+
+TEST(OperatingPoints, ScoreOtherThresholdsThanTheEstimators) {
+  const ScratchFolder folder;
+  const ExperimentResult result = run_in(folder, with_operating_points(folder, points_section));
+  const Table table = result.directory.read_table("operating_points_by_scene.csv");
+  // Engines, estimators, noise settings; its own decision and two times two pairs: none of 0.1.
+  ASSERT_EQ(table.rows.size(), 2U * 2U * 2U * 5U);
+  std::map<std::string, std::vector<std::string>> own, at_its_own_threshold;
+  for (const std::vector<std::string>& row : table.rows) {
+    const std::string key = row[0] + row[2] + row[4];
+    EXPECT_EQ(cell(table, row, "scenario"), "small_step");
+    if (cell(table, row, "estimator") != "robust") continue;
+    const std::vector<std::string> numbers(row.begin() + 7, row.end());
+    if (cell(table, row, "leave_below").empty()) own[key] = numbers;
+    const bool is_its_own =
+        cell(table, row, "leave_below") == "0.8" && cell(table, row, "return_above") == "0.8";
+    if (is_its_own) at_its_own_threshold[key] = numbers;
+  }
+  EXPECT_EQ(own.size(), 4U);
+  EXPECT_EQ(own, at_its_own_threshold);  // the Bayes filter decides at 0.8
+  EXPECT_THAT(result.studies.back(), HasSubstr("Bayes filter (robust)"));
+  EXPECT_THAT(own_files(folder / "run"),
+              Contains(std::filesystem::path("tables/operating_points.csv")));
+}
+
+TEST(OperatingPoints, ScenesHaveEqualWeightsAndTheFrontIsNotDominated) {
+  const ScratchFolder folder;
+  Experiment experiment = with_operating_points(folder, points_section);
+  const std::string stand = folder.write("stand.yaml", "name: stand\nend: {duration: 1.0}\n");
+  experiment.test.scenarios.push_back(stand);
+  const ExperimentResult result = run_in(folder, experiment);
+  const Table rows = result.directory.read_table("operating_points_by_scene.csv");
+  const Table means = result.directory.read_table("operating_points.csv");
+  const auto point_of = [](const Table& table, const std::vector<std::string>& row) {
+    std::string point;
+    for (const char* column : {"torque_noise_nm", "estimator", "leave_below", "return_above"}) {
+      point += cell(table, row, column) + " ";
+    }
+    return point;
+  };
+  const auto value = [](const Table& table, const auto& row, const char* column) {
+    return std::stod(cell(table, row, column));
+  };
+  ASSERT_EQ(means.rows.size(), 2U * 2U * 5U);
+  ASSERT_EQ(rows.rows.size(), 4 * means.rows.size());  // two scenes in two engines
+  for (const std::vector<std::string>& mean : means.rows) {
+    double accuracy = 0.0, switches = 0.0, extra = 0.0, flights = 0.0;
+    std::vector<double> errors;  // nan where nothing takes off
+    for (const std::vector<std::string>& row : rows.rows) {
+      if (point_of(rows, row) != point_of(means, mean)) continue;
+      accuracy += value(rows, row, "balanced_accuracy") / 4.0;
+      switches += value(rows, row, "extra_switches_per_minute") / 4.0;
+      extra += value(rows, row, "extra_switches");
+      flights += value(rows, row, "flights");
+      const double error = value(rows, row, "takeoff_error_ms");
+      if (!std::isnan(error)) errors.push_back(error);
+    }
+    EXPECT_NEAR(value(means, mean, "balanced_accuracy"), accuracy, 1e-6);
+    EXPECT_NEAR(value(means, mean, "extra_switches_per_minute"), switches, 1e-6);
+    EXPECT_NEAR(value(means, mean, "extra_switches_per_flight"), extra / flights, 1e-6);
+    ASSERT_LE(errors.size(), 2U);
+    if (errors.size() == 2) {
+      EXPECT_NEAR(value(means, mean, "takeoff_error_ms"), 0.5 * (errors[0] + errors[1]), 1e-6);
+    }
+    bool is_dominated = false;
+    for (const std::vector<std::string>& other : means.rows) {
+      const bool is_rival =
+          cell(means, other, "estimator") == cell(means, mean, "estimator") &&
+          cell(means, other, "torque_noise_nm") == cell(means, mean, "torque_noise_nm") &&
+          !cell(means, other, "leave_below").empty();
+      const double gain =
+          value(means, other, "balanced_accuracy") - value(means, mean, "balanced_accuracy");
+      const double fewer = value(means, mean, "extra_switches_per_minute") -
+                           value(means, other, "extra_switches_per_minute");
+      is_dominated =
+          is_dominated || (is_rival && gain >= 0.0 && fewer >= 0.0 && gain + fewer > 0.0);
+    }
+    const bool is_own = cell(means, mean, "leave_below").empty();
+    EXPECT_EQ(cell(means, mean, "on_front"), !is_own && !is_dominated ? "1" : "0")
+        << point_of(means, mean);
+  }
+  ASSERT_EQ(result.figures.size(), 1U);
+  const FigureSpec& figure = result.figures.front();
+  ASSERT_EQ(figure.panels.groups.size(), 2U);
+  EXPECT_EQ(figure.panels.groups[1].title, "1 N·m, 5 m/s²");
+  ASSERT_EQ(figure.series.groups.size(), 2U);
+  EXPECT_EQ(figure.series.groups[0].title, "Bayes filter (robust)");
+  EXPECT_EQ(figure.colour_order, experiment.estimators);
+  EXPECT_THAT(figure.caption, HasSubstr("normal force > 1 N"));
+  EXPECT_THAT(figure.alt, HasSubstr("Bayes filter (robust) by its own decision"));
+}
+
+TEST(OperatingPoints, AreTheSameInShards) {
+  const ScratchFolder folder;
+  expect_same_in_shards(folder, with_operating_points(folder, points_section), 2,
+                        {"tables/operating_points.csv", "tables/operating_points_by_scene.csv"});
+}
+
+TEST(OperatingPoints, AreInTheConfigurationOnlyIfSet) {
+  const ScratchFolder folder;
+  EXPECT_THAT(to_yaml(with_operating_points(folder, "")), Not(HasSubstr("operating_points")));
+  const std::string text =
+      reread_yaml(with_operating_points(folder, "operating_points: {leave_below: [0.25, 0.5]}\n"));
+  EXPECT_THAT(text, HasSubstr("leave_below: [0.25, 0.5]"));
+}
+
+TEST(OperatingPoints, ComplainOnTheLine) {
+  const ScratchFolder folder;
+  const auto complaint = [&](const std::string& text) {
+    return complaint_of([&] { (void)with_operating_points(folder, text); });
+  };
+  EXPECT_THAT(complaint("operating_points: {leave_below: [0.5, 0.2]}\n"),
+              AllOf(HasSubstr("small.yaml:9:"), HasSubstr("operating_points.leave_below"),
+                    HasSubstr("expected increasing probabilities")));
+  EXPECT_THAT(complaint("operating_points: {return_above: [0.5, 1]}\n"),
+              HasSubstr("none of them 0 or 1"));
+  EXPECT_THAT(complaint("operating_points: {leave_below: []}\n"),
+              HasSubstr("expected at least one probability"));
+  EXPECT_THAT(complaint("operating_points: {leave_below: [0.9], return_above: [0.5]}\n"),
+              HasSubstr("at least the lowest leave_below"));
+  EXPECT_THAT(complaint("operating_points: {leave_bellow: [0.5]}\n"), HasSubstr("did you mean"));
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

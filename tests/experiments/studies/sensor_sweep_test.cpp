@@ -1,0 +1,87 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/table.hpp"
+#include "experiments/run_experiment.hpp"
+#include "experiments/studies/experiment_file.hpp"
+#include "tests/experiments/small_step_scene.hpp"
+#include "tests/scratch_folder.hpp"
+#include "tests/experiments/studies/study_test.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+/// Two runs over a small step, evaluated by a filter with these sensor disturbances.
+Experiment swept(const ScratchFolder& folder, const std::string& sweep) {
+  const std::string scene = folder.write("small_step.yaml", small_step_scene).string();
+  return experiment_from_yaml(YamlDocument::parse(
+      "name: swept\n"
+      "simulators: [mujoco]\n"
+      "estimators: [measurement_only]\n"
+      "fit: {scenarios: [" +
+          scene + "], runs: 2, perturbed: true}\ntest: {scenarios: [" + scene +
+          "], runs: 2}\nrecordings: none\nvideo: {enabled: false}\nsweep: " + sweep + "\n",
+      "swept.yaml"));
+}
+
+TEST(ASensorSweep, EvaluatesTheExperimentsOwnRunsForEveryValue) {
+  const ScratchFolder folder;
+  const Experiment experiment = swept(folder, "{torque.white: [0, 2], dropout: [0]}");
+  const ExperimentResult result = run_in(folder, experiment);
+  const Table table = result.directory.read_table("sensor_sweep.csv");
+  EXPECT_THAT(table.header, ::testing::IsSupersetOf({"simulator", "disturbance", "value",
+                                                     "estimator", "success", "success_low"}));
+  ASSERT_EQ(table.rows.size(), 6U);  // three values, the filter and always contact
+  const auto success = [&](std::size_t row) { return std::stod(table.rows[row][4]); };
+  const auto own =
+      std::find_if(result.scores.begin(), result.scores.end(), [](const ScoreSummary& score) {
+        return score.view == "wheels" && score.condition.estimator == "measurement_only";
+      });
+  EXPECT_EQ(table.rows[0][4], metric((*own)["success"].estimate));  // a value without effect
+  EXPECT_EQ(table.rows[4][4], table.rows[0][4]);
+  EXPECT_LT(success(2), success(0) - 0.05);
+  EXPECT_EQ(success(3), success(1));  // always contact uses no sensor
+  EXPECT_THAT(result.studies.back(), HasSubstr("torque.white, mujoco"));
+  ASSERT_EQ(result.figures.size(), 1U);
+  EXPECT_EQ(result.figures[0].name, "sensor_sweep_mujoco");
+  ASSERT_EQ(result.figures[0].panels.groups.size(), 2U);
+  EXPECT_EQ(result.figures[0].panels.groups[0].title, "torque.white");
+  EXPECT_EQ(result.figures[0].panels.groups[1].title, "dropout");
+}
+
+TEST(ASensorSweep, SimulatesNothingTwice) {
+  const ScratchFolder folder;
+  const Plan plan = whole_plan(request_of(swept(folder, "{delay: [0.001, 0.002]}")));
+  ASSERT_EQ(plan.groups.size(), 3U);
+  for (std::size_t group = 1; group < plan.groups.size(); ++group) {
+    const auto runs = plan.runs_in(group);
+    ASSERT_EQ(runs.size(), 2U);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      EXPECT_EQ(plan.runs[runs[i]].file, plan.runs[plan.runs_in(0)[i]].file);
+    }
+    const noise::SensorProfile& sensors = plan.sensors[plan.runs[runs[0]].sensors].profile;
+    EXPECT_EQ(sensors.torque[1].delay, 0.001 * static_cast<double>(group));
+  }
+  EXPECT_EQ(plan.tasks.size(), 3 * 2U);
+}
+
+TEST(ASensorSweep, RefusesUnknownKeysAndBadValuesAtTheirLine) {
+  const ScratchFolder folder;
+  EXPECT_THAT([&] { swept(folder, "{dropot: [0.1]}"); },
+              ThrowsMessage<InputError>(
+                  HasSubstr("swept.yaml:8:17: sweep.dropot: 'dropot' is not "
+                            "one of scale, low_pass, degrees_of_freedom, rate, delay, "
+                            "dropout (did you mean 'dropout'?)")));
+  EXPECT_THAT([&] { swept(folder, "{dropout: [2]}"); },
+              ThrowsMessage<InputError>(HasSubstr("expected a number from 0 to 1")));
+  EXPECT_THAT([&] { swept(folder, "{dropout: []}"); },
+              ThrowsMessage<InputError>(HasSubstr("expected at least one number")));
+}
+
+}  // namespace
+}  // namespace touchdown::experiments

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "experiments/run_directory/shard.hpp"
+#include "experiments/run_experiment.hpp"
+#include "experiments/studies/experiment_file.hpp"
+#include "tests/experiments/small_step_scene.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::experiments {
+
+/// Runs an experiment in `<folder>/<name>`.
+inline ExperimentResult run_in(const ScratchFolder& folder, const Experiment& experiment,
+                               const std::string& name = "run") {
+  RunOptions options;
+  options.out = folder / name;
+  return run_experiment(experiment, options);
+}
+
+/// Runs an experiment as a whole and in shards, and expects equal files.
+inline void expect_same_in_shards(const ScratchFolder& folder, const Experiment& experiment,
+                                  int shards, const std::vector<std::string>& files) {
+  run_in(folder, experiment, "whole");
+  RunOptions options;
+  options.out = folder / "shards";
+  for (int shard = shards; shard > 0; --shard) {
+    run_shard(experiment, Shard{shard, shards}, options);
+  }
+  merge_run(folder / "shards", options);
+  for (const std::string& file : files) {
+    EXPECT_EQ(read_file(folder / "whole" / file), read_file(folder / "shards" / file)) << file;
+  }
+}
+
+/// An experiment as it is written, which reads back to the same text.
+inline std::string reread_yaml(const Experiment& experiment) {
+  const std::string text = to_yaml(experiment);
+  EXPECT_EQ(to_yaml(experiment_from_yaml(YamlDocument::parse(text, "again.yaml"))), text);
+  return text;
+}
+
+/// The `InputError` of a function.
+inline std::string complaint_of(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+}  // namespace touchdown::experiments
