@@ -13,7 +13,6 @@
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/figures/figure_spec.hpp"
-#include "experiments/figures/groups.hpp"
 #include "experiments/plan/plan.hpp"
 #include "simulators/registry.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 
 namespace touchdown::experiments {
 

@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/file_names.hpp"
-#include "experiments/config/experiment_estimators.hpp"
-#include "experiments/config/optional_section.hpp"
+#include "core/files.hpp"
+#include "experiments/config/experiment.hpp"
+#include "experiments/config/experiment_yaml.hpp"
+#include "scoring/histogram.hpp"
 #include "experiments/studies/registry.hpp"
-#include "scoring/distributions/overlap.hpp"
 
 namespace touchdown::experiments {
 

@@ -82,8 +82,8 @@ struct SubmissionScores {
   std::vector<std::map<std::string, TaskCounts>> by_cell;
 };
 
-/// Saves the scores in the run directory; replaces those of the same name.
-void save(const SubmissionScores& scores, const RunRequest& request, const RunDirectory& directory);
+/// Saves the scores; replaces those of the same name.
+void save(const SubmissionScores& scores, const Store& store);
 
 /// Rows by setup, scene, engine, estimator, then noise. If every run of a scene failed, its scores
 /// are NaN. Rows of submitted estimators that were scored in this run directory follow the others,

@@ -6,8 +6,8 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "experiments/evaluation/scenes.hpp"
-#include "experiments/run_directory/saved_state.hpp"
+#include "experiments/evaluation/joint_bootstrap.hpp"
+#include "experiments/run_directory/store.hpp"
 #include "experiments/studies/benchmark.hpp"
 
 namespace touchdown::experiments {

@@ -9,12 +9,12 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/tables/table.hpp"
-#include "experiments/config/experiment_estimators.hpp"
-#include "experiments/config/optional_section.hpp"
-#include "experiments/plan/served_robots.hpp"
+#include "core/table.hpp"
+#include "experiments/config/experiment.hpp"
+#include "experiments/config/experiment_yaml.hpp"
+#include "experiments/plan/plan.hpp"
 #include "experiments/studies/registry.hpp"
-#include "scenarios/varied.hpp"
+#include "scenarios/scenario_file.hpp"
 
 namespace touchdown::experiments {
 

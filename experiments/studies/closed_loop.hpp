@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "experiments/estimators/fitted_model.hpp"
-#include "experiments/rollouts/rollouts.hpp"
+#include "experiments/plan/rollouts.hpp"
 #include "experiments/studies/study.hpp"
-#include "noise/grid.hpp"
+#include "noise/sensor_noise.hpp"
 #include "odometry/wheeled_leg.hpp"
 #include "recordings/recording.hpp"
-#include "scenarios/compiled_scenes.hpp"
+#include "scenarios/engine.hpp"
 #include "scoring/labels.hpp"
 #include "scoring/transitions.hpp"
 

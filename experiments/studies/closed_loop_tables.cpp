@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/tables/verbs.hpp"
-#include "experiments/odometry/contact_sources.hpp"
+#include "core/rows.hpp"
 #include "experiments/results/captions.hpp"
+#include "experiments/results/odometry.hpp"
+#include "experiments/results/scores.hpp"
 #include "experiments/studies/closed_loop.hpp"
-#include "experiments/tables/noise_columns.hpp"
-#include "scoring/exact_share.hpp"
+#include "scoring/bootstrap.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::experiments {

@@ -8,11 +8,11 @@
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
-#include "core/tables/table.hpp"
-#include "experiments/config/optional_section.hpp"
+#include "core/table.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/studies/registry.hpp"
 #include "scenarios/perturbation.hpp"
-#include "scenarios/varied.hpp"
+#include "scenarios/scenario_file.hpp"
 
 namespace touchdown::experiments {
 

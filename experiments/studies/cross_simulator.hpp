@@ -8,7 +8,7 @@
 #include "core/interval.hpp"
 #include "experiments/studies/study.hpp"
 #include "scoring/bootstrap.hpp"
-#include "scoring/distributions/histogram.hpp"
+#include "scoring/histogram.hpp"
 
 namespace touchdown::experiments {
 

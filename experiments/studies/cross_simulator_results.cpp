@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/config/experiment.hpp"
 #include "experiments/estimators/baselines.hpp"
 #include "experiments/studies/cross_simulator.hpp"
+#include "scoring/histogram.hpp"
 #include "scoring/bootstrap.hpp"
-#include "scoring/distributions/overlap.hpp"
 
 namespace touchdown::experiments {
 

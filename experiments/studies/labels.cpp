@@ -1,8 +1,8 @@
 #include "scoring/labels.hpp"
 
 #include "core/files.hpp"
-#include "experiments/plan/sensors.hpp"
-#include "experiments/results/paper.hpp"
+#include "experiments/plan/request.hpp"
+#include "experiments/results/text_tables.hpp"
 #include "experiments/studies/registry.hpp"
 #include "scoring/bootstrap.hpp"
 

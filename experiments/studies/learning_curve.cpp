@@ -5,16 +5,15 @@
 
 #include <fmt/format.h>
 
-#include "core/tables/verbs.hpp"
-#include "experiments/config/experiment_estimators.hpp"
-#include "experiments/config/optional_section.hpp"
+#include "core/rows.hpp"
+#include "experiments/config/experiment.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/evaluation/joint_bootstrap.hpp"
-#include "experiments/evaluation/scenes.hpp"
 #include "experiments/figures/figure_spec.hpp"
+#include "experiments/plan/training_data.hpp"
 #include "experiments/results/captions.hpp"
-#include "experiments/rollouts/training_sets.hpp"
+#include "experiments/results/scores.hpp"
 #include "experiments/studies/registry.hpp"
-#include "experiments/tables/noise_columns.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::experiments {

@@ -1,4 +1,5 @@
 #include "experiments/studies/moments.hpp"
+#include "scoring/histogram.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,9 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "experiments/plan/sensors.hpp"
+#include "experiments/plan/request.hpp"
 #include "experiments/studies/registry.hpp"
-#include "scoring/distributions/overlap.hpp"
 
 namespace touchdown::experiments {
 

@@ -1,3 +1,5 @@
+#include "experiments/results/odometry.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -6,12 +8,10 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/tables/verbs.hpp"
-#include "experiments/config/optional_section.hpp"
-#include "experiments/evaluation/scenes.hpp"
+#include "core/rows.hpp"
+#include "experiments/config/experiment_yaml.hpp"
+#include "experiments/evaluation/joint_bootstrap.hpp"
 #include "experiments/figures/figure_spec.hpp"
-#include "experiments/odometry/contact_sources.hpp"
-#include "experiments/odometry/dead_reckoning.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/studies/benchmark.hpp"
 #include "experiments/studies/registry.hpp"

@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include "core/tables/verbs.hpp"
-#include "experiments/config/optional_section.hpp"
+#include "core/rows.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/evaluation/summary.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/results/value_figure.hpp"
 #include "experiments/studies/registry.hpp"
-#include "noise/sensors/factor.hpp"
+#include "noise/sensor_profile.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::experiments {

@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "experiments/config/optional_section.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/evaluation/tasks.hpp"
-#include "experiments/plan/plan.hpp"
 #include "experiments/figures/figure_spec.hpp"
+#include "experiments/plan/plan.hpp"
 #include "experiments/run_directory/directory.hpp"
 
 namespace touchdown::experiments {

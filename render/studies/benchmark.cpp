@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/make_estimator.hpp"
-#include "experiments/plan/sensors.hpp"
+#include "experiments/plan/request.hpp"
 #include "experiments/studies/benchmark.hpp"
 #include "render/film/video.hpp"
 #include "render/pictures/filmed_run.hpp"

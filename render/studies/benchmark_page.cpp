@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "core/tables/verbs.hpp"
+#include "core/rows.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/results/captions.hpp"
-#include "experiments/run_directory/recorded_files.hpp"
+#include "experiments/run_directory/own_files.hpp"
 #include "render/report/html.hpp"
 #include "render/report/page.hpp"
 #include "render/studies/benchmark.hpp"

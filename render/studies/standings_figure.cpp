@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/tables/verbs.hpp"
+#include "core/rows.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/results/captions.hpp"
 #include "render/gnuplot/frame.hpp"

@@ -14,8 +14,8 @@
 #include "estimator/evidence/curves.hpp"
 #include "estimator/models/parameters.hpp"
 #include "experiments/estimators/registry.hpp"
+#include "experiments/experiment_context.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "experiments/stages/experiment_context.hpp"
 #include "recordings/models/parameter_model.hpp"
 #include "tests/experiments/studies/study_test.hpp"
 

@@ -7,8 +7,8 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/table.hpp"
+#include "experiments/experiment_context.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "experiments/stages/experiment_context.hpp"
 #include "tests/experiments/studies/study_test.hpp"
 
 namespace touchdown::experiments {
