@@ -21,10 +21,10 @@ set(public
   phase/config phase/filter phase/fit phase/labels phase/model phase/phase)
 # The headers of types that these hold by value. They are not for programs and may change.
 set(detail
-  bayes/noisy_measurement
+  bayes/noisy_measurement bayes/recursion
   decision/feature_extractor decision/leg_features decision/logit_decision decision/repetition force/axle_motion
   force/wheel_loads neural/forward numerics/axis numerics/exponential numerics/noise_estimate
-  phase/prepared_model phase/recursion phase/tables spectrum/sliding_dft spectrum/summary)
+  numerics/sliding_dft numerics/summary phase/prepared_model phase/tables)
 set(include_dir ${CMAKE_INSTALL_INCLUDEDIR}/touchdown)
 target_include_directories(touchdown_estimator PUBLIC
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>

@@ -5,6 +5,7 @@
 #include "estimator/bayes/config.hpp"
 #include "estimator/bayes/measurement_model.hpp"
 #include "estimator/bayes/noisy_measurement.hpp"
+#include "estimator/bayes/recursion.hpp"
 #include "estimator/bayes/transition_model.hpp"
 #include "estimator/contact_estimator.hpp"
 #include "estimator/signal_guard.hpp"
@@ -43,12 +44,7 @@ class BayesFilter : public ContactEstimator {
   void reset() noexcept override;
   [[nodiscard]] Evidence evidence() const noexcept override;
 
-  /// bel(S_t) for both values of S_t. The filter keeps both, because near certainty 1 − bel(C)
-  /// would be mere rounding error, and the next prediction starts from it.
-  struct State {
-    double contact = 0.5;
-    double no_contact = 0.5;
-  };
+  using State = ContactState;
 
   [[nodiscard]] const Belief& belief() const noexcept { return belief_; }
   [[nodiscard]] const BayesFilterConfig& config() const noexcept { return config_; }
@@ -64,12 +60,11 @@ class BayesFilter : public ContactEstimator {
 
   BayesFilterConfig config_;
   NoisyMeasurement model_;
-  TorqueNoise noise_;
+  TorqueMemory torques_;
   TransitionModel transition_;
   SignalGuard guard_;
-  std::array<TorqueChannel, 2> torque_;
   std::array<MeasurementDiagnostics, 2> measurement_;
-  std::array<State, 2> bel_;
+  std::array<ContactState, 2> bel_;
   Belief belief_;
 };
 

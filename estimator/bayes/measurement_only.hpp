@@ -34,9 +34,8 @@ class MeasurementOnly : public ContactEstimator {
 
   BayesFilterConfig config_;
   NoisyMeasurement model_;
-  TorqueNoise noise_;
+  TorqueMemory torques_;
   SignalGuard guard_;
-  std::array<TorqueChannel, 2> torque_;
   std::array<MeasurementDiagnostics, 2> measurement_;
   Belief belief_;
 };

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include <Eigen/Core>
 
 #include "estimator/numerics/flush_denormals.hpp"
-#include "estimator/torque_channel.hpp"
 
 namespace touchdown {
 namespace {
@@ -102,17 +102,18 @@ std::vector<MeasurementModel> widened_models(MeasurementModel model, bool is_abs
 
 /// The nearest level of the densities for each level of a noise estimate, by the logarithm. Below
 /// half of the first one the densities stay as fitted.
-std::vector<std::size_t> nearest_levels(const NoiseEstimate<2>& estimate, double gain) {
-  std::vector<std::size_t> nearest;
-  for (const double sigma : estimate.levels()) {
+std::shared_ptr<const std::size_t[]> nearest_levels(const NoiseEstimate<2>& estimate, double gain) {
+  const std::span<const double> sigmas = estimate.levels();
+  const auto nearest = std::make_shared<std::size_t[]>(sigmas.size());
+  for (std::size_t i = 0; i < sigmas.size(); ++i) {
     std::size_t level = 0;
     while (level + 1 < widening.size()) {
       const double next = widening[level + 1];
       const double boundary = level == 0 ? 0.5 * next : std::sqrt(widening[level] * next);
-      if (gain * sigma < boundary) break;
+      if (gain * sigmas[i] < boundary) break;
       ++level;
     }
-    nearest.push_back(level);
+    nearest[static_cast<std::ptrdiff_t>(i)] = level;
   }
   return nearest;
 }
@@ -127,19 +128,15 @@ NoisyMeasurement::NoisyMeasurement(MeasurementModel model, const MeasurementConf
     : models_(std::make_shared<const std::vector<MeasurementModel>>(
           config.noise.is_followed
               ? widened_models(std::move(model), config.torque.sign == TorqueSign::absolute)
-              : std::vector<MeasurementModel>{std::move(model)})) {}
-
-TorqueNoiseLevels::TorqueNoiseLevels(const MeasurementConfig& config, double sample_rate)
-    : estimate(noise_estimate(config.noise, sample_rate)),
-      warm_up(config.noise.warm_up * sample_rate),
-      densities(widening.size()),
-      nearest(nearest_levels(estimate, widening_gain(config, sample_rate))) {}
+              : std::vector<MeasurementModel>{std::move(model)})),
+      floor_{config.contact_floor, config.no_contact_floor} {}
 
 TorqueNoise::TorqueNoise(const MeasurementConfig& config, double sample_rate)
     : follows_(config.noise.is_followed),
-      levels_(config, sample_rate),
-      knee_(levels_.estimate),
-      wheel_(levels_.estimate) {}
+      knee_(noise_estimate(config.noise, sample_rate)),
+      wheel_(knee_),
+      densities_(widening.size()),
+      nearest_(nearest_levels(knee_, widening_gain(config, sample_rate))) {}
 
 void TorqueNoise::reset() noexcept {
   knee_.reset();

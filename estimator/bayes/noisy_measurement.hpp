@@ -10,6 +10,7 @@
 #include "estimator/numerics/noise_estimate.hpp"
 #include "estimator/signal_guard.hpp"
 #include "estimator/signals.hpp"
+#include "estimator/torque_channel.hpp"
 
 namespace touchdown {
 
@@ -25,31 +26,20 @@ class NoisyMeasurement {
   [[nodiscard]] const MeasurementModel& at(std::size_t level) const noexcept {
     return (*models_)[level];
   }
-  /// The model as fitted.
-  [[nodiscard]] const MeasurementModel& fitted() const noexcept { return models_->front(); }
+  /// Eq. (5) and (6) by such a model, with the floors added.
+  [[nodiscard]] Likelihoods likelihoods(const MeasurementModel& model,
+                                        const TorqueSample& m) const noexcept {
+    const Likelihoods p = model(m);
+    return {p.contact + floor_.contact, p.no_contact + floor_.no_contact};
+  }
 
  private:
   std::shared_ptr<const std::vector<MeasurementModel>> models_;
-};
-
-/// The levels of a noise estimate, and the level of the densities that is nearest to each.
-struct TorqueNoiseLevels {
-  TorqueNoiseLevels(const MeasurementConfig& config, double sample_rate);
-
-  /// The index of a model of `NoisyMeasurement`, from the levels of the knees' and wheels'
-  /// estimates.
-  [[nodiscard]] std::size_t model(std::size_t knee, std::size_t wheel) const noexcept {
-    return nearest[knee] * densities + nearest[wheel];
-  }
-
-  NoiseEstimate<2> estimate;         ///< a fresh one of two joints with the same noise
-  double warm_up;                    ///< of the estimate, in updates
-  std::size_t densities;             ///< per joint
-  std::vector<std::size_t> nearest;  ///< of the densities, by level of the estimate
+  Likelihoods floor_;
 };
 
 /// Estimates the noise of both knees' and both wheels' torques while the filter runs, and selects
-/// the densities that are nearest to it.
+/// the densities that are nearest to it. Copies share all but the estimates.
 class TorqueNoise {
  public:
   TorqueNoise(const MeasurementConfig& config, double sample_rate);
@@ -71,15 +61,41 @@ class TorqueNoise {
   /// The same for the legs with usable torques.
   std::size_t update(const Signals& signals, const SignalGuardConfig& guard) noexcept;
 
-  [[nodiscard]] std::size_t level() const noexcept {
-    return follows_ ? levels_.model(knee_.level(), wheel_.level()) : 0;
+  [[nodiscard]] std::size_t level() const noexcept { return level(*this); }
+  /// The level for the noise of these knees and of other wheels.
+  [[nodiscard]] std::size_t level(const TorqueNoise& wheels) const noexcept {
+    if (!follows_) return 0;
+    return nearest_.get()[knee_.level()] * densities_ + nearest_.get()[wheels.wheel_.level()];
   }
 
  private:
   bool follows_;
-  TorqueNoiseLevels levels_;
   NoiseEstimate<2> knee_;
   NoiseEstimate<2> wheel_;
+  std::size_t densities_;  ///< per joint
+  /// The nearest of the densities, by level of an estimate.
+  std::shared_ptr<const std::size_t[]> nearest_;
+};
+
+/// What the measurement model remembers of the torques of both legs.
+struct TorqueMemory {
+  TorqueMemory(const MeasurementConfig& config, double sample_rate)
+      : noise(config, sample_rate),
+        leg{TorqueChannel(config.torque, Side::left, sample_rate),
+            TorqueChannel(config.torque, Side::right, sample_rate)} {}
+
+  void reset() noexcept {
+    noise.reset();
+    for (TorqueChannel& torque : leg) torque.reset();
+  }
+  /// The next torques do not follow the last ones. The noise estimates stay.
+  void reset_signals() noexcept {
+    noise.reset_signals();
+    for (TorqueChannel& torque : leg) torque.reset();
+  }
+
+  TorqueNoise noise;
+  std::array<TorqueChannel, 2> leg;  ///< Eq. (4)
 };
 
 }  // namespace touchdown

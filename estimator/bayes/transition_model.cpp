@@ -48,11 +48,7 @@ void TransitionModel::reset() noexcept {
 
 const Transition& TransitionModel::update(double vertical_acceleration) noexcept {
   dft_.push(vertical_acceleration);  // Eq. (9) and (10)
-  const SpectrumValues spectrum = summary_(dft_);
-  law_.with_power([&](const auto& power) {
-    transition_ = law_.next(power(spectrum.mean_square), spectrum.median_bin,
-                            transition_.filtered_median_frequency);
-  });
+  transition_ = law_.next(summary_(dft_), transition_.filtered_median_frequency);
   return transition_;
 }
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "estimator/numerics/exponential.hpp"
-#include "estimator/spectrum/sliding_dft.hpp"
-#include "estimator/spectrum/summary.hpp"
+#include "estimator/numerics/sliding_dft.hpp"
+#include "estimator/numerics/summary.hpp"
 
 namespace touchdown {
 
@@ -72,32 +72,21 @@ struct Transition {
 };
 
 /// The last part of the transition model, from the spectrum's summary to probabilities: Eq. (7),
-/// (8), (11) and (13). It is branch-free, so that it can run over many noise levels side by side.
+/// (8), (11) and (13).
 class TransitionLaw {
  public:
   /// Throws InputError for an invalid rate, slope, margin or memory.
   TransitionLaw(const TransitionConfig& config, double sample_rate);
 
-  /// Calls `use` with the function from a mean square to A_t of Eq. (11). The choice is made once,
-  /// so that a loop over noise levels has no branch.
-  template <typename Use>
-  void with_power(const Use& use) const noexcept {
-    if (is_root_) {
-      use([](double mean_square) { return root_of(mean_square); });
-    } else {
-      use([scale = power_scale_](double mean_square) { return scale * mean_square; });
-    }
-  }
-
-  /// The transition for this power and median (in bins). `remembered` is the filtered median
-  /// frequency of the previous transition (Hz).
-  [[nodiscard]] Transition next(double power, double median_bin, double remembered) const noexcept {
+  /// The transition for this spectrum. `remembered` is the filtered median frequency of the
+  /// previous transition (Hz).
+  [[nodiscard]] Transition next(const SpectrumValues& spectrum, double remembered) const noexcept {
     Transition t;
-    t.power = power;
+    t.power = is_root_ ? root_of(spectrum.mean_square) : power_scale_ * spectrum.mean_square;
     const Odds switching = odds(switching_, t.power);  // Eq. (11)
     t.p_switch = switching.p;
 
-    t.median_frequency = bin_width_ * median_bin;
+    t.median_frequency = bin_width_ * spectrum.median_bin;
     const double input = t.median_frequency * t.p_switch;
     const double filtered = remembered + memory_gain_ * (input - remembered);
     t.filtered_median_frequency = memory_ > 0.0 ? filtered : t.median_frequency;

@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <vector>
+#include <memory>
+#include <span>
 
 namespace touchdown {
 
@@ -42,8 +43,8 @@ class SecondDifference {
 /// lie below 0.6745·√6 σ. The estimate rises by a small factor when one lies above, falls by it
 /// when one lies below, and settles where both happen equally often. Signals much smoother than
 /// their noise, and rare shocks, hardly move it. The estimate moves over precomputed levels, so
-/// that a step costs neither an exponential nor a logarithm. Never fails; skips samples that are
-/// not finite.
+/// that a step costs neither an exponential nor a logarithm. Copies share the levels. Never fails;
+/// skips samples that are not finite.
 template <std::size_t channels>
 class NoiseEstimate {
  public:
@@ -53,10 +54,10 @@ class NoiseEstimate {
       : log_floor_(std::log(floor)),
         log_step_(gain / static_cast<double>(channels)),
         warm_up_(warm_up) {
-    const auto levels = static_cast<int>(std::ceil(std::log(ceiling / floor) / log_step_));
-    for (int i = 0; i <= std::max(1, levels); ++i) {
-      sigma_.push_back(floor * std::exp(i * log_step_));
-    }
+    top_ = std::max(1, static_cast<int>(std::ceil(std::log(ceiling / floor) / log_step_)));
+    const auto sigma = std::make_shared<double[]>(static_cast<std::size_t>(top_) + 1);
+    for (int i = 0; i <= top_; ++i) sigma[i] = floor * std::exp(i * log_step_);
+    sigma_ = sigma;
   }
 
   void reset() noexcept {
@@ -71,7 +72,7 @@ class NoiseEstimate {
   }
 
   void update(const std::array<double, channels>& samples) noexcept {
-    const double median = 0.6744897501960817 * 2.449489742783178 * sigma_[level_];
+    const double median = 0.6744897501960817 * 2.449489742783178 * sigma();
     int direction = 0;
     bool usable = false;
     for (std::size_t i = 0; i < channels; ++i) {
@@ -82,12 +83,11 @@ class NoiseEstimate {
     if (!usable) return;
     updates_ += 1.0;
     const int stride = updates_ < warm_up_ ? static_cast<int>(warm_up_ / updates_) : 1;
-    const auto top = static_cast<int>(sigma_.size()) - 1;
-    level_ =
-        static_cast<std::size_t>(std::clamp(static_cast<int>(level_) + direction * stride, 0, top));
+    level_ = static_cast<std::size_t>(
+        std::clamp(static_cast<int>(level_) + direction * stride, 0, top_));
   }
 
-  [[nodiscard]] double sigma() const noexcept { return sigma_[level_]; }
+  [[nodiscard]] double sigma() const noexcept { return sigma_.get()[level_]; }
   /// Its natural logarithm, without computing one.
   [[nodiscard]] double log_sigma() const noexcept {
     return log_floor_ + log_step_ * static_cast<double>(level_);
@@ -95,10 +95,13 @@ class NoiseEstimate {
   /// The index of the estimate among `levels`.
   [[nodiscard]] std::size_t level() const noexcept { return level_; }
   /// All standard deviations that the estimate can take, increasing.
-  [[nodiscard]] const std::vector<double>& levels() const noexcept { return sigma_; }
+  [[nodiscard]] std::span<const double> levels() const noexcept {
+    return {sigma_.get(), static_cast<std::size_t>(top_) + 1};
+  }
 
  private:
-  std::vector<double> sigma_;
+  std::shared_ptr<const double[]> sigma_;
+  int top_ = 0;  ///< the highest level
   double log_floor_;
   double log_step_;  ///< between levels
   double warm_up_;

@@ -30,8 +30,7 @@ void PhaseFilter::reset() noexcept {
   prepared_.knee_noise.reset();
   prepared_.wheel_noise.reset();
   prepared_.acceleration_noise.reset();
-  alpha_ = {};
-  std::copy(PhaseRecursion::prior.begin(), PhaseRecursion::prior.end(), alpha_.begin());
+  for (std::size_t k = 0; k < phase_count; ++k) alpha_[k].setConstant(PhaseRecursion::prior[k]);
   belief_ = Belief{};
   for (WheelBelief& wheel : belief_.wheel) wheel.contact = true;
   apply_threshold();
@@ -39,7 +38,7 @@ void PhaseFilter::reset() noexcept {
 
 PhaseProbabilities PhaseFilter::phases() const noexcept {
   PhaseProbabilities p{};
-  std::copy_n(alpha_.begin(), phase_count, p.begin());
+  for (std::size_t k = 0; k < phase_count; ++k) p[k] = alpha_[k][0];
   return p;
 }
 
@@ -84,12 +83,14 @@ const Belief& PhaseFilter::estimate(const Signals& signals) noexcept {
                                                  mirror * leg.wheel.torque, knee_level, wheel_level)
                               : PhaseRow{};
   };
-  const PhaseRow left = evidence(0);
-  const PhaseRow right = evidence(1);
+  const PhaseRow legs = legs_row(evidence(0), evidence(1));
   const PhaseRow vertical =
       prepared_.acceleration(signals.vertical_acceleration, acceleration_level);
-
-  prepared_.recursion.predict_and_correct(alpha_, PhaseRecursion::evidence(left, right, vertical));
+  PhaseValues<1> log_likelihood;
+  for (std::size_t k = 0; k < phase_count; ++k) {
+    log_likelihood[k].setConstant(static_cast<double>(legs[k] + vertical[k]));
+  }
+  prepared_.recursion.predict_and_correct(alpha_, log_likelihood);
   apply_threshold();
   return belief_;
 }
@@ -109,18 +110,18 @@ void PhaseFilter::estimate_noise(const Signals& s, bool acceleration_good) noexc
 }
 
 void PhaseFilter::apply_threshold() noexcept {
-  const double left_only = alpha_[index(Phase::left_only)];
-  const double right_only = alpha_[index(Phase::right_only)];
-  const double none = alpha_[index(Phase::flight)] + alpha_[index(Phase::held)];
-  const auto bounded = [](double p) { return std::clamp(p, 0.0, 1.0); };
-  const std::array<double, 2> wheels = PhaseRecursion::wheels(alpha_);
+  const PhaseProbabilities p = phases();
+  const double left_only = p[index(Phase::left_only)];
+  const double right_only = p[index(Phase::right_only)];
+  const double none = p[index(Phase::flight)] + p[index(Phase::held)];
+  const auto bounded = [](double x) { return std::clamp(x, 0.0, 1.0); };
+  const std::array<double, 2> wheels = wheel_probabilities(alpha_);
   belief_.wheel[0].p_contact = wheels[0];
   belief_.wheel[1].p_contact = wheels[1];
   belief_.p_any_wheel = bounded(1.0 - none);
   belief_.p_both_wheels = bounded(1.0 - (none + left_only + right_only));
   for (WheelBelief& wheel : belief_.wheel) {
-    wheel.contact = wheel.contact ? wheel.p_contact >= config_.leave_below
-                                  : wheel.p_contact > config_.return_above;
+    wheel.contact = stays_or_returns(wheel.contact, wheel.p_contact, config_);
   }
 }
 

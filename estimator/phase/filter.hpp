@@ -47,7 +47,7 @@ class PhaseFilter : public ContactEstimator {
   PhaseFilterConfig config_;
   PreparedPhaseModel prepared_;
   SignalGuard guard_;
-  alignas(64) PhaseRecursion::Lanes alpha_{};
+  alignas(64) PhaseValues<1> alpha_{};
   Belief belief_;
 };
 

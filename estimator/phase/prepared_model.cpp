@@ -1,7 +1,13 @@
 #include "estimator/phase/prepared_model.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <utility>
+
+#include <Eigen/Core>
+
+#include "core/error.hpp"
 
 namespace touchdown {
 namespace {
@@ -9,6 +15,25 @@ namespace {
 const PhaseFilterConfig& checked(const PhaseFilterConfig& config) {
   check_phase_filter_config(config);
   return config;
+}
+
+/// The number of the model's steps per step of a filter at `filter_rate` (Hz). Throws InputError
+/// unless it is a whole number.
+int phase_stride(double model_rate, double filter_rate) {
+  const double ratio = model_rate / filter_rate;
+  const double stride = std::round(ratio);
+  if (!(stride >= 1.0 && std::abs(ratio - stride) < 1e-6 * stride)) {
+    throw InputError("phase filter: a sample rate of " + std::to_string(filter_rate) +
+                     " Hz is not the model's " + std::to_string(model_rate) +
+                     " Hz divided by a whole number");
+  }
+  return static_cast<int>(stride);
+}
+
+/// The exponent of likelihoods at that stride. Sparser samples count more each, but never more than
+/// independent samples.
+double phase_exponent(double exponent, int stride) {
+  return std::max(exponent, std::min(1.0, exponent * stride));
 }
 
 /// A noise estimate up to the largest noise of the densities.
@@ -31,6 +56,23 @@ std::vector<PhaseNoiseLevel> placed(const PhaseNoiseLevels& densities,
 }
 
 }  // namespace
+
+PhaseRecursion::PhaseRecursion(const PhaseModel& model, int stride) {
+  using Matrix = Eigen::Matrix<double, phase_count, phase_count>;
+  Matrix one;
+  for (std::size_t i = 0; i < phase_count; ++i) {
+    for (std::size_t j = 0; j < phase_count; ++j) {
+      one(static_cast<int>(i), static_cast<int>(j)) = model.transition[i][j];
+    }
+  }
+  Matrix all = one;
+  for (int k = stride; k > 1; --k) all = all * one;
+  for (std::size_t i = 0; i < phase_count; ++i) {
+    for (std::size_t j = 0; j < phase_count; ++j) {
+      transition_[i][j] = all(static_cast<int>(i), static_cast<int>(j));
+    }
+  }
+}
 
 PreparedPhaseModel::PreparedPhaseModel(std::shared_ptr<const PhaseModel> shared,
                                        const PhaseFilterConfig& config)

@@ -1,15 +1,81 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <vector>
 
+#include <Eigen/Core>
+
+#include "estimator/numerics/exponential.hpp"
 #include "estimator/numerics/noise_estimate.hpp"
 #include "estimator/phase/config.hpp"
 #include "estimator/phase/model.hpp"
-#include "estimator/phase/recursion.hpp"
 #include "estimator/phase/tables.hpp"
 
 namespace touchdown {
+
+/// A value by phase for each of `filters` filters that run side by side.
+template <int filters>
+using PhaseValues = std::array<Eigen::Array<double, filters, 1>, phase_count>;
+
+/// The step from one belief over phases to the next: α'_j ∝ e_j · Σ_i α_i A_ij. One filter and many
+/// side by side compute the same bits, because no sum changes its order.
+class PhaseRecursion {
+ public:
+  /// P(contact) = 0.5 for each wheel, for any and for both. Half of no contact is flight.
+  static constexpr PhaseProbabilities prior = [] {
+    PhaseProbabilities p{};
+    p[index(Phase::rolling)] = 0.5;
+    p[index(Phase::flight)] = 0.25;
+    p[index(Phase::held)] = 0.25;
+    return p;
+  }();
+
+  /// The model's transitions, `stride` of them in one step.
+  PhaseRecursion(const PhaseModel& model, int stride);
+
+  /// Updates α by the logarithm of e. With many filters each operation is vector code; with one,
+  /// the loops over phases are.
+  template <int filters>
+  [[gnu::always_inline]] void predict_and_correct(
+      PhaseValues<filters>& alpha, const PhaseValues<filters>& log_likelihood) const noexcept {
+    using Values = Eigen::Array<double, filters, 1>;
+    PhaseValues<filters> next;
+    next.fill(Values::Zero());
+    for (std::size_t i = 0; i < phase_count; ++i) {
+      for (std::size_t j = 0; j < phase_count; ++j) next[j] += alpha[i] * transition_[i][j];
+    }
+    Values largest = log_likelihood[0];
+    for (const Values& one : log_likelihood) largest = largest.max(one);
+    Values sum = Values::Zero();
+    for (std::size_t k = 0; k < phase_count; ++k) {
+      Values evidence = log_likelihood[k] - largest;
+      for (double& one : evidence) one = exponential(one);
+      next[k] *= evidence;
+      sum += next[k];
+    }
+    const Values scale = 1.0 / sum;
+    for (std::size_t k = 0; k < phase_count; ++k) alpha[k] = next[k] * scale;
+  }
+
+ private:
+  alignas(64) PhaseTransition transition_{};
+};
+
+/// P(left wheel in contact) and P(right wheel in contact) of filter `f`.
+template <int filters>
+std::array<double, 2> wheel_probabilities(const PhaseValues<filters>& alpha, int f = 0) noexcept {
+  const double none = alpha[index(Phase::flight)][f] + alpha[index(Phase::held)][f];
+  return {std::clamp(1.0 - (none + alpha[index(Phase::right_only)][f]), 0.0, 1.0),
+          std::clamp(1.0 - (none + alpha[index(Phase::left_only)][f]), 0.0, 1.0)};
+}
+
+/// Whether a wheel is in contact now, if it was in contact before or not.
+inline bool stays_or_returns(bool before, double p_contact,
+                             const PhaseFilterConfig& config) noexcept {
+  return before ? p_contact >= config.leave_below : p_contact > config.return_above;
+}
 
 /// A model in the form that filters run, one or many side by side. It holds transitions and
 /// likelihoods at the filter's rate, fresh noise estimates, and the position of each of their

@@ -7,21 +7,21 @@
 namespace touchdown {
 namespace {
 
-/// `values` per cell → `phase_simd_width` per cell, times the exponent.
-std::vector<float> padded(std::span<const float> log_density, std::size_t values, double exponent) {
-  const std::size_t cells = log_density.size() / values;
-  std::vector<float> result(cells * phase_simd_width, 0.0F);
-  for (std::size_t cell = 0; cell < cells; ++cell) {
-    for (std::size_t k = 0; k < values; ++k) {
-      result[cell * phase_simd_width + k] =
-          static_cast<float>(exponent * static_cast<double>(log_density[cell * values + k]));
+/// The densities of acceleration by phase, times the exponent. The single-wheel phases share one.
+std::vector<float> by_phase(std::span<const float> log_density, double exponent) {
+  constexpr std::size_t values = acceleration_density_count;
+  std::vector<float> result;
+  for (std::size_t cell = 0; cell < log_density.size(); cell += values) {
+    for (std::size_t k = 0; k < phase_count; ++k) {
+      result.push_back(static_cast<float>(
+          exponent * static_cast<double>(log_density[cell + std::min(k, values - 1)])));
     }
   }
   return result;
 }
 
 void add(PhaseRow& sum, float weight, const float* cell) noexcept {
-  for (std::size_t k = 0; k < phase_simd_width; ++k) sum[k] += weight * cell[k];
+  for (std::size_t k = 0; k < phase_count; ++k) sum[k] += weight * cell[k];
 }
 
 PhaseNoiseLevels noise_levels_of(std::vector<double> bandwidths, double first_noise) {
@@ -50,7 +50,7 @@ PhaseTorqueTables::PhaseTorqueTables(std::span<const PhaseTorqueDensity> densiti
   noise_levels_ = noise_levels_of(std::move(bandwidths), densities.front().noise.wheel);
   for (const PhaseTorqueDensity& density : densities) {
     tables_.push_back({AxisLookup(density.knee), AxisLookup(density.wheel),
-                       phase_simd_width * static_cast<std::size_t>(density.knee.count),
+                       phase_count * static_cast<std::size_t>(density.knee.count),
                        density.log_density.data()});
   }
 }
@@ -62,15 +62,15 @@ PhaseRow PhaseTorqueTables::operator()(double knee, double wheel, const PhaseNoi
     const AxisPosition k = table.knee.place(knee);
     const AxisPosition w = table.wheel.place(wheel);
     const float* const low = table.cells + static_cast<std::size_t>(w.index) * table.row +
-                             static_cast<std::size_t>(k.index) * phase_simd_width;
+                             static_cast<std::size_t>(k.index) * phase_count;
     const float* const high = low + table.row;
     const auto knee_weight = static_cast<float>(k.weight);
     const float high_weight = weight * static_cast<float>(w.weight);
     const float low_weight = weight - high_weight;
     add(sum, low_weight * (1.0F - knee_weight), low);
-    add(sum, low_weight * knee_weight, low + phase_simd_width);
+    add(sum, low_weight * knee_weight, low + phase_count);
     add(sum, high_weight * (1.0F - knee_weight), high);
-    add(sum, high_weight * knee_weight, high + phase_simd_width);
+    add(sum, high_weight * knee_weight, high + phase_count);
   };
   const std::size_t levels = noise_levels_.bandwidths.size();
   const Table* const corner = tables_.data() + knee_noise.level * levels + wheel_noise.level;
@@ -89,8 +89,7 @@ PhaseAccelerationTables::PhaseAccelerationTables(
   std::vector<double> bandwidths;
   for (const PhaseAccelerationDensity& density : densities) {
     bandwidths.push_back(density.bandwidth);
-    tables_.push_back({AxisLookup(density.axis),
-                       padded(density.log_density, acceleration_density_count, exponent)});
+    tables_.push_back({AxisLookup(density.axis), by_phase(density.log_density, exponent)});
   }
   noise_levels_ = noise_levels_of(std::move(bandwidths), densities.front().noise);
 }
@@ -100,11 +99,10 @@ PhaseRow PhaseAccelerationTables::operator()(double acceleration,
   PhaseRow sum{};
   const auto add_level = [&](const Table& table, float weight) {
     const AxisPosition a = table.axis.place(acceleration);
-    const float* const low =
-        table.cells.data() + static_cast<std::size_t>(a.index) * phase_simd_width;
+    const float* const low = table.cells.data() + static_cast<std::size_t>(a.index) * phase_count;
     const float high_weight = weight * static_cast<float>(a.weight);
     add(sum, weight - high_weight, low);
-    add(sum, high_weight, low + phase_simd_width);
+    add(sum, high_weight, low + phase_count);
   };
   add_level(tables_[noise.level], 1.0F - noise.weight);
   if (noise.weight > 0.0F) add_level(tables_[noise.level + 1], noise.weight);

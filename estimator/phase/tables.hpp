@@ -9,11 +9,19 @@
 
 namespace touchdown {
 
-/// Values per cell of the lookup tables: one per phase, padded to whole vector registers.
-inline constexpr std::size_t phase_simd_width = 12;
+/// Log likelihoods by phase. As torques of one leg they are by density instead, with the two of the
+/// single-wheel phases last (`legs_row`).
+using PhaseRow = std::array<float, phase_count>;
+static_assert(torque_density_count == phase_count, "cells of the tables have the size of a row");
 
-/// Log likelihoods by phase; the padding is zero.
-using PhaseRow = std::array<float, phase_simd_width>;
+/// The sum of the rows of both legs, by phase.
+inline PhaseRow legs_row(const PhaseRow& left, const PhaseRow& right) noexcept {
+  PhaseRow row;
+  for (std::size_t k = 0; k < phase_count; ++k) row[k] = left[k] + right[k];
+  row[index(Phase::left_only)] = left[supporting_leg] + right[airborne_leg];
+  row[index(Phase::right_only)] = left[airborne_leg] + right[supporting_leg];
+  return row;
+}
 
 /// The position of a noise among the noise levels: `weight` in [0, 1] of the way from `level` to
 /// the next one.
@@ -54,14 +62,13 @@ class PhaseTorqueTables {
     std::size_t row = 0;
     const float* cells = nullptr;
   };
-  static_assert(torque_density_count == phase_simd_width, "rows are those of the densities");
-
   std::vector<Table> tables_;
   float exponent_;
   PhaseNoiseLevels noise_levels_;
 };
 
-/// Lookup tables of the acceleration densities, likewise, but padded copies of them.
+/// Lookup tables of the acceleration densities, likewise, but copies of them with a value for each
+/// of the two single-wheel phases.
 class PhaseAccelerationTables {
  public:
   PhaseAccelerationTables(std::span<const PhaseAccelerationDensity> densities, double exponent);

@@ -4,57 +4,50 @@
 #include <span>
 #include <vector>
 
+#include "estimator/bayes/config.hpp"
+#include "estimator/bayes/noisy_measurement.hpp"
 #include "estimator/bayes/transition_model.hpp"
-#include "experiments/batch/magnitude_spectrum.hpp"
-#include "experiments/batch/measurement.hpp"
 #include "experiments/batch/noise_level.hpp"
-#include "experiments/batch/power_spectrum.hpp"
 
 namespace touchdown::experiments {
 
-/// The transition model, Eq. (7) to (13), for a batch of accelerometer noise levels. The sliding
-/// transform is linear, so all levels share one transform of the clean signal and one of the noise.
-/// `update` neither allocates nor throws.
-class BatchedTransitions {
+/// `MeasurementOnly` for a batch of noise levels, for sweeps: one clean recording, one noise
+/// realisation, one element per level. The probabilities of each element equal those of a
+/// `MeasurementOnly` with the input clean + sigma × draw. It has no signal guard; all inputs must
+/// be finite. `update` neither allocates nor throws.
+class BatchedMeasurement {
  public:
-  /// Takes sigmas in m/s², which the caller has checked. Throws InputError for a bad configuration.
-  BatchedTransitions(const TransitionConfig& config, double sample_rate,
-                     std::span<const double> sigmas);
+  /// Throws InputError for no levels, a level that is negative or not finite, a bad configuration.
+  BatchedMeasurement(MeasurementModel model, const BayesFilterConfig& config,
+                     std::span<const BatchNoise> levels);
 
-  /// One step: clean vertical acceleration (m/s²) and a standard normal draw, both finite.
-  void update(double vertical_acceleration, double draw) noexcept;
+  /// Processes one step of clean signals, Eq. (4) to (6) and (14). Each element scales the draws by
+  /// its own sigmas.
+  void update(const Signals& clean, const NoiseStep& draws) noexcept;
 
-  /// The transition matrix, one array per element, one value per sigma.
-  [[nodiscard]] std::span<const double> contact_to_contact() const noexcept { return stay_; }
-  [[nodiscard]] std::span<const double> contact_to_air() const noexcept { return takeoff_; }
-  [[nodiscard]] std::span<const double> air_to_contact() const noexcept { return landing_; }
-  [[nodiscard]] std::span<const double> air_to_air() const noexcept { return fly_; }
+  /// Eq. (6), floors included, by element.
+  [[nodiscard]] std::span<const Likelihoods> likelihoods(Side side) const noexcept {
+    return likelihoods_[static_cast<std::size_t>(side)];
+  }
+  /// P_τ(S_t = C | m_t), Eq. (14), by element.
+  [[nodiscard]] std::span<const double> p_contact(Side side) const noexcept {
+    return p_contact_[static_cast<std::size_t>(side)];
+  }
 
  private:
-  TransitionLaw law_;
-  SlidingDft clean_;
-  SlidingDft noise_;
-  bool magnitude_;
-  MixedMagnitudeSpectrum magnitudes_;
-  MixedPowerSpectrum powers_;
-  std::vector<double> sigmas_;
-  std::vector<SpectrumValues> spectrum_;
-  std::vector<double> filtered_median_;
-  std::vector<double> stay_;
-  std::vector<double> takeoff_;
-  std::vector<double> landing_;
-  std::vector<double> fly_;
+  NoisyMeasurement model_;
+  TorqueSigmas sigmas_;
+  std::vector<TorqueMemory> memory_;                 ///< by standard deviation
+  std::vector<std::array<TorqueSample, 2>> torque_;  ///< m_t of both legs, by standard deviation
+  std::array<std::vector<Likelihoods>, 2> likelihoods_;
+  std::array<std::vector<double>, 2> p_contact_;
 };
 
-/// `BayesFilter` for a batch of noise levels, for sweeps: one clean recording, one noise
-/// realisation, and structures of arrays with one element per level. Elements with the same torque
-/// noise share lookups, and elements with the same accelerometer noise share spectra. A grid of
-/// levels thereby costs little more than its recursions. The beliefs of each element equal those of
-/// a `BayesFilter` with the input clean + sigma × draw, to 1e-12.
-///
-/// It is meant for recordings: unlike `BayesFilter` it has no guard against gaps or frozen sensors.
-/// It skips a step with a value that is not finite, and the beliefs stay as they were. `update`
-/// neither allocates nor throws.
+/// `BayesFilter` for a batch of noise levels, likewise. Elements with the same torque noise share
+/// the measurement model, and elements with the same accelerometer noise the transition model. Only
+/// the recursion runs per element, so that a grid of levels costs little more than that. The
+/// beliefs of each element equal those of a `BayesFilter` with the input clean + sigma × draw. It
+/// has no signal guard; all inputs must be finite. `update` neither allocates nor throws.
 class BatchedBayesFilter {
  public:
   /// Throws InputError for no levels, a level that is negative or not finite, a bad configuration.
@@ -64,9 +57,7 @@ class BatchedBayesFilter {
   /// Processes one step of clean signals. Each element scales the draws by its own sigmas.
   void update(const Signals& clean, const NoiseStep& draws) noexcept;
 
-  /// The number of noise levels.
-  [[nodiscard]] std::size_t size() const noexcept { return torque_.level_index.size(); }
-  /// P(S_t = C | m_0:t) of one wheel, per noise level.
+  /// P(S_t = C | m_0:t) of one wheel, by element.
   [[nodiscard]] std::span<const double> p_contact(Side side) const noexcept {
     return contact_[static_cast<std::size_t>(side)];
   }
@@ -74,9 +65,9 @@ class BatchedBayesFilter {
  private:
   BatchByLevel<BatchNoise> torque_;
   BatchByLevel<double> acceleration_;
-  BatchedMeasurement measurement_;
-  BatchedTransitions transition_;
-  /// bel(S_t = C) and bel(S_t = ¬C) per wheel and noise level.
+  BatchedMeasurement measurement_;           ///< by level of torque noise
+  std::vector<TransitionModel> transition_;  ///< by level of accelerometer noise
+  /// bel(S_t = C) and bel(S_t = ¬C) per wheel and element.
   std::array<std::vector<double>, 2> contact_;
   std::array<std::vector<double>, 2> no_contact_;
 };

@@ -3,22 +3,8 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "experiments/batch/wide_vectors.hpp"
 
 namespace touchdown::experiments {
-namespace {
-
-TOUCHDOWN_WIDE_VECTORS
-void add_scaled(double clean, double draw, const double* sigma, double* noisy,
-                std::size_t count) noexcept {
-  // The arrays do not overlap, which the compiler cannot know.
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC ivdep
-#endif
-  for (std::size_t i = 0; i < count; ++i) noisy[i] = clean + sigma[i] * draw;
-}
-
-}  // namespace
 
 void check_levels(std::span<const BatchNoise> levels) {
   if (levels.empty()) throw InputError("a sweep needs at least one noise level");
@@ -31,9 +17,17 @@ void check_levels(std::span<const BatchNoise> levels) {
   }
 }
 
-void add_noise(double clean, double draw, std::span<const double> sigma,
-               std::span<double> noisy) noexcept {
-  add_scaled(clean, draw, sigma.data(), noisy.data(), noisy.size());
+TorqueSigmas::TorqueSigmas(std::span<const BatchNoise> batch) {
+  check_levels(batch);
+  const auto place = [this](double wanted) {
+    const auto same = std::find(sigma.begin(), sigma.end(), wanted);
+    const auto index = static_cast<std::uint32_t>(same - sigma.begin());
+    if (same == sigma.end()) sigma.push_back(wanted);
+    return index;
+  };
+  for (const BatchNoise& one : batch) {
+    element.push_back({place(one.knee_torque), place(one.wheel_torque)});
+  }
 }
 
 }  // namespace touchdown::experiments

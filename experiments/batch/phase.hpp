@@ -6,9 +6,7 @@
 #include <vector>
 
 #include "estimator/phase/prepared_model.hpp"
-#include "experiments/batch/noise_estimates.hpp"
 #include "experiments/batch/noise_level.hpp"
-#include "experiments/batch/phase_recursion.hpp"
 
 namespace touchdown::experiments {
 
@@ -22,6 +20,9 @@ namespace touchdown::experiments {
 /// be finite. `update` neither allocates nor throws.
 class BatchedPhaseFilter {
  public:
+  /// The number of elements whose recursions run side by side: doubles in a vector of 512 bits.
+  static constexpr int block_size = 8;
+
   /// Throws InputError as `PhaseFilter`, and for no levels or bad ones.
   BatchedPhaseFilter(std::shared_ptr<const PhaseModel> model, const PhaseFilterConfig& config,
                      std::span<const BatchNoise> levels);
@@ -29,42 +30,38 @@ class BatchedPhaseFilter {
   /// Processes one step of clean signals. Each element scales the draws by its own sigmas.
   void update(const Signals& clean, const NoiseStep& draws) noexcept;
 
-  /// The number of noise levels.
-  [[nodiscard]] std::size_t size() const noexcept { return torque_.level_index.size(); }
   /// P(S_t = C | m_0:t) of one wheel, per noise level.
   [[nodiscard]] std::span<const double> p_contact(Side side) const noexcept {
-    return std::span(p_contact_[static_cast<std::size_t>(side)]).first(size());
+    return std::span(p_contact_[static_cast<std::size_t>(side)]).first(torque_.level_index.size());
   }
   /// The decision about one wheel, per noise level: 1 for contact, 0 for none.
   [[nodiscard]] std::span<const double> contact(Side side) const noexcept {
-    return std::span(contact_[static_cast<std::size_t>(side)]).first(size());
+    return std::span(contact_[static_cast<std::size_t>(side)]).first(torque_.level_index.size());
   }
 
  private:
-  /// One level of accelerometer noise.
-  struct AccelerationLevel {
-    double sigma;
-    NoiseEstimate<1> noise;
+  /// Torques of both legs with one standard deviation of noise, and its estimates.
+  struct JointTorques {
+    NoiseEstimate<2> knee_noise;
+    NoiseEstimate<2> wheel_noise;
+    std::array<double, 2> knee{};
+    std::array<double, 2> wheel{};
   };
-  void add_torque_noise(const Signals& clean, const NoiseStep& draws) noexcept;
-  void look_up_torques() noexcept;
-  void look_up_accelerations(double clean, double draw) noexcept;
+  void update_torques(const Signals& clean, const NoiseStep& draws) noexcept;
+  void update_accelerations(double clean, double draw) noexcept;
+  void update_block(std::size_t block) noexcept;
 
   PhaseFilterConfig config_;
   PreparedPhaseModel prepared_;
   BatchByLevel<BatchNoise> torque_;
+  TorqueSigmas sigmas_;                ///< of the levels of torque noise
+  std::vector<JointTorques> joint_;    ///< by standard deviation
+  std::vector<PhaseRow> torque_rows_;  ///< log likelihoods of both legs, by level of torque noise
   BatchByLevel<double> acceleration_;
-  std::vector<double> knee_sigma_;  ///< by level of torque noise
-  std::vector<double> wheel_sigma_;
-  NoiseEstimates knee_noise_;  ///< by level of torque noise
-  NoiseEstimates wheel_noise_;
-  std::array<std::vector<double>, 2> knee_;  ///< noisy torques of both legs, by level
-  std::array<std::vector<double>, 2> wheel_;
-  std::vector<AccelerationLevel> acceleration_levels_;
-  PhaseLikelihoods torque_likelihoods_;  ///< of both legs together
-  PhaseLikelihoods acceleration_likelihoods_;
-  BatchedPhaseRecursion recursion_;
-  /// By element, padded as the blocks of the recursion.
+  std::vector<NoiseEstimate<1>> acceleration_noise_;
+  std::vector<PhaseRow> acceleration_rows_;
+  std::vector<PhaseValues<block_size>> alpha_;
+  /// By element, padded to whole blocks.
   std::array<std::vector<double>, 2> p_contact_;
   std::array<std::vector<double>, 2> contact_;
 };

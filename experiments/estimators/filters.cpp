@@ -97,7 +97,7 @@ std::optional<BatchedEstimator> measurement_only_batch(const EstimatorEntry& ent
                                                        const EstimatorSetup& setup, Levels levels) {
   const auto batch = measurement_batch<BatchedMeasurement>(entry, setup, levels);
   return BatchedEstimator{update_of(batch),
-                          [batch](Side side) { return batch->p_measurement(side); },
+                          [batch](Side side) { return batch->p_contact(side); },
                           entry.config->threshold};
 }
 

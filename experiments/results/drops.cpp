@@ -32,9 +32,11 @@ std::vector<Phase> true_phases(const RunSignals& run, const PhaseLabelConfig& co
 
 PhaseProbabilities by_phase(const PhaseRow& left_leg, const PhaseRow& right_leg,
                             const PhaseRow& vertical) {
-  const PhaseRecursion::Lanes evidence = PhaseRecursion::evidence(left_leg, right_leg, vertical);
+  const PhaseRow legs = legs_row(left_leg, right_leg);
   PhaseProbabilities phases{};
-  std::copy_n(evidence.begin(), phase_count, phases.begin());
+  for (std::size_t k = 0; k < phase_count; ++k) {
+    phases[k] = static_cast<double>(legs[k] + vertical[k]);
+  }
   return phases;
 }
 

@@ -1,7 +1,6 @@
 #include "experiments/batch/bayes.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -45,12 +44,10 @@ TEST_P(NamedBatch, EqualsTheScalarFilterAtEveryLevel) {
   const MeasurementModel model = fitted(config);
   const std::vector<BatchNoise> grid = bayes_levels();
   BatchedBayesFilter batch(model, config, grid);
-  ASSERT_EQ(batch.size(), grid.size());
   BatchedMeasurement measurements(model, config, grid);
   std::vector<BayesFilter> filters(grid.size(), BayesFilter(model, config));
   std::vector<MeasurementOnly> ablations(grid.size(), MeasurementOnly(model, config));
   Normal normal(17);
-  double worst = 0.0;
   for (const Signals& clean : drops(20'000, 1000.0, 31)) {
     const NoiseStep draws = draw(normal);
     batch.update(clean, draws);
@@ -61,14 +58,12 @@ TEST_P(NamedBatch, EqualsTheScalarFilterAtEveryLevel) {
       const Belief& measured = ablations[level].update(s);
       for (const Side side : {Side::left, Side::right}) {
         const auto i = static_cast<std::size_t>(side);
-        worst = std::max(worst, std::abs(belief.wheel[i].p_contact - batch.p_contact(side)[level]));
-        ASSERT_NEAR(belief.wheel[i].p_contact, batch.p_contact(side)[level], 1e-12)
+        ASSERT_EQ(belief.wheel[i].p_contact, batch.p_contact(side)[level])
             << level << " at " << clean.time;
-        ASSERT_NEAR(measured.wheel[i].p_contact, measurements.p_measurement(side)[level], 1e-12);
+        ASSERT_EQ(measured.wheel[i].p_contact, measurements.p_contact(side)[level]);
       }
     }
   }
-  std::printf("largest difference: %.2g\n", worst);
 }
 
 INSTANTIATE_TEST_SUITE_P(Configurations, NamedBatch,
@@ -90,30 +85,12 @@ TEST(BatchedBayesFilter, EqualsTheScalarFilterForAnyWindow) {
         batch.update(clean, draws);
         for (std::size_t level = 0; level < grid.size(); ++level) {
           const Belief& belief = filters[level].update(noisy(clean, draws, grid[level]));
-          ASSERT_NEAR(belief.wheel[0].p_contact, batch.p_contact(Side::left)[level], 1e-12)
+          ASSERT_EQ(belief.wheel[0].p_contact, batch.p_contact(Side::left)[level])
               << name << " window " << window << " level " << level << " at " << clean.time;
         }
       }
     }
   }
-}
-
-TEST(BatchedBayesFilter, SkipsStepsThatAreNotFinite) {
-  const BayesFilterConfig config = BayesFilterConfig::robust();
-  const std::vector<BatchNoise> one{{0.1, 0.1, 1.0}};
-  BatchedBayesFilter batch(fitted(config), config, one);
-  Normal normal(3);
-  for (const Signals& clean : drops(700)) {
-    batch.update(clean, draw(normal));
-  }
-  const double before = batch.p_contact(Side::left)[0];
-  Signals bad;
-  bad.vertical_acceleration = std::nan("");
-  batch.update(bad, NoiseStep{});
-  bad.vertical_acceleration = 0.0;
-  bad.leg[1].wheel.torque = HUGE_VAL;
-  batch.update(bad, NoiseStep{});
-  EXPECT_EQ(batch.p_contact(Side::left)[0], before);
 }
 
 TEST(BatchedBayesFilter, RefusesInvalidLevels) {

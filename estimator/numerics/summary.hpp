@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "estimator/spectrum/sliding_dft.hpp"
+#include "estimator/numerics/sliding_dft.hpp"
 
 namespace touchdown {
 

@@ -1,4 +1,4 @@
-#include "estimator/spectrum/sliding_dft.hpp"
+#include "estimator/numerics/sliding_dft.hpp"
 
 #include <algorithm>
 #include <complex>

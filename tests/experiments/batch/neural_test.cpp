@@ -1,4 +1,4 @@
-#include "experiments/batch/neural_forward.hpp"
+#include "experiments/batch/neural.hpp"
 
 #include <vector>
 
