@@ -12,9 +12,8 @@ set(public
   bayes/config bayes/filter bayes/measurement_fit bayes/measurement_model bayes/measurement_only
   bayes/transition_model c_interface/handle
   decision/augmentation decision/config decision/descent decision/draws decision/filter decision/fit
-  decision/network decision/training
+  decision/network
   evidence/curves evidence/filter evidence/fit
-  evidence/training
   force/force_kinematics force/force_kinematics_fit force/leg_geometry force/support_force
   models/arrays models/compiled models/make_estimator models/metadata
   neural/estimator neural/input neural/network
