@@ -1,6 +1,6 @@
 #include "experiments/odometry/dead_reckoning.hpp"
 
-#include "odometry/filter.hpp"
+#include "estimator/odometry/filter.hpp"
 
 namespace touchdown::experiments {
 

@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "estimator/odometry/wheeled_leg.hpp"
 #include "models/robot_model.hpp"
-#include "odometry/wheeled_leg.hpp"
 #include "recordings/recording.hpp"
 #include "scoring/trajectory.hpp"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "odometry/wheeled_leg.hpp"
+#include "estimator/odometry/wheeled_leg.hpp"
 #include "recordings/recording.hpp"
 #include "scoring/labels.hpp"
 #include "scoring/transitions.hpp"

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 
 #include "core/error.hpp"
-#include "odometry/lie.hpp"
-#include "odometry/wheeled_leg.hpp"
+#include "estimator/odometry/lie.hpp"
+#include "estimator/odometry/wheeled_leg.hpp"
 
 namespace touchdown::odometry {
 
