@@ -19,7 +19,6 @@
 #include "estimator/force/force_kinematics_fit.hpp"
 #include "estimator/force/support_force.hpp"
 #include "estimator/free_fall.hpp"
-#include "estimator/models/compiled.hpp"
 #include "estimator/models/make_estimator.hpp"
 #include "estimator/models/metadata.hpp"
 #include "estimator/neural/estimator.hpp"

@@ -1,5 +1,5 @@
 # `cmake --install` of the estimator, the part of touchdown that goes to a robot. Afterwards
-# find_package(touchdown) gives touchdown::estimator; onboard/install.cmake adds touchdown::models.
+# find_package(touchdown) gives touchdown::estimator; npz/CMakeLists.txt adds touchdown::models.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -15,7 +15,7 @@ set(public
   decision/network
   evidence/curves evidence/filter evidence/fit
   force/force_kinematics force/force_kinematics_fit force/leg_geometry force/support_force
-  models/arrays models/compiled models/make_estimator models/metadata
+  models/arrays models/make_estimator models/metadata models/model
   neural/estimator neural/input neural/network
   phase/config phase/filter phase/fit phase/labels phase/model phase/phase)
 # The headers of types that these hold by value. They are not for programs and may change.

@@ -21,8 +21,7 @@ double seconds_of(const RunSignals& run) {
 }
 
 /// Processor time of a fitted estimator for one second of a run.
-double update_seconds(const EstimatorEntry& entry, const FittedModel& model,
-                      const RunSignals& run) {
+double update_seconds(const EstimatorEntry& entry, const Model& model, const RunSignals& run) {
   EstimatorRunner runner = runner_of(entry, {1.0 / period_of(run), &model, run.legs, &run.contact});
   double last = 0.0;  // the beliefs are needed, or the compiler leaves them out
   const double cost = cost_of([&] {
@@ -36,7 +35,7 @@ double update_seconds(const EstimatorEntry& entry, const FittedModel& model,
 /// Fits the model, and splits its cost. The training of a fit that draws a fixed number of rows
 /// does not grow with the data; only its passes over the data do.
 FitCost cost_of_fit(const EstimatorEntry& entry, const FitRuns& data, double seconds,
-                    FittedModel& model) {
+                    Model& model) {
   FitCost cost;
   cost.estimator = entry.name;
   cost.is_upper_bound = entry.is_upper_bound;

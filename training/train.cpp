@@ -17,7 +17,7 @@
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_directory/owner.hpp"
-#include "recordings/models/neural_network.hpp"
+#include "recordings/model_file.hpp"
 #include "training/blas.hpp"
 #include "training/initial_weights.hpp"
 #include "training/rollout.hpp"
@@ -131,7 +131,8 @@ class TrainingSession {
       return;
     }
     trainer_ = std::make_unique<Trainer>(
-        recordings::read_neural_network(directory_.file("models", "nmn.npz")), config_.optimiser);
+        neural_network_of(load_model(directory_.file("models", "nmn.npz")).arrays),
+        config_.optimiser);
     trainer_->load(checkpoint(history_.size()));
     print_message(fmt::format("resuming after iteration {}\n", history_.size()));
   }
@@ -169,7 +170,8 @@ class TrainingSession {
     directory_.require_in_place();
     const bool best = best_iteration(history_) + 1 == history_.size();
     if (best) {
-      recordings::write_neural_network(trainer_->network(), directory_.file("models", "nmn.npz"));
+      recordings::save_model({.arrays = arrays_of(trainer_->network())},
+                             directory_.file("models", "nmn.npz"));
     }
     trainer_->save(checkpoint(history_.size()));
     write_history(history_, history_file_);

@@ -13,6 +13,7 @@
 #include "core/progress.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/logs/fit.hpp"
+#include "recordings/model_file.hpp"
 
 namespace touchdown::cli {
 
@@ -216,8 +217,7 @@ void fit(const FitFlags& flags, const CliSession& session) {
   require_extension(flags.output, {".npz"}, "a model");
   require_different(logs);
   experiments::LogFitReport report;
-  experiments::write_fitted_model(experiments::fit_to_logs(entry, logs, config, report),
-                                  flags.output);
+  recordings::save_model(experiments::fit_to_logs(entry, logs, config, report), flags.output);
   for (const std::string& warning : report.warnings)
     print_message(fmt::format("touchdown: {}\n", warning));
   if (report.unusable > 0) {

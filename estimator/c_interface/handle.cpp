@@ -37,12 +37,16 @@ std::string described(const ModelMetadata& metadata) {
 
 }  // namespace
 
-touchdown_estimator* new_handle(const ModelArrays& arrays, const ModelUse& use) {
-  const ModelMetadata metadata = metadata_for(arrays, use);
+touchdown_estimator* new_handle(const Model& model, const ModelUse& use) {
+  const ModelMetadata metadata = metadata_for(model, use);
   const double rate = use.sample_rate > 0.0 ? use.sample_rate : metadata.sample_rate;
   auto handle = std::make_unique<touchdown_estimator>(touchdown_estimator{
-      described(metadata), make_estimator(arrays, use), SignalAssembler({.sample_rate = rate})});
+      described(metadata), make_estimator(model, use), SignalAssembler({.sample_rate = rate})});
   return handle.release();
+}
+
+touchdown_estimator* new_handle(const ModelArrays& arrays, const ModelUse& use) {
+  return new_handle(model_of(arrays), use);
 }
 
 ModelUse use_of(const touchdown_use* use) {

@@ -18,7 +18,8 @@ struct touchdown_estimator {
 
 namespace touchdown {
 
-/// Makes an estimator for C from a model's arrays. Errors: as `make_estimator`.
+/// Makes an estimator for C from a model, or from its arrays. Errors: as `make_estimator`.
+touchdown_estimator* new_handle(const Model& model, const ModelUse& use);
 touchdown_estimator* new_handle(const ModelArrays& arrays, const ModelUse& use);
 
 /// A C program's requirements of the model; `use` may be null.

@@ -5,7 +5,7 @@
 
 #include "estimator/bayes/transition_model.hpp"
 #include "experiments/config/experiment_estimators.hpp"
-#include "experiments/fitting/make_estimator.hpp"
+#include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/condition.hpp"
 
 namespace touchdown::experiments {

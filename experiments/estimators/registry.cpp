@@ -8,10 +8,7 @@
 #include "core/error.hpp"
 #include "core/yaml.hpp"
 #include "estimator/models/former_names.hpp"
-#include "experiments/estimators/boosting.hpp"
-#include "experiments/estimators/decision.hpp"
-#include "experiments/estimators/filters.hpp"
-#include "experiments/estimators/forces.hpp"
+#include "experiments/estimators/entries.hpp"
 
 namespace touchdown::experiments {
 

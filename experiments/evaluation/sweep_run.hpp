@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "experiments/fitting/make_estimator.hpp"
+#include "experiments/fitting/fitting.hpp"
 #include "experiments/rollouts/rollouts.hpp"
 #include "scoring/classification.hpp"
 

@@ -29,7 +29,7 @@ std::filesystem::path find_model(const std::filesystem::path& path);
 /// An estimator for logs, with its fitted model.
 struct LogEstimator {
   EstimatorEntry entry;
-  FittedModel model;
+  Model model;
   LogEstimatorRequest request;
 
   /// The estimator at a log's rate (Hz), or at the model's where both are equal to 1 %. The window

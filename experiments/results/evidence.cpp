@@ -5,7 +5,7 @@
 #include <set>
 
 #include "estimator/evidence/channels.hpp"
-#include "experiments/estimators/decision.hpp"
+#include "experiments/estimators/entries.hpp"
 #include "experiments/plan/condition.hpp"
 
 namespace touchdown::experiments {

@@ -11,6 +11,7 @@
 #include "experiments/results/paper.hpp"
 #include "experiments/results/scores.hpp"
 #include "experiments/results/summary_file.hpp"
+#include "recordings/model_file.hpp"
 
 namespace touchdown::experiments {
 
@@ -60,10 +61,10 @@ void write_score_tables(const ExperimentResult& result) {
 
 }  // namespace
 
-void write_model_of(const std::string& key, const std::string& estimator, const FittedModel& model,
+void write_model_of(const std::string& key, const std::string& estimator, const Model& model,
                     const RunDirectory& directory) {
-  if (is_of_refit(key)) return;
-  write_fitted_model(model, directory.file("models", model_name(key, estimator)));
+  if (is_of_refit(key) || !has_numbers(model)) return;
+  recordings::save_model(model, directory.file("models", model_name(key, estimator)));
 }
 
 void write_result_files(const ExperimentResult& result) {

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "experiments/config/experiment_estimators.hpp"
-#include "experiments/fitting/refits.hpp"
+#include "experiments/fitting/fitting.hpp"
 #include "experiments/rollouts/training_segments.hpp"
 #include "experiments/rollouts/training_sets.hpp"
 #include "experiments/stages/process_memory.hpp"

@@ -67,9 +67,8 @@ struct HeldOut {
 };
 
 /// The decisions of an estimator on held-out runs, by noise setting and scene.
-SceneCounts counts_on(const HeldOut& held_out, const EstimatorEntry& entry,
-                      const FittedModel& model, const Experiment& experiment,
-                      const std::function<void()>& stop_if_asked) {
+SceneCounts counts_on(const HeldOut& held_out, const EstimatorEntry& entry, const Model& model,
+                      const Experiment& experiment, const std::function<void()>& stop_if_asked) {
   SceneCounts counts;
   for (std::size_t i = 0; i < held_out.runs.size(); ++i) {
     const RunSignals& run = *held_out.runs[i];
@@ -97,7 +96,7 @@ void run_fold(FoldJob& job, const Fold& fold, std::span<const Trial> trials,
   }
   job.counts.resize(trials.size());
   for (const auto& [fit, numbers] : trials_of) {
-    FittedModel model;
+    Model model;
     for (const std::size_t number : numbers) {
       const HyperparameterValues& hyperparameters = trials[number].hyperparameters;
       const EstimatorEntry entry = with_hyperparameters(*job.entry, hyperparameters);

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "experiments/estimators/registry.hpp"
-#include "experiments/fitting/make_estimator.hpp"
+#include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/sensors.hpp"
 #include "render/benchmark/scores.hpp"
 #include "render/film/video.hpp"

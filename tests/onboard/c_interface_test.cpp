@@ -9,7 +9,7 @@
 
 #include "estimator/assembly/signal_assembler.hpp"
 #include "estimator/c_interface/touchdown.h"
-#include "recordings/models/npz.hpp"
+#include "recordings/model_file.hpp"
 #include "tests/estimator/models/models.hpp"
 #include "tests/scratch_folder.hpp"
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "estimator/c_interface/touchdown.h"
-#include "onboard/load_estimator.hpp"
+#include "estimator/npz/load_estimator.hpp"
 
 namespace touchdown {
 namespace {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "estimator/bayes/ablation.hpp"
-#include "experiments/estimators/filters.hpp"
+#include "experiments/estimators/entries.hpp"
 
 namespace touchdown::experiments {
 

@@ -63,16 +63,16 @@ Columns<OverlapRow> overlap_columns() {
 void write_overlap(const FittedModels& models, const Evaluation& evaluation,
                    const RunDirectory& directory) {
   const Experiment& experiment = evaluation.request.experiment;
-  const auto estimator = std::find_if(
-      experiment.estimators.begin(), experiment.estimators.end(), [&](const std::string& name) {
-        return estimator_entry(experiment, name).fits() == ModelKind::measurement;
-      });
+  const auto estimator = std::find_if(experiment.estimators.begin(), experiment.estimators.end(),
+                                      [&](const std::string& name) {
+                                        return estimator_entry(experiment, name).config.has_value();
+                                      });
   if (estimator == experiment.estimators.end()) return;
   const auto setups = benchmark_setups(evaluation.request, evaluation.plan);
   std::vector<OverlapRow> rows;
   for (const std::string& simulator : experiment.simulators) {
     const auto model = [&](const BenchmarkSetup& setup) -> const MeasurementModel& {
-      return *models.at(simulator + setup.robot_and_sensors.fit).at(*estimator).measurement;
+      return *models.at(simulator + setup.robot_and_sensors.fit).at(*estimator).grid;
     };
     for (const BenchmarkSetup& first : setups) {
       for (const BenchmarkSetup& second : setups) {

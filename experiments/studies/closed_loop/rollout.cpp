@@ -3,7 +3,7 @@
 #include <new>
 
 #include "core/error.hpp"
-#include "experiments/fitting/make_estimator.hpp"
+#include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/plan/sensors.hpp"
 #include "experiments/plan/served_robots.hpp"

@@ -116,7 +116,7 @@ TEST(DropDetail, SpectraArePlainTransformsOfTheFiltersInput) {
   EXPECT_EQ(detail.bin_width, 1000.0 / 128.0);
   const noise::NoiseKey key = noise_key(study.experiment, 1, 3);
   const NoisyDrop& drop = detail.noisy[1];
-  BayesFilter filter(*study.models.at("mujoco").at("robust").measurement);
+  BayesFilter filter(*study.models.at("mujoco").at("robust").grid);
   const NoiseRun noise = noise_run(run, key);
   for (std::size_t k = 0; k <= 2608 + 450; ++k) {
     filter.update(noisy(run, noise, drop.noise.levels(), k));

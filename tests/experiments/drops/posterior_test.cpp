@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "experiments/fitting/make_estimator.hpp"
+#include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/condition.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 
@@ -74,8 +74,7 @@ TEST(DropPosterior, FollowsFromThePreviousPosteriorAndTheStepsEvidence) {
   const RunSignals run = synthetic_run(3);
   const DropPosterior posterior = drop_posterior(study.experiment, study.config, run, study.models);
   const PhaseModel& model =
-      setup_of(study.experiment, {"mujoco", "mujoco", "phase"}, study.models, run)
-          .model->phase->model;
+      *setup_of(study.experiment, {"mujoco", "mujoco", "phase"}, study.models, run).model->phase;
   for (std::size_t k = 1; k < posterior.time.size(); ++k) {
     PhaseProbabilities expected{};
     double sum = 0.0;

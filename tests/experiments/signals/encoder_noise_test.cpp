@@ -2,7 +2,6 @@
 
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
-#include "experiments/fitting/make_estimator.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/studies/experiment_file.hpp"
 #include "noise/grid.hpp"

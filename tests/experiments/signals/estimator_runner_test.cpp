@@ -9,7 +9,7 @@
 #include "estimator/free_fall.hpp"
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "experiments/fitting/make_estimator.hpp"
+#include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/request.hpp"
 #include "experiments/studies/experiment_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
