@@ -4,8 +4,6 @@
 /// the estimators, and the fits of those that have a model.
 
 #include "core/error.hpp"
-#include "estimator/assembly/record.hpp"
-#include "estimator/assembly/signal_assembler.hpp"
 #include "estimator/bayes/config.hpp"
 #include "estimator/bayes/filter.hpp"
 #include "estimator/bayes/measurement_fit.hpp"
@@ -24,5 +22,7 @@
 #include "estimator/neural/estimator.hpp"
 #include "estimator/phase/filter.hpp"
 #include "estimator/phase/fit.hpp"
+#include "estimator/record.hpp"
+#include "estimator/signal_assembler.hpp"
 #include "estimator/signals.hpp"
 #include "estimator/upkie_observer.hpp"

@@ -7,10 +7,10 @@ include(CMakePackageConfigHelpers)
 # Programs include <touchdown/estimator.hpp> or <touchdown/estimator/…>. The headers include each other
 # as "estimator/…".
 set(public
-  assembly/record assembly/signal_assembler
-  contact_estimator free_fall labelled_run signal_bounds signal_guard signals torque_channel upkie_observer
+  c_handle contact_estimator free_fall labelled_run record signal_assembler signal_bounds signal_guard signals
+  torque_channel upkie_observer
   bayes/config bayes/filter bayes/measurement_fit bayes/measurement_model bayes/measurement_only
-  bayes/transition_model c_interface/handle
+  bayes/transition_model
   decision/augmentation decision/config decision/descent decision/draws decision/filter decision/fit
   decision/network
   evidence/curves evidence/filter evidence/fit
@@ -33,8 +33,8 @@ set_target_properties(touchdown_estimator PROPERTIES EXPORT_NAME estimator)
 
 install(TARGETS touchdown_estimator EXPORT touchdownTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(FILES estimator.hpp c_interface/touchdown.h DESTINATION ${include_dir})
-install(FILES c_interface/touchdown.h DESTINATION ${include_dir}/estimator/c_interface)
+install(FILES estimator.hpp touchdown.h DESTINATION ${include_dir})
+install(FILES touchdown.h DESTINATION ${include_dir}/estimator)
 foreach(header ${public})
   cmake_path(GET header PARENT_PATH folder)
   install(FILES ${header}.hpp DESTINATION ${include_dir}/estimator/${folder})

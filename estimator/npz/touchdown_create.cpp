@@ -1,8 +1,8 @@
-// The only function of estimator/c_interface/touchdown.h that reads a file.
+// The only function of estimator/touchdown.h that reads a file.
 
 #include <string>
 
-#include "estimator/c_interface/handle.hpp"
+#include "estimator/c_handle.hpp"
 #include "estimator/npz/load_estimator.hpp"
 
 touchdown_estimator* touchdown_create(const char* model_path, const touchdown_use* use, char* error,

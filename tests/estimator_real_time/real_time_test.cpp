@@ -9,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include "estimator/assembly/signal_assembler.hpp"
 #include "estimator/bayes/filter.hpp"
 #include "estimator/bayes/measurement_only.hpp"
 #include "estimator/decision/filter.hpp"
@@ -19,6 +18,7 @@
 #include "estimator/free_fall.hpp"
 #include "estimator/odometry/filter.hpp"
 #include "estimator/phase/filter.hpp"
+#include "estimator/signal_assembler.hpp"
 #include "estimator/upkie_observer.hpp"
 #include "experiments/batch/bayes.hpp"
 #include "tests/estimator/decision/random_model.hpp"

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "estimator/c_interface/touchdown.h"
 #include "estimator/npz/load_estimator.hpp"
+#include "estimator/touchdown.h"
 
 namespace touchdown {
 namespace {

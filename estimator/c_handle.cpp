@@ -1,4 +1,4 @@
-#include "estimator/c_interface/handle.hpp"
+#include "estimator/c_handle.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "estimator/assembly/signal_assembler.hpp"
+#include "estimator/signal_assembler.hpp"
 
 #include <bit>
 #include <cmath>

@@ -5,11 +5,11 @@
 #include <memory>
 #include <string>
 
-#include "estimator/assembly/signal_assembler.hpp"
-#include "estimator/c_interface/touchdown.h"
 #include "estimator/models/make_estimator.hpp"
+#include "estimator/signal_assembler.hpp"
+#include "estimator/touchdown.h"
 
-/// C programs know this type only by its address. The functions of touchdown.h are in handle.cpp.
+/// C programs know this type only by its address. The functions of touchdown.h are in c_handle.cpp.
 struct touchdown_estimator {
   std::string text;  ///< the model in one line
   std::unique_ptr<touchdown::ContactEstimator> estimator;

@@ -1,4 +1,4 @@
-#include "estimator/assembly/record.hpp"
+#include "estimator/record.hpp"
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "estimator/assembly/record.hpp"
+#include "estimator/record.hpp"
 
 namespace touchdown {
 
