@@ -36,15 +36,14 @@ struct Recipe {
 };
 
 /// Errors: `InputError` for a model without a grid.
-const MeasurementModel& grid_of(const Model& model) {
-  if (!model.grid) (void)measurement_model_of(model.arrays);
-  return *model.grid;
+MeasurementModel grid_of(const Model& model) {
+  return model.grid ? *model.grid : measurement_model_of(model.arrays);
 }
 
 /// Errors: `InputError` for a model without phases.
-const std::shared_ptr<const PhaseModel>& phase_of(const Model& model) {
-  if (!model.phase) (void)phase_model_of(model.arrays);
-  return model.phase;
+std::shared_ptr<const PhaseModel> phase_of(const Model& model) {
+  return model.phase ? model.phase
+                     : std::make_shared<const PhaseModel>(phase_model_of(model.arrays));
 }
 
 template <typename Config>

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "estimator/contact_estimator.hpp"
@@ -9,25 +12,6 @@
 #include "estimator/models/model.hpp"
 
 namespace touchdown {
-
-/// One array of a model that is compiled into a program; `touchdown export model.npz -o model.hpp`
-/// writes them. Exactly one of the last three members is set.
-struct CompiledArray {
-  const char* name;
-  std::size_t rows;
-  std::size_t columns;  ///< 0: the array has one axis
-  const double* doubles;
-  const float* floats;  ///< where single precision holds all bits
-  const char* text;     ///< of `rows` bytes
-};
-
-/// The arrays as they were in the file.
-ModelArrays arrays_of(std::span<const CompiledArray> model);
-
-/// Makes the estimator of a compiled model. Its beliefs are to the bit those of the model's file.
-/// Errors: as `make_estimator` of arrays.
-std::unique_ptr<ContactEstimator> make_estimator(std::span<const CompiledArray> model,
-                                                 const ModelUse& use = {});
 
 /// Makes the estimator that a model was fitted for. A model without metadata, older or from another
 /// program, is accepted if `use` names what the arrays do not: the estimator of a grid, and the
@@ -76,5 +60,24 @@ Model model_for(Model model, const ModelUse& use);
 
 /// Whether both estimators use the same fit.
 bool share_fit(std::string_view estimator, std::string_view other);
+
+/// One array of a model that is compiled into a program; `touchdown export model.npz -o model.hpp`
+/// writes them. Exactly one of the last three members is set.
+struct CompiledArray {
+  const char* name;
+  std::size_t rows;
+  std::size_t columns;  ///< 0: the array has one axis
+  const double* doubles;
+  const float* floats;  ///< where single precision holds all bits
+  const char* text;     ///< of `rows` bytes
+};
+
+/// The arrays as they were in the file.
+ModelArrays arrays_of(std::span<const CompiledArray> model);
+
+/// Makes the estimator of a compiled model. Its beliefs are to the bit those of the model's file.
+/// Errors: as `make_estimator` of arrays.
+std::unique_ptr<ContactEstimator> make_estimator(std::span<const CompiledArray> model,
+                                                 const ModelUse& use = {});
 
 }  // namespace touchdown
