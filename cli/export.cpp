@@ -19,10 +19,9 @@
 #include "recordings/mapping/conversion.hpp"
 #include "recordings/mcap/log.hpp"
 #include "experiments/submissions/export.hpp"
-#include "recordings/models/header.hpp"
-#include "recordings/models/model_file.hpp"
 #include "render/mcap/scene.hpp"
 #include "render/pictures/filmed_run.hpp"
+#include "recordings/model_file.hpp"
 
 namespace touchdown::cli {
 
@@ -195,7 +194,8 @@ ModelUse use_of(const ExportFlags& flags) {
 
 void export_header(const std::filesystem::path& model, const ExportFlags& flags) {
   const std::string name = name_of(flags.output);
-  const std::string text = recordings::header_of_model(model, name, use_of(flags));
+  const std::string text = recordings::header_of_model(
+      recordings::load_model_for(model, use_of(flags)), model.filename().string(), name);
   write_atomically(flags.output, text);
   print("header    {}, {:.2f} MB\n", flags.output, 1e-6 * static_cast<double>(text.size()));
   print("next      #include \"{}\"; touchdown::make_estimator(touchdown::compiled::{})\n",
@@ -208,7 +208,9 @@ void export_model(const ExportFlags& flags) {
   if (std::filesystem::path(flags.output).extension() != ".npz") {
     return export_header(model, flags);
   }
-  const ModelMetadata metadata = recordings::copy_model(model, flags.output, use_of(flags));
+  const Model adapted = recordings::load_model_for(model, use_of(flags));
+  recordings::save_model(adapted, flags.output);
+  const ModelMetadata& metadata = *adapted.metadata;
   print("model     {}, for '{}' at {:.6g} Hz on {}, fingerprint {}\n", flags.output,
         metadata.estimator, metadata.sample_rate, experiments::robot_text(metadata.robot),
         metadata.fingerprint);

@@ -13,6 +13,8 @@
 #include "core/program.hpp"
 #include "core/progress.hpp"
 #include "experiments/estimators/registry.hpp"
+#include "experiments/logs/fit.hpp"
+#include "recordings/model_file.hpp"
 
 namespace touchdown::cli {
 
@@ -216,8 +218,7 @@ void fit(const FitFlags& flags, const CliSession& session) {
   require_extension(flags.output, {".npz"}, "a model");
   require_different(logs);
   experiments::LogFitReport report;
-  experiments::write_fitted_model(experiments::fit_to_logs(entry, logs, config, report),
-                                  flags.output);
+  recordings::save_model(experiments::fit_to_logs(entry, logs, config, report), flags.output);
   print_warnings(report.warnings);
   if (report.unusable > 0) {
     print_message(fmt::format(

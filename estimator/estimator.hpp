@@ -4,8 +4,6 @@
 /// the estimators, and the fits of those that have a model.
 
 #include "core/error.hpp"
-#include "estimator/assembly/record.hpp"
-#include "estimator/assembly/signal_assembler.hpp"
 #include "estimator/bayes/config.hpp"
 #include "estimator/bayes/filter.hpp"
 #include "estimator/bayes/measurement_fit.hpp"
@@ -19,11 +17,12 @@
 #include "estimator/force/force_kinematics_fit.hpp"
 #include "estimator/force/support_force.hpp"
 #include "estimator/free_fall.hpp"
-#include "estimator/models/compiled.hpp"
 #include "estimator/models/make_estimator.hpp"
 #include "estimator/models/metadata.hpp"
 #include "estimator/neural/estimator.hpp"
 #include "estimator/phase/filter.hpp"
 #include "estimator/phase/fit.hpp"
+#include "estimator/record.hpp"
+#include "estimator/signal_assembler.hpp"
 #include "estimator/signals.hpp"
 #include "estimator/upkie_observer.hpp"

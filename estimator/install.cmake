@@ -1,5 +1,5 @@
 # `cmake --install` of the estimator, the part of touchdown that goes to a robot. Afterwards
-# find_package(touchdown) gives touchdown::estimator; onboard/install.cmake adds touchdown::models.
+# find_package(touchdown) gives touchdown::estimator; npz/CMakeLists.txt adds touchdown::models.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -7,16 +7,15 @@ include(CMakePackageConfigHelpers)
 # Programs include <touchdown/estimator.hpp> or <touchdown/estimator/…>. The headers include each other
 # as "estimator/…".
 set(public
-  assembly/record assembly/signal_assembler
-  contact_estimator free_fall labelled_run signal_bounds signal_guard signals torque_channel upkie_observer
+  c_handle contact_estimator free_fall labelled_run record signal_assembler signal_bounds signal_guard signals
+  torque_channel upkie_observer
   bayes/config bayes/filter bayes/measurement_fit bayes/measurement_model bayes/measurement_only
-  bayes/transition_model c_interface/handle
+  bayes/transition_model
   decision/augmentation decision/config decision/descent decision/draws decision/filter decision/fit
-  decision/network decision/training
+  decision/network
   evidence/curves evidence/filter evidence/fit
-  evidence/training
   force/force_kinematics force/force_kinematics_fit force/leg_geometry force/support_force
-  models/arrays models/compiled models/make_estimator models/metadata
+  models/arrays models/make_estimator models/metadata models/model
   neural/estimator neural/input neural/network
   phase/config phase/filter phase/fit phase/labels phase/model phase/phase)
 # The headers of types that these hold by value. They are not for programs and may change.
@@ -34,8 +33,8 @@ set_target_properties(touchdown_estimator PROPERTIES EXPORT_NAME estimator)
 
 install(TARGETS touchdown_estimator EXPORT touchdownTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(FILES estimator.hpp c_interface/touchdown.h DESTINATION ${include_dir})
-install(FILES c_interface/touchdown.h DESTINATION ${include_dir}/estimator/c_interface)
+install(FILES estimator.hpp touchdown.h DESTINATION ${include_dir})
+install(FILES touchdown.h DESTINATION ${include_dir}/estimator)
 foreach(header ${public})
   cmake_path(GET header PARENT_PATH folder)
   install(FILES ${header}.hpp DESTINATION ${include_dir}/estimator/${folder})

@@ -160,6 +160,7 @@ void release_phase_models(const ExperimentContext& context, const PendingTasks& 
       if (!model.phase) continue;
       if (!is_shard) write_model_of(key, estimator, model, context.directory);
       model.phase.reset();
+      model.arrays.clear();
     }
   }
   release_free_memory();

@@ -12,6 +12,10 @@
 #include "python/module.hpp"
 #include "python/recording_arrays.hpp"
 #include "python/signal_arrays.hpp"
+#include "recordings/log/byte_source.hpp"
+#include "recordings/log/writer.hpp"
+#include "recordings/mapping/mapped_log.hpp"
+#include "recordings/model_file.hpp"
 #include "recordings/sample_times.hpp"
 #include "recordings/signals_from.hpp"
 
@@ -32,7 +36,7 @@ struct Model {
   }
   void save(const fs::path& path) const {
     const py::gil_scoped_release unlocked;
-    experiments::write_fitted_model(estimator.model, path);
+    recordings::save_model(estimator.model, path);
   }
 };
 
@@ -328,7 +332,7 @@ py::list estimators() {
     about["name"] = entry.name;
     about["title"] = entry.title;
     about["summary"] = entry.summary;
-    about["fitted"] = entry.fits().has_value();
+    about["fitted"] = entry.fits();
     all.append(about);
   }
   return all;

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "estimator/assembly/record.hpp"
+#include "estimator/record.hpp"
 #include "recordings/sample_times.hpp"
 
 namespace touchdown::python {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "estimator/assembly/record.hpp"
+#include "estimator/record.hpp"
 #include "models/robot.hpp"
 
 namespace touchdown::recordings {

@@ -20,7 +20,7 @@
 #include "core/random.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "recordings/models/neural_network.hpp"
+#include "recordings/model_file.hpp"
 #include "training/rollout.hpp"
 
 namespace touchdown::training {
@@ -174,7 +174,8 @@ class TrainingSession {
       return;
     }
     trainer_ = std::make_unique<Trainer>(
-        recordings::read_neural_network(directory_.file("models", "nmn.npz")), config_.optimiser);
+        neural_network_of(load_model(directory_.file("models", "nmn.npz")).arrays),
+        config_.optimiser);
     trainer_->load(checkpoint(history_.size()));
     print_message(fmt::format("resuming after iteration {}\n", history_.size()));
   }
@@ -212,7 +213,8 @@ class TrainingSession {
     directory_.require_in_place();
     const bool best = best_iteration(history_) + 1 == history_.size();
     if (best) {
-      recordings::write_neural_network(trainer_->network(), directory_.file("models", "nmn.npz"));
+      recordings::save_model({.arrays = arrays_of(trainer_->network())},
+                             directory_.file("models", "nmn.npz"));
     }
     trainer_->save(checkpoint(history_.size()));
     write_history(history_, history_file_);

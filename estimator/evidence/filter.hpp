@@ -10,6 +10,12 @@
 
 namespace touchdown {
 
+/// What the inputs of one wheel add to its log-odds, by groups of channels (nats). The groups add
+/// up to `evidence_logit`, but for rounding.
+[[nodiscard]] Evidence::Contributions evidence_contributions(
+    const EvidenceModel& model, const DecisionInputs& inputs,
+    const ServoLoadInputs& servo = {}) noexcept;
+
 /// The interpretable counterpart of the decision network: an additive model (GAM) with the same
 /// inputs and the same decision rule. Each input contributes to the log-odds of contact by a curve
 /// of its own, and the contributions add up (docs/explanation/estimator.md).

@@ -1,10 +1,177 @@
 #include "estimator/evidence/fit.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "core/error.hpp"
 #include "estimator/decision/fit.hpp"
+#include "estimator/evidence/channels.hpp"
 
 namespace touchdown {
+
+namespace {
+
+/// Adds to each knot around the position its share of the amount.
+void add(auto& values, const EvidencePosition& at, float amount) {
+  const auto knot = static_cast<std::size_t>(at.knot);
+  values[knot] += (1.0F - at.share) * amount;
+  values[knot + 1] += at.share * amount;
+}
+
+/// Calls `part` with the same fitted numbers of all models, part by part.
+template <typename Part, typename... Models>
+void for_each_number(const Part& part, Models&... models) {
+  for (std::size_t i = 0; i < decision_inputs; ++i) part(std::span(models.curve[i])...);
+  const std::size_t servo = std::min({models.servo_curve.size()...});
+  for (std::size_t i = 0; i < servo; ++i) part(std::span(models.servo_curve[i])...);
+  part(std::span(&models.bias, 1)...);
+}
+
+/// Adds the gradient of `cost`/2 times the squared differences of neighbouring knots.
+void add_smoothness(const EvidenceModel& model, float cost, EvidenceModel& gradient) {
+  const auto between = [cost](const auto& values, auto& slopes, std::size_t a, std::size_t b) {
+    const float slope = cost * (values[b] - values[a]);
+    slopes[a] -= slope;
+    slopes[b] += slope;
+  };
+  const auto along = [&](const EvidenceCurve& curve, EvidenceCurve& slopes) {
+    for (std::size_t k = 0; k + 1 < evidence_knots; ++k) between(curve, slopes, k, k + 1);
+  };
+  for (std::size_t i = 0; i < decision_inputs; ++i) along(model.curve[i], gradient.curve[i]);
+  for (std::size_t i = 0; i < model.servo_curve.size(); ++i) {
+    along(model.servo_curve[i], gradient.servo_curve[i]);
+  }
+}
+
+/// The curves of the own load and of the own load by the servo law.
+void make_loads_monotone(EvidenceModel& model) {
+  static_assert(std::string_view(evidence_channels[0].name) == "load" &&
+                std::string_view(servo_load_channels[0].name) == "servo_load");
+  for (std::size_t i = 0; i < decision_scales; ++i) make_monotone(model.curve[i]);
+  if (model.servo_curve.empty()) return;
+  for (std::size_t i = 0; i < decision_scales; ++i) make_monotone(model.servo_curve[i]);
+}
+
+/// Subtracts from a curve its mean, given the weight of each knot. Returns the mean.
+template <typename Values>
+float centred(Values& values, const std::vector<double>& weight) {
+  double sum = 0.0;
+  double all = 0.0;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    sum += weight[k] * static_cast<double>(values[k]);
+    all += weight[k];
+  }
+  const auto mean = static_cast<float>(sum / all);
+  for (float& value : values) value -= mean;
+  return mean;
+}
+
+/// Centres every curve over the rows and adds the means to the bias.
+void centre(EvidenceModel& model, const DecisionRows& rows) {
+  std::vector<double> weight(evidence_knots);
+  const auto centre_curve = [&](EvidenceCurve& curve, const std::vector<float>& inputs) {
+    std::fill(weight.begin(), weight.end(), 0.0);
+    for (std::size_t row = 0; row < inputs.size(); ++row) {
+      add(weight, evidence_position(inputs[row]), rows.weight[static_cast<Eigen::Index>(row)]);
+    }
+    model.bias += centred(curve, weight);
+  };
+  for (std::size_t i = 0; i < decision_inputs; ++i) {
+    centre_curve(model.curve[i], rows.values_of_input(i));
+  }
+  for (std::size_t i = 0; i < model.servo_curve.size(); ++i) {
+    centre_curve(model.servo_curve[i], rows.values_of_servo_load(i));
+  }
+}
+
+/// Sets for each input the range that holds all but two in a thousand rows.
+void set_seen_ranges(EvidenceModel& model, const DecisionRows& rows) {
+  const auto count = static_cast<std::size_t>(rows.count());
+  const auto range_of = [&](std::vector<float> values) {
+    std::array<float, 2> range{};
+    const std::size_t beyond = count / 1000;
+    for (const bool upper : {false, true}) {
+      const auto nth =
+          values.begin() + static_cast<std::ptrdiff_t>(upper ? count - 1 - beyond : beyond);
+      std::nth_element(values.begin(), nth, values.end());
+      range[upper ? 1 : 0] = *nth;
+    }
+    return range;
+  };
+  for (std::size_t i = 0; i < decision_inputs; ++i) {
+    model.seen[i] = range_of(rows.values_of_input(i));
+  }
+  model.servo_seen.clear();
+  for (std::size_t i = 0; i < model.servo_curve.size(); ++i) {
+    model.servo_seen.push_back(range_of(rows.values_of_servo_load(i)));
+  }
+}
+
+}  // namespace
+
+void check_evidence_fit_config(const EvidenceFitConfig& config) {
+  check_decision_fit_config(config.descent);
+  if (!(std::isfinite(config.smoothness) && config.smoothness >= 0.0)) {
+    throw InputError("evidence curves: smoothness must not be negative");
+  }
+}
+
+double evidence_loss(const EvidenceModel& model, const DecisionRows& rows,
+                     EvidenceModel* gradient) {
+  if (gradient != nullptr) {
+    *gradient = {};
+    gradient->servo_curve.assign(model.servo_curve.size(), EvidenceCurve{});
+  }
+  const float all = rows.weight.sum();
+  double loss = 0.0;
+  for (Eigen::Index row = 0; row < rows.count(); ++row) {
+    const DecisionInputs inputs = rows.inputs_of(row);
+    const ServoLoadInputs servo = rows.servo_load_of(row);
+    const float logit = evidence_logit(model, inputs, servo);
+    // log(1 + e^z) − y z, for any z.
+    const float tail = std::exp(-std::abs(logit));
+    loss += static_cast<double>(rows.weight[row] * (std::max(logit, 0.0F) + std::log1p(tail) -
+                                                    rows.is_contact[row] * logit));
+    if (gradient == nullptr) continue;
+    const float p = (logit >= 0.0F ? 1.0F : tail) / (tail + 1.0F);
+    const float to_logit = (p - rows.is_contact[row]) * rows.weight[row] / all;
+    gradient->bias += to_logit;
+    for (std::size_t i = 0; i < decision_inputs; ++i) {
+      add(gradient->curve[i], evidence_position(inputs[i]), to_logit);
+    }
+    for (std::size_t i = 0; i < model.servo_curve.size(); ++i) {
+      add(gradient->servo_curve[i], evidence_position(servo[i]), to_logit);
+    }
+  }
+  return loss / static_cast<double>(all);
+}
+
+EvidenceModel train_evidence_model(const DecisionRows& rows, const EvidenceFitConfig& config,
+                                   const std::function<void()>& before_step) {
+  EvidenceModel model;
+  if (rows.has_servo_load()) {
+    model.servo_curve.assign(std::tuple_size_v<ServoLoadInputs>, EvidenceCurve{});
+  }
+  EvidenceModel gradient = model;
+  EvidenceModel mean = model;
+  EvidenceModel square = model;
+  Draws draws(config.descent.seed);
+  descend(rows, config.descent, draws, before_step,
+          [&](const DecisionRows& batch, const AdamStep& adam_step) {
+            static_cast<void>(evidence_loss(model, batch, &gradient));
+            add_smoothness(model, static_cast<float>(config.smoothness), gradient);
+            for_each_number(adam_step, model, gradient, mean, square);
+            if (config.monotone_loads) make_loads_monotone(model);
+          });
+  centre(model, rows);
+  set_seen_ranges(model, rows);
+  return model;
+}
 
 EvidenceModel fit_evidence_model(std::span<const LabelledRun> runs, const DecisionConfig& config,
                                  const EvidenceFitConfig& fit,

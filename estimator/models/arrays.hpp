@@ -15,6 +15,8 @@ struct ModelArray {
 
   [[nodiscard]] std::size_t rows() const { return shape.empty() ? 1 : shape[0]; }
   [[nodiscard]] std::size_t columns() const { return shape.size() < 2 ? 1 : shape[1]; }
+
+  bool operator==(const ModelArray&) const = default;
 };
 
 /// A fitted model as named arrays, as its file holds them.

@@ -12,10 +12,8 @@
 #include "estimator/decision/filter.hpp"
 #include "estimator/evidence/filter.hpp"
 #include "estimator/models/configuration.hpp"
-#include "estimator/models/measurement.hpp"
-#include "estimator/models/neural.hpp"
+#include "estimator/models/model.hpp"
 #include "estimator/models/parameters.hpp"
-#include "estimator/models/phase.hpp"
 #include "estimator/phase/filter.hpp"
 
 namespace touchdown {
@@ -27,40 +25,43 @@ using Made = std::unique_ptr<ContactEstimator>;
 /// The fit that all operating points of evidence curves share.
 constexpr std::string_view curves_fit = "evidence_curves";
 
-/// The settings that an estimator is made with.
-struct Request {
-  ConfigurationText configuration;  ///< of the model's own estimator, at the model's rate
-  double fitted_rate = 0.0;         ///< Hz
-  double sample_rate = 0.0;         ///< Hz
-  std::optional<LegGeometry> geometry;
-};
-
 /// How the estimator of this name is made from a model.
 struct Recipe {
   std::string_view name;
   std::string_view fit;  ///< name of the estimator with the same fit
   std::function<ConfigurationText(double sample_rate, const LegGeometry& legs, bool servo_load)>
       configuration;
-  std::function<Made(const ModelArrays& arrays, const Request& request)> make;
+  std::function<Made(const Model& model, const EstimatorSettings& settings)> make;
 };
 
+/// Errors: `InputError` for a model without a grid.
+MeasurementModel grid_of(const Model& model) {
+  return model.grid ? *model.grid : measurement_model_of(model.arrays);
+}
+
+/// Errors: `InputError` for a model without phases.
+std::shared_ptr<const PhaseModel> phase_of(const Model& model) {
+  return model.phase ? model.phase
+                     : std::make_shared<const PhaseModel>(phase_model_of(model.arrays));
+}
+
 template <typename Config>
-Config configured(Config config, const Request& request) {
-  config.sample_rate = request.sample_rate;
-  configure(config, request.configuration);
+Config configured(Config config, const EstimatorSettings& settings) {
+  config.sample_rate = settings.sample_rate;
+  configure(config, settings.configuration);
   if constexpr (requires { config.geometry; }) {
-    if (request.geometry) config.geometry = *request.geometry;
+    if (settings.geometry) config.geometry = *settings.geometry;
   }
   return config;
 }
 
 /// The window in the text is one at the model's rate.
-BayesFilterConfig configured(BayesFilterConfig config, const Request& request) {
-  if (!request.configuration.empty()) {
-    config.sample_rate = request.fitted_rate;
-    configure(config, request.configuration);
+BayesFilterConfig configured(BayesFilterConfig config, const EstimatorSettings& settings) {
+  if (!settings.configuration.empty()) {
+    config.sample_rate = settings.configured_rate;
+    configure(config, settings.configuration);
   }
-  return at_rate(config, request.sample_rate);
+  return at_rate(config, settings.sample_rate);
 }
 
 template <typename Estimator>
@@ -69,9 +70,8 @@ Recipe of_torques(std::string_view name, std::string_view fit, const BayesFilter
           [config](double rate, const LegGeometry& /*legs*/, bool /*servo_load*/) {
             return text_of(at_rate(config, rate));
           },
-          [config](const ModelArrays& arrays, const Request& request) -> Made {
-            return std::make_unique<Estimator>(measurement_model_of(arrays),
-                                               configured(config, request));
+          [config](const Model& model, const EstimatorSettings& settings) -> Made {
+            return std::make_unique<Estimator>(grid_of(model), configured(config, settings));
           }};
 }
 
@@ -80,9 +80,9 @@ Recipe of_phases(std::string_view name) {
           [](double /*rate*/, const LegGeometry& /*legs*/, bool /*servo_load*/) {
             return text_of(PhaseFilterConfig{});
           },
-          [](const ModelArrays& arrays, const Request& request) -> Made {
-            return std::make_unique<PhaseFilter>(phase_model_of(arrays),
-                                                 configured(PhaseFilterConfig{}, request));
+          [](const Model& model, const EstimatorSettings& settings) -> Made {
+            return std::make_unique<PhaseFilter>(phase_of(model),
+                                                 configured(PhaseFilterConfig{}, settings));
           }};
 }
 
@@ -92,9 +92,9 @@ Recipe of_parameters(std::string_view name) {
           [](double /*rate*/, const LegGeometry& legs, bool /*servo_load*/) {
             return text_of(Config{.geometry = legs});
           },
-          [](const ModelArrays& arrays, const Request& request) -> Made {
-            return std::make_unique<Estimator>(model_of(parameters_of(arrays)),
-                                               configured(Config{}, request));
+          [](const Model& model, const EstimatorSettings& settings) -> Made {
+            return std::make_unique<Estimator>(model_of(parameters_of(model.arrays)),
+                                               configured(Config{}, settings));
           }};
 }
 
@@ -110,9 +110,9 @@ Recipe of_decisions(std::string_view name, std::string_view fit, const Operating
             config.servo_load = servo_load;
             return text_of(config);
           },
-          [usual](const ModelArrays& arrays, const Request& request) -> Made {
-            return std::make_unique<Estimator>(model_of(parameters_of(arrays)),
-                                               configured(usual, request));
+          [usual](const Model& model, const EstimatorSettings& settings) -> Made {
+            return std::make_unique<Estimator>(model_of(parameters_of(model.arrays)),
+                                               configured(usual, settings));
           }};
 }
 
@@ -121,10 +121,10 @@ Recipe of_neural_network() {
           [](double /*rate*/, const LegGeometry& /*legs*/, bool /*servo_load*/) {
             return text_of(NeuralEstimatorConfig{});
           },
-          [](const ModelArrays& arrays, const Request& request) -> Made {
+          [](const Model& model, const EstimatorSettings& settings) -> Made {
             return std::make_unique<NeuralEstimator>(
-                std::make_shared<const NeuralNetwork>(neural_network_of(arrays)),
-                configured(NeuralEstimatorConfig{}, request));
+                std::make_shared<const NeuralNetwork>(neural_network_of(model.arrays)),
+                configured(NeuralEstimatorConfig{}, settings));
           }};
 }
 
@@ -178,22 +178,6 @@ const Recipe& recipe(std::string_view name) {
                    listed(recipes(), [](const Recipe& each) { return each.name; }));
 }
 
-/// The metadata that follow from the arrays of a model without any.
-ModelMetadata metadata_from_arrays(const ModelArrays& arrays) {
-  ModelMetadata metadata;
-  const auto has = [&](std::string_view name) { return arrays.contains(std::string(name)); };
-  if (has(estimator_array)) {
-    const std::string name(estimator_array);
-    metadata.estimator = text_of_array(arrays.at(name), name);
-  } else if (has("transition")) {
-    metadata.estimator = "phase";
-    metadata.sample_rate = phase_model_of(arrays).sample_rate;
-  } else if (has("gru_input_weight")) {
-    metadata.estimator = "nmn";
-  }
-  return metadata;
-}
-
 std::string no_such_member(const std::string& estimator, const std::string& key,
                            const ConfigurationText& known) {
   return "the configuration of '" + estimator + "' has no '" + key + "': expected one of " +
@@ -223,7 +207,43 @@ ConfigurationText configuration_for(const ModelMetadata& metadata, const std::st
   return configuration;
 }
 
+/// `usual` is the estimator's default configuration. Errors: `InputError` if it has no legs.
+void put_legs(const LegGeometry& legs, const ConfigurationText& usual, ModelMetadata& metadata) {
+  bool uses_legs = false;
+  for (const auto& [key, value] : text_of(legs)) {
+    if (!usual.contains(key) && !metadata.configuration.contains(key)) continue;
+    metadata.configuration[key] = value;
+    uses_legs = true;
+  }
+  if (uses_legs) return;
+  throw InputError("'" + metadata.estimator +
+                   "' uses no kinematics, so legs do not adapt it: fit it to the robot");
+}
+
 }  // namespace
+
+ModelArrays arrays_of(std::span<const CompiledArray> model) {
+  ModelArrays arrays;
+  for (const CompiledArray& from : model) {
+    ModelArray& array = arrays[from.name];
+    array.shape = {from.rows};
+    if (from.columns > 0) array.shape.push_back(from.columns);
+    const std::size_t count = array.rows() * array.columns();
+    if (from.text != nullptr) {
+      array = array_of_text({from.text, count});
+    } else if (from.floats != nullptr) {
+      array.data.assign(from.floats, from.floats + count);
+    } else {
+      array.data.assign(from.doubles, from.doubles + count);
+    }
+  }
+  return arrays;
+}
+
+std::unique_ptr<ContactEstimator> make_estimator(std::span<const CompiledArray> model,
+                                                 const ModelUse& use) {
+  return make_estimator(arrays_of(model), use);
+}
 
 ConfigurationText default_configuration(std::string_view estimator, double sample_rate,
                                         const LegGeometry& legs, bool servo_load) {
@@ -236,10 +256,14 @@ bool share_fit(std::string_view estimator, std::string_view other) {
   return estimator == other || recipe(estimator).fit == recipe(other).fit;
 }
 
-ModelMetadata metadata_for(const ModelArrays& arrays, const ModelUse& use) {
+ModelMetadata metadata_for(const Model& model, const ModelUse& use) {
   check_sample_rate(use);
-  const std::optional<ModelMetadata> written = metadata_of(arrays);
-  ModelMetadata metadata = written ? *written : metadata_from_arrays(arrays);
+  ModelMetadata metadata = model.metadata.value_or(
+      ModelMetadata{.estimator = estimator_of(model),
+                    .sample_rate = model.phase ? model.phase->sample_rate : 0.0,
+                    .robot = {},
+                    .configuration = {},
+                    .fingerprint = {}});
   if (metadata.estimator.empty()) metadata.estimator = use.estimator;
   if (metadata.sample_rate == 0.0) metadata.sample_rate = use.sample_rate;
   if (metadata.estimator.empty() || !(metadata.sample_rate > 0.0)) {
@@ -258,18 +282,45 @@ ModelMetadata metadata_for(const ModelArrays& arrays, const ModelUse& use) {
   return metadata;
 }
 
-std::unique_ptr<ContactEstimator> make_estimator(const ModelArrays& arrays, const ModelUse& use) {
-  const ModelMetadata metadata = metadata_for(arrays, use);
+std::unique_ptr<ContactEstimator> make_with(const Model& model, const EstimatorSettings& settings) {
+  return recipe(settings.estimator).make(model, settings);
+}
+
+std::unique_ptr<ContactEstimator> make_estimator(const Model& model, const ModelUse& use) {
+  const ModelMetadata metadata = metadata_for(model, use);
   const std::string& name = use.estimator.empty() ? metadata.estimator : use.estimator;
   const bool is_fitted_rate =
       use.sample_rate == 0.0 || is_same_rate(use.sample_rate, metadata.sample_rate);
-  Made made = recipe(name).make(
-      arrays, {configuration_for(metadata, name, use.configuration), metadata.sample_rate,
-               is_fitted_rate ? metadata.sample_rate : use.sample_rate, use.geometry});
+  Made made =
+      make_with(model, {.estimator = name,
+                        .sample_rate = is_fitted_rate ? metadata.sample_rate : use.sample_rate,
+                        .configuration = configuration_for(metadata, name, use.configuration),
+                        .configured_rate = metadata.sample_rate,
+                        .geometry = use.geometry});
   ConfigurationText bounds = use.configuration;  // of the robot, whichever estimator it runs
   bounds.insert(metadata.configuration.begin(), metadata.configuration.end());
   made->limit_signals(signal_bounds_of(bounds));
   return made;
+}
+
+std::unique_ptr<ContactEstimator> make_estimator(const ModelArrays& arrays, const ModelUse& use) {
+  return make_estimator(model_of(arrays), use);
+}
+
+Model model_for(Model model, const ModelUse& use) {
+  ModelUse any_robot = use;
+  if (use.geometry) any_robot.robot.clear();
+  ModelMetadata metadata = metadata_for(model, any_robot);
+  any_robot.estimator = metadata.estimator;
+  make_estimator(model, any_robot);  // fails here rather than on the robot
+  const ConfigurationText usual = default_configuration(metadata.estimator, metadata.sample_rate);
+  if (metadata.configuration.empty()) metadata.configuration = usual;
+  if (use.geometry) put_legs(*use.geometry, usual, metadata);
+  for (const auto& [key, value] : use.configuration) metadata.configuration[key] = value;
+  if (use.geometry || metadata.robot.empty()) metadata.robot = use.robot;
+  model.metadata = std::move(metadata);
+  model.metadata = metadata_of(arrays_of(model));  // with the fingerprint
+  return model;
 }
 
 }  // namespace touchdown

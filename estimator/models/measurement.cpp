@@ -1,7 +1,6 @@
-#include "estimator/models/measurement.hpp"
-
 #include "core/error.hpp"
 #include "estimator/models/metadata.hpp"
+#include "estimator/models/model.hpp"
 
 namespace touchdown {
 

@@ -1,6 +1,5 @@
-#include "estimator/models/neural.hpp"
-
 #include "core/error.hpp"
+#include "estimator/models/model.hpp"
 
 namespace touchdown {
 

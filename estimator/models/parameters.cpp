@@ -160,6 +160,13 @@ Parameters parameters_of(const ModelArrays& arrays) {
   return parameters;
 }
 
+ModelArrays arrays_of(const Parameters& parameters, const std::string& estimator) {
+  ModelArrays arrays;
+  for (const auto& [name, values] : parameters) arrays[name] = {{values.size()}, values};
+  arrays[std::string(estimator_array)] = array_of_text(estimator);
+  return arrays;
+}
+
 const std::vector<double>& parameter(const Parameters& parameters, std::string_view name,
                                      std::size_t size) {
   const auto found = parameters.find(name);

@@ -25,6 +25,9 @@ inline constexpr std::string_view provenance_array = "provenance";
 /// All arrays except texts. Errors: `InputError` for numbers that are not finite.
 Parameters parameters_of(const ModelArrays& arrays);
 
+/// The inverse, for the model of this estimator.
+ModelArrays arrays_of(const Parameters& parameters, const std::string& estimator);
+
 /// Whether an array of this name is a text about the model.
 bool is_text_array(std::string_view name);
 

@@ -1,8 +1,7 @@
-#include "estimator/models/phase.hpp"
-
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "estimator/models/model.hpp"
 
 namespace touchdown {
 

@@ -5,7 +5,7 @@
 #include "compiled_model.h"
 
 #include <touchdown/estimator.hpp>
-#include <touchdown/estimator/c_interface/handle.hpp>
+#include <touchdown/estimator/c_handle.hpp>
 
 #include "model.hpp"
 

@@ -1,19 +1,20 @@
-#include "experiments/estimators/boosting.hpp"
+#include <cstdint>
+#include <memory>
+#include <vector>
 
 #include "estimator/decision/config.hpp"
-#include "experiments/boosting/channels.hpp"
+#include "estimator/models/parameters.hpp"
 #include "experiments/boosting/estimator.hpp"
 #include "experiments/boosting/fit.hpp"
-#include "experiments/boosting/window.hpp"
-#include "experiments/estimators/parameter_fitting.hpp"
+#include "experiments/boosting/inputs.hpp"
+#include "experiments/estimators/entries.hpp"
+#include "experiments/estimators/fits.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
 using EstimatorPointer = std::unique_ptr<ContactEstimator>;
-using recordings::parameter;
-using recordings::Parameters;
 
 Parameters parameters_of(const BoostedTrees& trees) {
   const auto numbers = [](const auto& values) {
@@ -53,7 +54,7 @@ BoostedTrees trees_of(const Parameters& parameters, std::size_t features) {
 }
 
 template <typename Inputs>
-FittedModel fit_boosted_trees(const EstimatorEntry& entry, const FitRuns& runs) {
+Model fit_boosted_trees(const EstimatorEntry& entry, const FitRuns& runs) {
   return fit_parameters(entry, runs.together(), [&](std::span<const LabelledRun> labelled) {
     BoostingConfig config;
     config.trees = static_cast<std::size_t>(entry.chosen("trees"));
@@ -69,7 +70,7 @@ FittedModel fit_boosted_trees(const EstimatorEntry& entry, const FitRuns& runs) 
 
 template <typename Inputs>
 EstimatorPointer make_boosted_trees(const EstimatorEntry& entry, const EstimatorSetup& setup) {
-  const Parameters& parameters = setup.model->parameters->parameters;
+  const Parameters parameters = touchdown::parameters_of(setup.model->arrays);
   return std::make_unique<BoostedTreesEstimator<Inputs>>(
       trees_of(parameters, Inputs::count),
       typename BoostedTreesEstimator<Inputs>::Config{

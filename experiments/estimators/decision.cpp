@@ -1,5 +1,3 @@
-#include "experiments/estimators/decision.hpp"
-
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -10,61 +8,35 @@
 
 #include "core/error.hpp"
 #include "core/resources.hpp"
-#include "estimator/decision/filter.hpp"
 #include "estimator/decision/fit.hpp"
-#include "estimator/evidence/filter.hpp"
 #include "estimator/evidence/fit.hpp"
-#include "estimator/models/configuration.hpp"
-#include "experiments/estimators/parameter_fitting.hpp"
-#include "recordings/models/parameter_model.hpp"
+#include "estimator/models/make_estimator.hpp"
+#include "estimator/models/parameters.hpp"
+#include "estimator/npz/load_estimator.hpp"
+#include "experiments/estimators/entries.hpp"
+#include "experiments/estimators/fits.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-using EstimatorPointer = std::unique_ptr<ContactEstimator>;
-
 DecisionConfig config_of(const FitRuns& runs) {
   return {.geometry = legs_of(runs), .servo_load = runs.servo_load};
 }
 
-FittedModel fit_network(const EstimatorEntry& entry, const FitRuns& runs) {
+Model fit_network(const EstimatorEntry& entry, const FitRuns& runs) {
   return fit_parameters(entry, runs.together(), [&](std::span<const LabelledRun> labelled) {
     return parameters_of(fit_decision_model(labelled, config_of(runs),
                                             {.decay = entry.chosen("decay")}, runs.before_density));
   });
 }
 
-FittedModel fit_evidence(const EstimatorEntry& entry, const FitRuns& runs) {
+Model fit_evidence(const EstimatorEntry& entry, const FitRuns& runs) {
   return fit_parameters(entry, runs.together(), [&](std::span<const LabelledRun> labelled) {
     return parameters_of(fit_evidence_curve_sets(labelled, config_of(runs),
                                                  {.smoothness = entry.chosen("smoothness")},
                                                  runs.before_density));
   });
-}
-
-EstimatorPointer make_network(const EstimatorEntry& entry, const EstimatorSetup& setup) {
-  return std::make_unique<DecisionNetwork>(
-      decision_model_of(setup.model->parameters->parameters),
-      configured(DecisionConfig{.sample_rate = setup.sample_rate,
-                                .leave_below = entry.chosen("leave_below"),
-                                .return_above = entry.chosen("return_above")},
-                 entry, setup));
-}
-
-/// All operating points share the fit: a model of another one gives all settings but thresholds.
-EstimatorPointer make_curves(const EstimatorEntry& entry, const EstimatorSetup& setup) {
-  DecisionConfig config{.sample_rate = setup.sample_rate};
-  const std::optional<ModelMetadata>& metadata = setup.model->metadata;
-  if (metadata) configure(config, metadata->configuration);
-  config.sample_rate = setup.sample_rate;
-  if (!metadata || metadata->estimator != entry.name) {
-    config.leave_below = entry.chosen("leave_below");
-    config.return_above = entry.chosen("return_above");
-  }
-  if (setup.legs) config.geometry = *setup.legs;
-  return std::make_unique<EvidenceCurves>(
-      evidence_curve_sets_of(setup.model->parameters->parameters), config);
 }
 
 /// Whether both legs, and the robots that they carry, are the same to a percent. Rotors may differ.
@@ -77,15 +49,13 @@ bool are_alike(const LegGeometry& one, const LegGeometry& other) {
 }
 
 /// A shipped model. Errors: `InputError` for a rate or a robot that it does not serve.
-recordings::ParameterModelFile shipped_model_for(const EstimatorEntry& entry,
-                                                 const EstimatorSetup& setup,
-                                                 std::optional<ModelMetadata>& metadata) {
+Model shipped_model_for(const EstimatorEntry& entry, const EstimatorSetup& setup) {
   const std::filesystem::path path = find_resource(shipped_file(entry.name));
-  recordings::ParameterModelFile file = recordings::read_parameter_model(path, &metadata);
-  if (!metadata || setup.transfer) return file;
+  Model model = load_model(path);
+  if (!model.metadata || setup.transfer) return model;
   const bool is_own_robot = !setup.legs || are_alike(*setup.legs, LegGeometry{});
   try {
-    check_use(*metadata,
+    check_use(*model.metadata,
               {.sample_rate = setup.sample_rate, .robot = is_own_robot ? "" : setup.robot});
   } catch (const InputError& error) {
     throw InputError(
@@ -93,7 +63,7 @@ recordings::ParameterModelFile shipped_model_for(const EstimatorEntry& entry,
                     "`transfer: true` to use it all the same)",
                     entry.name, path.string(), error.what()));
   }
-  return file;
+  return model;
 }
 
 Hyperparameter decay() { return fitted_with(around("decay", DecisionFitConfig{}.decay, 10.0)); }
@@ -132,17 +102,15 @@ EstimatorEntry shipped_entry(const char* name, const EstimatorEntry& fitted) {
   entry.trained_by = "scripts/fit_shipped_model.sh";
   entry.hyperparameters = {};
   entry.require_served = [](const EstimatorEntry& own, const EstimatorSetup& setup) {
-    std::optional<ModelMetadata> metadata;
-    (void)shipped_model_for(own, setup, metadata);
+    (void)shipped_model_for(own, setup);
   };
-  entry.make = [](const EstimatorEntry& own, const EstimatorSetup& setup) -> EstimatorPointer {
-    std::optional<ModelMetadata> metadata;
-    const recordings::ParameterModelFile file = shipped_model_for(own, setup, metadata);
-    DecisionConfig config;
-    if (metadata) configure(config, metadata->configuration);
-    config.sample_rate = setup.sample_rate;
-    config.geometry = setup.legs.value_or(LegGeometry{});
-    return std::make_unique<EvidenceCurves>(evidence_curve_sets_of(file.parameters), config);
+  entry.make = [](const EstimatorEntry& own, const EstimatorSetup& setup) {
+    const Model model = shipped_model_for(own, setup);
+    return make_with(model,
+                     {.estimator = "evidence_curves",
+                      .sample_rate = setup.sample_rate,
+                      .configuration = model.metadata.value_or(ModelMetadata{}).configuration,
+                      .geometry = setup.legs.value_or(LegGeometry{})});
   };
   return entry;
 }
@@ -170,7 +138,7 @@ EstimatorEntry decision_network_entry() {
       .fit = fit_network,
       .learns_from_segments = true,
       .hyperparameters = and_thresholds({decay()}, network_point),
-      .make = make_network};
+      .make = make_of_model};
 }
 
 EstimatorEntry evidence_curves_entry() {
@@ -181,7 +149,6 @@ EstimatorEntry evidence_curves_entry() {
   entry.reason = "accuracy and transparency";
   entry.fit = fit_evidence;
   entry.hyperparameters = and_thresholds({smoothness()});
-  entry.make = make_curves;
   return entry;
 }
 
@@ -193,11 +160,11 @@ EstimatorEntry quiet_shipped_curves_entry() {
   return shipped_entry("shipped_quiet", quiet_evidence_curves_entry());
 }
 
-std::optional<EvidenceCurveSets> evidence_in(const FittedModel& model) {
-  if (!model.parameters) return {};
-  const std::string& estimator = model.parameters->estimator;
-  if (!estimator.starts_with("evidence_curves")) return {};
-  return evidence_curve_sets_of(model.parameters->parameters);
+std::optional<EvidenceCurveSets> evidence_in(const Model& model) {
+  const auto name = model.arrays.find(std::string(estimator_array));
+  if (name == model.arrays.end()) return {};
+  if (!text_of_array(name->second, name->first).starts_with("evidence_curves")) return {};
+  return evidence_curve_sets_of(parameters_of(model.arrays));
 }
 
 }  // namespace touchdown::experiments

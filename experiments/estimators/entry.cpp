@@ -8,6 +8,9 @@
 
 #include "core/error.hpp"
 #include "core/yaml.hpp"
+#include "estimator/models/configuration.hpp"
+#include "estimator/models/make_estimator.hpp"
+#include "estimator/numerics/number_text.hpp"
 
 namespace touchdown::experiments {
 
@@ -70,6 +73,39 @@ noise::SensorNoise noise_of(const Sensors& sensors, const noise::SensorNoise& le
           .hip_torque = sensors.hip_torque ? levels.hip_torque : 0.0};
 }
 
+namespace {
+
+/// The members of its configuration that an estimator is made with.
+ConfigurationText configuration_of(const EstimatorEntry& entry, const Model& model) {
+  if (entry.phase) return text_of(*entry.phase);
+  if (entry.config) {
+    ConfigurationText text = text_of(*entry.config);
+    text["noise.is_followed"] = entry.config->measurement.noise.is_followed ? "true" : "false";
+    return text;
+  }
+  ConfigurationText text;
+  const std::optional<ModelMetadata>& metadata = model.metadata;
+  // All operating points of evidence curves share a fit: a model of another one gives all settings
+  // but the thresholds.
+  if (metadata && share_fit(metadata->estimator, entry.name)) text = metadata->configuration;
+  if (metadata && metadata->estimator == entry.name) return text;
+  for (const Hyperparameter& one : entry.hyperparameters) {
+    if (!one.is_fitted_with) text[one.name] = touchdown::text_of(one.value);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::unique_ptr<ContactEstimator> make_of_model(const EstimatorEntry& entry,
+                                                const EstimatorSetup& setup) {
+  return make_with(*setup.model, {.estimator = entry.name,
+                                  .sample_rate = setup.sample_rate,
+                                  .configuration = configuration_of(entry, *setup.model),
+                                  .configured_rate = setup.sample_rate,
+                                  .geometry = setup.legs});
+}
+
 EstimatorRunner runner_of(const EstimatorEntry& entry, const EstimatorSetup& setup) {
   return entry.whole_run ? EstimatorRunner(entry.whole_run(setup))
                          : EstimatorRunner(entry.make(entry, setup));
@@ -88,7 +124,7 @@ std::string given_text(const EstimatorEntry& entry, bool servo_load) {
 }
 
 bool share_model(const EstimatorEntry& one, const EstimatorEntry& other) {
-  if (one.fit == nullptr || one.fit != other.fit || one.fits() != other.fits()) return false;
+  if (one.fit == nullptr || one.fit != other.fit) return false;
   if (one.config) return one.config->measurement == other.config->measurement;
   return !one.phase || one.phase->fit == other.phase->fit;
 }

@@ -24,8 +24,8 @@ namespace touchdown::experiments {
 
 /// The robot and the run that an estimator is made for.
 struct EstimatorSetup {
-  double sample_rate = 1000.0;         ///< Hz
-  const FittedModel* model = nullptr;  ///< for estimators with a fitted model
+  double sample_rate = 1000.0;   ///< Hz
+  const Model* model = nullptr;  ///< for estimators with a fitted model
   /// Legs of the robot, if its file is known. They take precedence over those in the model.
   std::optional<LegGeometry> legs = {};
   /// The labels of the run, for the oracle.
@@ -100,8 +100,8 @@ struct EstimatorEntry {
   /// The configuration of its phase model, if it needs one.
   std::optional<PhaseFilterConfig> phase = {};
   /// Fits its model; null if it needs none. Without one of the two configurations above, the model
-  /// consists of its own parameters (experiments/estimators/parameter_fitting.hpp).
-  FittedModel (*fit)(const EstimatorEntry& entry, const FitRuns& runs) = nullptr;
+  /// consists of its own parameters (experiments/estimators/fits.hpp).
+  Model (*fit)(const EstimatorEntry& entry, const FitRuns& runs) = nullptr;
   /// Whether it is also fitted to an experiment's training segments, if there are any.
   bool learns_from_segments = false;
   /// The program that trained its model, if experiments do not fit it.
@@ -127,12 +127,8 @@ struct EstimatorEntry {
   /// revision are not reused.
   std::string revision = {};
 
-  /// The kind of its model, if it is fitted.
-  std::optional<ModelKind> fits() const {
-    if (config) return ModelKind::measurement;
-    if (phase) return ModelKind::phase;
-    return fit != nullptr ? std::optional(ModelKind::parameters) : std::nullopt;
-  }
+  /// Whether experiments fit a model of it.
+  bool fits() const { return fit != nullptr; }
   /// The value of one of its hyperparameters. Errors: `Error` for an unknown name.
   double chosen(std::string_view hyperparameter) const;
 };
@@ -143,6 +139,10 @@ EstimatorEntry with_hyperparameters(EstimatorEntry entry, const HyperparameterVa
 /// Errors: `InputError`, one line with the nearest name, for a name that the estimator does not
 /// have.
 void check_names(const HyperparameterValues& values, const EstimatorEntry& entry);
+
+/// The `make` of an estimator that the library makes of its model.
+std::unique_ptr<ContactEstimator> make_of_model(const EstimatorEntry& entry,
+                                                const EstimatorSetup& setup);
 
 /// Makes a runner for the estimator, which processes steps or whole runs.
 EstimatorRunner runner_of(const EstimatorEntry& entry, const EstimatorSetup& setup);

@@ -1,24 +1,24 @@
-#include "experiments/estimators/filters.hpp"
-
 #include <limits>
 
 #include <fmt/format.h>
 
-#include "estimator/bayes/measurement_only.hpp"
+#include "core/error.hpp"
+#include "core/resources.hpp"
 #include "estimator/models/configuration.hpp"
+#include "estimator/npz/load_estimator.hpp"
 #include "estimator/numerics/number_text.hpp"
 #include "experiments/batch/bayes.hpp"
 #include "experiments/batch/neural.hpp"
 #include "experiments/batch/phase.hpp"
-#include "experiments/estimators/measurement_fitting.hpp"
-#include "experiments/estimators/phase_fitting.hpp"
-#include "recordings/models/neural_network.hpp"
+#include "experiments/estimators/entries.hpp"
+#include "experiments/estimators/fits.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
 using EstimatorPointer = std::unique_ptr<ContactEstimator>;
+
 using Levels = std::span<const noise::SensorNoise>;
 
 /// An entry's configuration at this sample rate (Hz).
@@ -77,8 +77,8 @@ void apply_phase(EstimatorEntry& entry) {
 template <typename Batch>
 std::shared_ptr<Batch> measurement_batch(const EstimatorEntry& entry, const EstimatorSetup& setup,
                                          Levels levels) {
-  return std::make_shared<Batch>(*setup.model->measurement,
-                                 at_rate(*entry.config, setup.sample_rate), batch_noise(levels));
+  return std::make_shared<Batch>(*setup.model->grid, at_rate(*entry.config, setup.sample_rate),
+                                 batch_noise(levels));
 }
 
 template <typename Batch>
@@ -110,21 +110,31 @@ std::optional<BatchedEstimator> phase_batch(const EstimatorEntry& entry,
                           0.5};
 }
 
-FittedModel fit_measurement(const EstimatorEntry& entry, const FitRuns& runs) {
-  return {.measurement = fit(runs.whole, entry.config->measurement, runs.scoring)};
+Model fit_measurement(const EstimatorEntry& entry, const FitRuns& runs) {
+  return {.grid = fit(runs.whole, entry.config->measurement, runs.scoring)};
 }
 
 /// Fits to the training segments if there are any, otherwise to the whole runs.
-FittedModel fit_phase(const EstimatorEntry& entry, const FitRuns& runs) {
+Model fit_phase(const EstimatorEntry& entry, const FitRuns& runs) {
   const PhaseFitConfig& config = entry.phase->fit;
-  return {.phase = std::make_shared<const recordings::PhaseModelFile>(
-              runs.segments.empty()
-                  ? fit_phases(runs.whole, config, runs.scoring.skip, runs.before_density)
-                  : fit_phases(runs.segments, config, 0.0, runs.before_density))};
+  return runs.segments.empty()
+             ? fit_phases(runs.whole, config, runs.scoring.skip, runs.before_density)
+             : fit_phases(runs.segments, config, 0.0, runs.before_density);
 }
 
-std::shared_ptr<const NeuralNetwork> network(const EstimatorEntry& entry) {
-  return std::make_shared<const NeuralNetwork>(recordings::shipped_neural_network(entry.name));
+/// The network that comes with the project.
+Model network(const EstimatorEntry& entry) {
+  const std::string file = fmt::format("models/{}.npz", entry.name);
+  std::filesystem::path path;
+  try {
+    path = find_resource(file);
+  } catch (const InputError&) {
+    throw InputError(fmt::format(
+        "{0}: {1} is missing; 'touchdown train experiments/{0}.yaml -o {1}' makes it in less than "
+        "20 minutes (training needs the packages libtorch-dev and libopenblas0-openmp)",
+        entry.name, file));
+  }
+  return load_model(path);
 }
 
 NeuralEstimatorConfig neural_config(const EstimatorEntry& entry, const EstimatorSetup& setup) {
@@ -140,7 +150,9 @@ std::optional<BatchedEstimator> neural_batch(const EstimatorEntry& entry,
     sigmas.push_back(level.acceleration);
   }
   const NeuralEstimatorConfig config = neural_config(entry, setup);
-  const auto batch = std::make_shared<BatchedNeuralNetwork>(network(entry), config, sigmas);
+  const auto batch = std::make_shared<BatchedNeuralNetwork>(
+      std::make_shared<const NeuralNetwork>(neural_network_of(network(entry).arrays)), config,
+      sigmas);
   return BatchedEstimator{[batch](const Signals& clean, const NoiseStep& draws) {
                             const auto& [x, y, z] = draws.linear_acceleration;
                             batch->update(clean, {x, y, z});
@@ -161,10 +173,7 @@ EstimatorEntry bayes_entry(const std::string& name, const std::string& summary,
           .fit = fit_measurement,
           .hyperparameters = bayes_hyperparameters(config),
           .apply = apply_bayes,
-          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> EstimatorPointer {
-            return std::make_unique<BayesFilter>(*setup.model->measurement,
-                                                 at_rate(*entry.config, setup.sample_rate));
-          },
+          .make = make_of_model,
           .batch = bayes_batch};
 }
 
@@ -183,10 +192,7 @@ EstimatorEntry measurement_only_entry() {
                               BayesFilterConfig::robust().measurement.fit.bandwidth_floor.knee,
                               4.0))},
       .apply = apply_bayes,
-      .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> EstimatorPointer {
-        return std::make_unique<MeasurementOnly>(*setup.model->measurement,
-                                                 at_rate(*entry.config, setup.sample_rate));
-      },
+      .make = make_of_model,
       .batch = measurement_only_batch};
 }
 
@@ -207,9 +213,7 @@ EstimatorEntry phase_entry() {
                           between("leave_below", config.leave_below, 0.05, 0.5),
                           between("return_above", config.return_above, 0.5, 0.95)},
       .apply = apply_phase,
-      .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> EstimatorPointer {
-        return std::make_unique<PhaseFilter>(phase_filter(entry, setup));
-      },
+      .make = make_of_model,
       .batch = phase_batch};
 }
 
@@ -226,7 +230,7 @@ EstimatorEntry hmm_entry() {
 }
 
 std::shared_ptr<const PhaseModel> phase_model(const EstimatorSetup& setup) {
-  return {setup.model->phase, &setup.model->phase->model};
+  return setup.model->phase;
 }
 
 PhaseFilter phase_filter(const EstimatorEntry& entry, const EstimatorSetup& setup) {
@@ -242,7 +246,11 @@ EstimatorEntry neural_entry() {
           .trained_by = "touchdown train",
           .hyperparameters = {between("threshold", NeuralEstimatorConfig{}.threshold, 0.2, 0.95)},
           .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> EstimatorPointer {
-            return std::make_unique<NeuralEstimator>(network(entry), neural_config(entry, setup));
+            return make_with(
+                network(entry),
+                {.estimator = "nmn",
+                 .sample_rate = setup.sample_rate,
+                 .configuration = {{"threshold", touchdown::text_of(entry.chosen("threshold"))}}});
           },
           .batch = neural_batch};
 }

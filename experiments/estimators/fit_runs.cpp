@@ -52,8 +52,8 @@ std::size_t skipped_steps(const RunSignals& run, double skip) {
   return std::min(run.steps(), static_cast<std::size_t>(std::llround(rest / period_of(run))));
 }
 
-recordings::ModelProvenance provenance_of(std::string_view estimator,
-                                          std::span<const RunSignals* const> runs, double skip) {
+ModelArray provenance_of(std::string_view estimator, std::span<const RunSignals* const> runs,
+                         double skip) {
   std::set<std::string> scenarios;
   std::set<std::string> simulators;
   std::set<std::string> drawn;
@@ -64,11 +64,9 @@ recordings::ModelProvenance provenance_of(std::string_view estimator,
     drawn.insert(fmt::format("{}:{}", run->info.seed, run->info.run));
     seconds += static_cast<double>(run->steps() - skipped_steps(*run, skip)) * period_of(*run);
   }
-  return {{"estimator", std::string(estimator)},
-          {"scenarios", fmt::format("{}", fmt::join(scenarios, ", "))},
-          {"simulators", fmt::format("{}", fmt::join(simulators, ", "))},
-          {"seed:run", fmt::format("{}", fmt::join(drawn, ", "))},
-          {"seconds", fmt::format("{:.3f}", seconds)}};
+  return array_of_text(fmt::format(
+      "estimator: {}\nscenarios: {}\nseconds: {:.3f}\nseed:run: {}\nsimulators: {}\n", estimator,
+      fmt::join(scenarios, ", "), seconds, fmt::join(drawn, ", "), fmt::join(simulators, ", ")));
 }
 
 }  // namespace touchdown::experiments

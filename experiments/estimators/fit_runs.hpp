@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "estimator/force/leg_geometry.hpp"
-#include "recordings/models/provenance.hpp"
+#include "estimator/models/arrays.hpp"
 #include "recordings/recording.hpp"
 #include "scoring/transitions.hpp"
 
@@ -54,9 +54,10 @@ struct FittedTo {
 /// The number of a run's steps in the first `skip` seconds of its log, at most all of them.
 std::size_t skipped_steps(const RunSignals& run, double skip);
 
-/// The provenance of a fit of this estimator: scenarios, simulators, seeds, runs and seconds. Each
-/// run counts without its first `skip` seconds.
-recordings::ModelProvenance provenance_of(std::string_view estimator,
-                                          std::span<const RunSignals* const> runs, double skip);
+/// The array `provenance` of a fit of this estimator, "key: value" lines: scenarios, simulators,
+/// seeds, runs and seconds. Each run counts without its first `skip` seconds. Python reads it by
+/// `bytes(npz["provenance"].astype("u1")).decode()`.
+ModelArray provenance_of(std::string_view estimator, std::span<const RunSignals* const> runs,
+                         double skip);
 
 }  // namespace touchdown::experiments

@@ -1,8 +1,8 @@
-#include "experiments/estimators/forces.hpp"
-
 #include "estimator/force/force_kinematics_fit.hpp"
 #include "estimator/force/support_force.hpp"
-#include "experiments/estimators/parameter_fitting.hpp"
+#include "estimator/models/parameters.hpp"
+#include "experiments/estimators/entries.hpp"
+#include "experiments/estimators/fits.hpp"
 
 namespace touchdown::experiments {
 
@@ -10,22 +10,18 @@ namespace {
 
 using EstimatorPointer = std::unique_ptr<ContactEstimator>;
 
+using EstimatorPointer = std::unique_ptr<ContactEstimator>;
+
 /// The sensors that a wheel's load is computed from.
 constexpr Sensors load_sensors = {
     .hip_torque = true, .knee_torque = true, .acceleration = true, .joint_position = true};
 
-FittedModel fit_wheel_states(const EstimatorEntry& entry, const FitRuns& runs) {
+Model fit_wheel_states(const EstimatorEntry& entry, const FitRuns& runs) {
   return fit_parameters(entry, runs, [&](std::span<const LabelledRun> labelled) {
     return parameters_of(fit_force_kinematics(labelled, {.geometry = legs_of(runs),
                                                          .low_pass = entry.chosen("low_pass"),
                                                          .leak = entry.chosen("leak")}));
   });
-}
-
-EstimatorPointer make_force_kinematics(const EstimatorEntry& entry, const EstimatorSetup& setup) {
-  return std::make_unique<ForceKinematics>(
-      force_kinematics_model_of(setup.model->parameters->parameters),
-      configured(ForceKinematicsConfig{.sample_rate = setup.sample_rate}, entry, setup));
 }
 
 }  // namespace
@@ -68,7 +64,7 @@ EstimatorEntry force_kinematics_entry() {
       .hyperparameters = {between("threshold", ForceKinematicsConfig{}.threshold, 0.1, 0.95),
                           fitted_with(around("low_pass", ForceKinematicsConfig{}.low_pass, 5.0)),
                           fitted_with(around("leak", ForceKinematicsConfig{}.leak, 4.0))},
-      .make = make_force_kinematics};
+      .make = make_of_model};
 }
 
 }  // namespace touchdown::experiments

@@ -7,10 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/yaml.hpp"
-#include "experiments/estimators/boosting.hpp"
-#include "experiments/estimators/decision.hpp"
-#include "experiments/estimators/filters.hpp"
-#include "experiments/estimators/forces.hpp"
+#include "experiments/estimators/entries.hpp"
 
 namespace touchdown::experiments {
 

@@ -87,9 +87,8 @@ struct HeldOut {
 };
 
 /// The decisions of an estimator on held-out runs, by noise setting and scene.
-SceneCounts counts_on(const HeldOut& held_out, const EstimatorEntry& entry,
-                      const FittedModel& model, const Experiment& experiment,
-                      const std::function<void()>& stop_if_asked) {
+SceneCounts counts_on(const HeldOut& held_out, const EstimatorEntry& entry, const Model& model,
+                      const Experiment& experiment, const std::function<void()>& stop_if_asked) {
   SceneCounts counts;
   for (std::size_t i = 0; i < held_out.runs.size(); ++i) {
     const RunSignals& run = *held_out.runs[i];
@@ -118,7 +117,7 @@ std::vector<SceneCounts> run_fold(const FoldJob& job, const Fold& fold,
   }
   std::vector<SceneCounts> counts(trials.size());
   for (const auto& [fit, numbers] : trials_of) {
-    FittedModel model;
+    Model model;
     for (const std::size_t number : numbers) {
       const HyperparameterValues& hyperparameters = trials[number].hyperparameters;
       const EstimatorEntry entry = with_hyperparameters(*job.entry, hyperparameters);

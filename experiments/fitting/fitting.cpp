@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <map>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -9,18 +12,46 @@
 #include "core/error.hpp"
 #include "core/progress.hpp"
 #include "experiments/config/experiment.hpp"
+#include "core/random.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
+using EngineAndScene = std::pair<std::string, std::string>;
+
+/// The runs of every scene. If every scene of an engine has one run, the engine has a pool of all,
+/// with an empty name of a scene.
+std::map<EngineAndScene, RunPointers> pools_of(const RunPointers& runs) {
+  std::map<EngineAndScene, RunPointers> pools;
+  std::map<std::string, RunPointers> of_engine;
+  std::map<std::string, bool> has_repeated_scene;
+  for (const RunSignals* run : runs) {
+    RunPointers& pool = pools[{run->info.simulator, run->info.scenario}];
+    pool.push_back(run);
+    of_engine[run->info.simulator].push_back(run);
+    has_repeated_scene[run->info.simulator] |= pool.size() > 1;
+  }
+  for (const auto& [simulator, is_repeated] : has_repeated_scene) {
+    if (!is_repeated) pools[{simulator, ""}] = of_engine[simulator];
+  }
+  return pools;
+}
+
+/// The runs that this one is drawn from.
+const RunPointers& pool_of(const RunSignals& run,
+                           const std::map<EngineAndScene, RunPointers>& pools) {
+  const auto scenes = pools.find({run.info.simulator, ""});
+  return scenes != pools.end() ? scenes->second : pools.at({run.info.simulator, run.info.scenario});
+}
+
 /// One model to fit, and the estimators that share it.
 struct Job {
   std::string simulator;
   EstimatorEntry entry;
   std::vector<std::string> estimators;
-  FittedModel model;
+  Model model;
 };
 
 const HyperparameterValues& hyperparameters_of(const TunedHyperparameters& chosen,
@@ -55,6 +86,62 @@ std::vector<Job> jobs_of(const Experiment& experiment, const TunedHyperparameter
 
 }  // namespace
 
+EstimatorEntry entry_of(const Experiment& experiment, const Condition& condition,
+                        const FittedModels& models) {
+  const EstimatorEntry& entry = estimator_entry(experiment, condition.estimator);
+  if (entry.hyperparameters.empty()) return entry;
+  const auto fit = models.find(model_key(condition.fit_simulator, condition.fit, condition.refit));
+  if (fit == models.end()) return entry;
+  const auto model = fit->second.find(condition.estimator);
+  return model == fit->second.end() ? entry
+                                    : with_hyperparameters(entry, model->second.hyperparameters);
+}
+
+EstimatorSetup setup_of(const Experiment& experiment, const Condition& condition,
+                        const FittedModels& models, const RunSignals& run) {
+  const Model* model =
+      estimator_entry(experiment, condition.estimator).fits()
+          ? &models.at(model_key(condition.fit_simulator, condition.fit, condition.refit))
+                 .at(condition.estimator)
+          : nullptr;
+  return {1e6 / static_cast<double>(run.info.control_period_us),
+          model,
+          run.legs,
+          &run.contact,
+          robot_of(run.info),
+          experiment.transfer};
+}
+
+std::unique_ptr<ContactEstimator> make_estimator(const Experiment& experiment,
+                                                 const Condition& condition,
+                                                 const FittedModels& models,
+                                                 const RunSignals& run) {
+  const EstimatorEntry entry = entry_of(experiment, condition, models);
+  if (entry.make == nullptr) {
+    throw InputError(fmt::format("'{}' processes whole runs, and this use needs one step at a time",
+                                 entry.name));
+  }
+  return entry.make(entry, setup_of(experiment, condition, models, run));
+}
+
+EstimatorRunner runner_of(const Experiment& experiment, const Condition& condition,
+                          const FittedModels& models, const RunSignals& run) {
+  return runner_of(entry_of(experiment, condition, models),
+                   setup_of(experiment, condition, models, run));
+}
+
+RunPointers drawn_anew(const RunPointers& runs, std::uint64_t seed, int number) {
+  constexpr std::uint64_t stream = 0x7265666974;  // "refit"
+  const std::map<EngineAndScene, RunPointers> pools = pools_of(runs);
+  RunPointers drawn;
+  for (std::size_t place = 0; place < runs.size(); ++place) {
+    const RunPointers& pool = pool_of(*runs[place], pools);
+    const double u = uniform01(seed, stream + static_cast<std::uint64_t>(number), place);
+    drawn.push_back(pool[static_cast<std::size_t>(u * static_cast<double>(pool.size()))]);
+  }
+  return drawn;
+}
+
 TunedHyperparameters or_given(TunedHyperparameters chosen, const Experiment& experiment) {
   for (const auto& [simulator, by_estimator] : experiment.engine_hyperparameters) {
     for (const auto& [name, hyperparameters] : by_estimator) {
@@ -75,7 +162,7 @@ RunPointers of_engine(const RunPointers& runs, const std::string& simulator) {
   return own;
 }
 
-FittedModel fit_model(const EstimatorEntry& entry, const FitRuns& runs) {
+Model fit_model(const EstimatorEntry& entry, const FitRuns& runs) {
   for (const auto* group : {&runs.whole, &runs.segments}) {
     for (const RunSignals* run : *group) check_may_be_fitted(run->info);
   }
@@ -133,9 +220,9 @@ FittedModels fit_models(const Experiment& experiment, const RunPointers& fit_run
   for (Job& job : jobs) {
     const FitRuns runs = runs_of(job.simulator);
     for (const std::string& name : job.estimators) {
-      job.model.hyperparameters = hyperparameters_of(chosen, job.simulator, name);
-      job.model.metadata = new_metadata(name, runs, job.model.hyperparameters);
-      models[job.simulator].insert_or_assign(name, job.model);
+      FittedModel& model = models[job.simulator][name];
+      static_cast<Model&>(model) = job.model;
+      model.metadata = new_metadata(name, runs, model.hyperparameters);
     }
   }
   return models;

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/entry.hpp"
+#include "experiments/plan/condition.hpp"
 #include "experiments/signals/run_signals.hpp"
 
 namespace touchdown::experiments {
@@ -22,7 +25,7 @@ RunPointers of_engine(const RunPointers& runs, const std::string& simulator);
 
 /// Fits one model, still without metadata. Errors: `InputError` for runs of reserved seeds; the
 /// errors of the entry's `fit`.
-FittedModel fit_model(const EstimatorEntry& entry, const FitRuns& runs);
+Model fit_model(const EstimatorEntry& entry, const FitRuns& runs);
 
 /// The metadata of an estimator's model that is fitted to these runs. Its configuration takes over
 /// chosen values as `put_into` does.
@@ -37,5 +40,28 @@ FittedModels fit_models(const Experiment& experiment, const RunPointers& fit_run
                         const RunPointers& segments = {},
                         const std::function<bool()>& should_continue = {},
                         const TunedHyperparameters& chosen = {});
+
+/// Draws as many runs from these with replacement, within each scene and engine, so that every
+/// scene and engine keeps its number of runs. Where every scene of an engine has one run, as drawn
+/// scenes have, scenes are drawn. The draw depends only on `seed` and `number`.
+RunPointers drawn_anew(const RunPointers& runs, std::uint64_t seed, int number);
+
+/// The condition's estimator, with the hyperparameters of its fit.
+EstimatorEntry entry_of(const Experiment& experiment, const Condition& condition,
+                        const FittedModels& models);
+
+/// The setup of the condition's estimator for this run. `models` and `run` must outlive it.
+EstimatorSetup setup_of(const Experiment& experiment, const Condition& condition,
+                        const FittedModels& models, const RunSignals& run);
+
+/// A new estimator of the condition for this run, which is updated step by step. Errors:
+/// `InputError` for an estimator that processes whole runs only.
+std::unique_ptr<ContactEstimator> make_estimator(const Experiment& experiment,
+                                                 const Condition& condition,
+                                                 const FittedModels& models, const RunSignals& run);
+
+/// A new runner of the condition's estimator, which processes steps or whole runs.
+EstimatorRunner runner_of(const Experiment& experiment, const Condition& condition,
+                          const FittedModels& models, const RunSignals& run);
 
 }  // namespace touchdown::experiments

@@ -7,34 +7,41 @@
 #include "core/error.hpp"
 #include "core/resources.hpp"
 #include "estimator/models/configuration.hpp"
+#include "estimator/npz/load_estimator.hpp"
 #include "estimator/numerics/number_text.hpp"
-#include "experiments/estimators/decision.hpp"
+#include "experiments/estimators/entries.hpp"
 #include "experiments/estimators/registry.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-/// The default estimator of a model: the one it was fitted for, else the first that takes a model
-/// of this kind.
-const EstimatorEntry& usual_estimator(ModelKind kind, const FittedModel& model) {
-  if (model.metadata) return estimator_entry(model.metadata->estimator);
-  if (model.parameters) return estimator_entry(model.parameters->estimator);
-  const std::span<const EstimatorEntry> all = estimator_entries();
-  return *std::find_if(all.begin(), all.end(),
-                       [&](const EstimatorEntry& entry) { return entry.fits() == kind; });
+/// The default estimator of a model: the one it was fitted for, `robust` for a grid that names
+/// none.
+const EstimatorEntry& usual_estimator(const Model& model) {
+  const std::string name = estimator_of(model);
+  return estimator_entry(name.empty() ? "robust" : name);
 }
 
-std::string described(ModelKind kind, const FittedModel& model, const EstimatorEntry& usual,
+/// Whether fits of the estimator give such numbers.
+bool fits_such(const EstimatorEntry& entry, const Model& model) {
+  if (model.grid) return entry.config.has_value();
+  if (model.phase) return entry.phase.has_value();
+  return entry.fits() && !entry.config && !entry.phase;
+}
+
+std::string described(const Model& model, const EstimatorEntry& usual,
                       const EstimatorEntry& entry) {
-  if (kind == ModelKind::parameters) return fmt::format("a model of '{}'", usual.name);
-  if (kind == entry.fits() && model.metadata) return fmt::format("a model of '{}'", usual.name);
-  if (kind == ModelKind::phase) return "a phase model";
-  return entry.fits() == ModelKind::phase ? "no phase model" : "a model of torques' densities";
+  const bool is_densities = model.grid || model.phase;
+  if (!is_densities || (fits_such(entry, model) && model.metadata)) {
+    return fmt::format("a model of '{}'", usual.name);
+  }
+  if (model.phase) return "a phase model";
+  return entry.phase ? "no phase model" : "a model of torques' densities";
 }
 
 /// Errors: `InputError` that names the file, for parameters that the estimator cannot be made with.
-void check_parameters(const EstimatorEntry& entry, const FittedModel& model,
+void check_parameters(const EstimatorEntry& entry, const Model& model,
                       const std::filesystem::path& path) {
   try {
     entry.make(entry, {.model = &model});
@@ -44,13 +51,16 @@ void check_parameters(const EstimatorEntry& entry, const FittedModel& model,
 }
 
 /// Errors: `InputError` for a model that this estimator cannot use.
-void check_fit(const EstimatorEntry& entry, ModelKind kind, const FittedModel& model,
-               const std::filesystem::path& path) {
-  const EstimatorEntry& usual = usual_estimator(kind, model);
-  const bool has_estimator = kind == ModelKind::parameters || model.metadata;
-  if (has_estimator ? share_model(entry, usual) : kind == entry.fits()) return;
+void check_fit(const EstimatorEntry& entry, const Model& model, const std::filesystem::path& path) {
+  const EstimatorEntry& usual = usual_estimator(model);
+  if (!usual.fits()) {
+    throw InputError(
+        fmt::format("{}: is the model of '{}', which needs no --model", path.string(), usual.name));
+  }
+  const bool has_estimator = model.metadata || !(model.grid || model.phase);
+  if (has_estimator ? share_model(entry, usual) : fits_such(entry, model)) return;
   throw InputError(fmt::format("{}: is {}, which '{}' cannot use (did you mean --estimator {}?)",
-                               path.string(), described(kind, model, usual, entry), entry.name,
+                               path.string(), described(model, usual, entry), entry.name,
                                usual.name));
 }
 
@@ -71,7 +81,7 @@ void check_needs(const EstimatorEntry& entry, const std::filesystem::path& model
 }
 
 /// The entry with the configuration from its own model's metadata.
-EstimatorEntry configured(EstimatorEntry entry, const FittedModel& model,
+EstimatorEntry configured(EstimatorEntry entry, const Model& model,
                           const std::filesystem::path& path) {
   if (!model.metadata || model.metadata->estimator != entry.name) return entry;
   try {
@@ -144,19 +154,17 @@ LogEstimator log_estimator(LogEstimatorRequest request) {
   }
   if (!request.name.empty()) check_needs(estimator_entry(request.name), request.model);
   if (request.model.empty()) {
-    const FittedModel none;
     const EstimatorEntry& entry = estimator_entry(request.name);
     check_needs(entry, request.model);
     check_names(request.hyperparameters, entry);
-    return {with_hyperparameters(entry, request.hyperparameters), none, request};
+    return {with_hyperparameters(entry, request.hyperparameters), {}, request};
   }
   request.model = find_resource(request.model);
-  const ModelKind kind = kind_of_model_file(request.model);
-  FittedModel model = read_fitted_model(kind, request.model);
+  Model model = load_model(request.model);
   const EstimatorEntry& entry =
-      request.name.empty() ? usual_estimator(kind, model) : estimator_entry(request.name);
-  check_fit(entry, kind, model, request.model);
-  if (kind == ModelKind::parameters) check_parameters(entry, model, request.model);
+      request.name.empty() ? usual_estimator(model) : estimator_entry(request.name);
+  check_fit(entry, model, request.model);
+  if (!(model.grid || model.phase)) check_parameters(entry, model, request.model);
   check_names(request.hyperparameters, entry);
   for (const Hyperparameter& hyperparameter : entry.hyperparameters) {
     const std::string& name = hyperparameter.name;

@@ -25,7 +25,7 @@ struct LogEstimatorRequest {
 /// An estimator for logs, with its fitted model.
 struct LogEstimator {
   EstimatorEntry entry;
-  FittedModel model;
+  Model model;
   LogEstimatorRequest request;
 
   /// The estimator at a log's rate (Hz), or at the model's where both are equal to 1 %. The window

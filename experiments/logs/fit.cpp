@@ -283,10 +283,10 @@ std::vector<RunSignals> logs_of_both_classes(std::span<const FitLog> logs,
   return runs;
 }
 
-FittedModel fit_model(const EstimatorEntry& entry, std::span<const FitLog> logs,
-                      const LogFitConfig& config, LogFitReport& report) {
+Model fit_model(const EstimatorEntry& entry, std::span<const FitLog> logs,
+                const LogFitConfig& config, LogFitReport& report) {
   if (entry.config) {
-    return {.measurement = fit_measurement_to_logs(logs, *entry.config, config, report)};
+    return {.grid = fit_measurement_to_logs(logs, *entry.config, config, report)};
   }
   const std::vector<RunSignals> runs = entry.phase ? logs_with_takeoffs(logs, config, report)
                                                    : logs_of_both_classes(logs, config, report);
@@ -372,10 +372,10 @@ void FitLogSteps::finish(std::int64_t used_steps) {
   }
 }
 
-FittedModel fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
-                        const LogFitConfig& config, LogFitReport& report) {
+Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
+                  const LogFitConfig& config, LogFitReport& report) {
   check_names(config.hyperparameters, entry);
-  FittedModel model =
+  Model model =
       fit_model(with_hyperparameters(entry, config.hyperparameters), logs, config, report);
   if (!config.robot.name.empty()) report.fitted_to.robots = {config.robot.name};
   if (config.robot.legs) report.fitted_to.legs = *config.robot.legs;

@@ -110,7 +110,7 @@ class FitLogSteps {
 ///
 /// Parameters are fitted to logs in memory, of one class or with ground truth. Unusable steps are
 /// left out as during estimation. Errors: `InputError` for logs without one of the classes.
-FittedModel fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
-                        const LogFitConfig& config, LogFitReport& report);
+Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
+                  const LogFitConfig& config, LogFitReport& report);
 
 }  // namespace touchdown::experiments

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "estimator/assembly/signal_assembler.hpp"
+#include "estimator/signal_assembler.hpp"
 #include "recordings/beliefs/contact_intervals.hpp"
 #include "recordings/log/reader.hpp"
 #include "recordings/plausibility/check.hpp"

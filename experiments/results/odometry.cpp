@@ -2,11 +2,9 @@
 
 #include <cmath>
 #include <cstdio>
-
 #include <fmt/format.h>
-
 #include "experiments/estimators/registry.hpp"
-#include "odometry/filter.hpp"
+#include "estimator/odometry/filter.hpp"
 
 namespace touchdown::experiments {
 

@@ -25,6 +25,7 @@
 #include "experiments/results/scores.hpp"
 #include "experiments/results/summary_file.hpp"
 #include "experiments/results/text_tables.hpp"
+#include "recordings/model_file.hpp"
 
 namespace touchdown::experiments {
 
@@ -190,10 +191,10 @@ Table evidence_table(const FittedModels& models) {
   return evidence_columns().table(points);
 }
 
-void write_model_of(const std::string& key, const std::string& estimator, const FittedModel& model,
+void write_model_of(const std::string& key, const std::string& estimator, const Model& model,
                     const RunDirectory& directory) {
-  if (is_of_refit(key)) return;
-  write_fitted_model(model, directory.own_file("models", model_name(key, estimator)));
+  if (is_of_refit(key) || !has_numbers(model)) return;
+  recordings::save_model(model, directory.own_file("models", model_name(key, estimator)));
 }
 
 void write_result_files(const ExperimentResult& result) {

@@ -8,7 +8,7 @@ namespace touchdown::experiments {
 
 /// Writes a model of the fit with this key into `models/`, unless it is that of a refit. The phase
 /// model of a model that was written before may be gone: its file then stays as it is.
-void write_model_of(const std::string& key, const std::string& estimator, const FittedModel& model,
+void write_model_of(const std::string& key, const std::string& estimator, const Model& model,
                     const RunDirectory& directory);
 
 /// `evidence.csv`: all curves of models that have any, in the units of their channels. The range is

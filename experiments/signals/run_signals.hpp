@@ -13,7 +13,7 @@
 #include "estimator/signals.hpp"
 #include "models/robot_model.hpp"
 #include "noise/sensor_noise.hpp"
-#include "odometry/wheeled_leg.hpp"
+#include "estimator/odometry/wheeled_leg.hpp"
 #include "recordings/recording.hpp"
 #include "scoring/bootstrap.hpp"
 #include "scoring/labels.hpp"

@@ -219,7 +219,7 @@ void write_overlap(const Evaluation& evaluation, const RunDirectory& directory) 
   const Experiment& experiment = evaluation.request.experiment;
   const auto estimator = std::find_if(
       experiment.estimators.begin(), experiment.estimators.end(), [&](const std::string& name) {
-        return estimator_entry(experiment, name).fits() == ModelKind::measurement;
+        return estimator_entry(experiment, name).config.has_value();
       });
   if (estimator == experiment.estimators.end()) return;
   const auto setups = benchmark_setups(evaluation.request, evaluation.plan);
@@ -228,7 +228,7 @@ void write_overlap(const Evaluation& evaluation, const RunDirectory& directory) 
     const auto model = [&](const BenchmarkSetup& setup) -> const MeasurementModel& {
       return *evaluation.models.at(simulator + setup.robot_and_sensors.fit)
                   .at(*estimator)
-                  .measurement;
+                  .grid;
     };
     for (const BenchmarkSetup& first : setups) {
       for (const BenchmarkSetup& second : setups) {

@@ -201,7 +201,7 @@ std::vector<Transfer> transfers(const std::vector<ConditionCounts>& counts,
       const std::vector<Interval> scores = scoring::bootstrap<scoring::Classification>(
           samples, {success, &scoring::Classification::no_contact_recall}, config);
       result.push_back({condition, cell,
-                        estimator_entry(experiment, condition.estimator).fits().has_value(),
+                        estimator_entry(experiment, condition.estimator).fits(),
                         scores[0], scores[1], difference(samples_of(counts, own, c), samples),
                         difference(samples, samples_of(counts, always, c))});
     }

@@ -79,7 +79,7 @@ Written write_file(const fs::path& path, const std::string& content) {
 
 Written write_run(const ExportedRun& exported, const RunRequest& request, const Plan& plan,
                   const RunSignals& run, const fs::path& folder) {
-  recordings::NpzArrays arrays;
+  ModelArrays arrays;
   if (exported.task) {
     const NoiseRun noise = noise_run(run, plan.tasks[*exported.task].noise);
     arrays = exported_arrays(run, noise, request.experiment.highlights[exported.cell].levels());
@@ -87,8 +87,7 @@ Written write_run(const ExportedRun& exported, const RunRequest& request, const 
     arrays = exported_arrays(run);
   }
   const fs::path path = folder / (exported.name + ".npz");
-  Written written =
-      write_file(path, recordings::to_npz(arrays, path.string(), recordings::Deflated::all));
+  Written written = write_file(path, to_npz(arrays, path.string(), Deflated::all));
   written.steps = run.steps();
   return written;
 }

@@ -9,7 +9,7 @@
 #include "experiments/signals/run_signals.hpp"
 #include "experiments/plan/rollouts.hpp"
 #include "experiments/submissions/exported_runs.hpp"
-#include "recordings/models/npz.hpp"
+#include "estimator/npz/npz.hpp"
 
 namespace touchdown::experiments {
 
@@ -50,10 +50,10 @@ std::string readme_of(const RunRequest& request);
 /// `Signals` and the labels `contact` (left, right). Joints have six columns: hip, knee, wheel of
 /// the left leg, then of the right leg. At steps with a record the values equal the input of
 /// `ContactEstimator::update` bit for bit. At other steps the time is that of the step.
-recordings::NpzArrays exported_arrays(const RunSignals& run);
+ModelArrays exported_arrays(const RunSignals& run);
 
 /// The arrays of a run with noise.
-recordings::NpzArrays exported_arrays(const RunSignals& run, const NoiseRun& noise,
+ModelArrays exported_arrays(const RunSignals& run, const NoiseRun& noise,
                                       const noise::SensorNoise& levels);
 
 /// Upper bound of the size of a run's arrays on disk (bytes).

@@ -87,16 +87,16 @@ std::string noise_of(const Experiment& experiment) {
 
 /// An array with `columns` numbers per step, appended by `put`.
 template <typename Put>
-recordings::NpyArray array_of(const std::vector<Signals>& steps, std::size_t columns,
+ModelArray array_of(const std::vector<Signals>& steps, std::size_t columns,
                               const Put& put) {
-  recordings::NpyArray array{{steps.size()}, {}};
+  ModelArray array{{steps.size()}, {}};
   if (columns > 1) array.shape.push_back(columns);
   array.data.reserve(steps.size() * columns);
   for (const Signals& signals : steps) put(signals, array.data);
   return array;
 }
 
-recordings::NpyArray joints(const std::vector<Signals>& steps, double JointSignals::*member) {
+ModelArray joints(const std::vector<Signals>& steps, double JointSignals::*member) {
   return array_of(steps, 6, [&](const Signals& signals, std::vector<double>& data) {
     for (const LegSignals& leg : signals.leg) {
       data.insert(data.end(), {leg.hip.*member, leg.knee.*member, leg.wheel.*member});
@@ -104,7 +104,7 @@ recordings::NpyArray joints(const std::vector<Signals>& steps, double JointSigna
   });
 }
 
-recordings::NpyArray targets(const std::vector<Signals>& steps, double JointTarget::*member) {
+ModelArray targets(const std::vector<Signals>& steps, double JointTarget::*member) {
   return array_of(steps, 6, [&](const Signals& signals, std::vector<double>& data) {
     for (const LegTargets& leg : signals.target) {
       data.insert(data.end(), {leg.hip.*member, leg.knee.*member, leg.wheel.*member});
@@ -112,24 +112,24 @@ recordings::NpyArray targets(const std::vector<Signals>& steps, double JointTarg
   });
 }
 
-recordings::NpyArray vectors(const std::vector<Signals>& steps, Eigen::Vector3d Signals::*member) {
+ModelArray vectors(const std::vector<Signals>& steps, Eigen::Vector3d Signals::*member) {
   return array_of(steps, 3, [&](const Signals& signals, std::vector<double>& data) {
     data.insert(data.end(), (signals.*member).begin(), (signals.*member).end());
   });
 }
 
-recordings::NpyArray numbers(const std::vector<Signals>& steps, double Signals::*member) {
+ModelArray numbers(const std::vector<Signals>& steps, double Signals::*member) {
   return array_of(steps, 1, [&](const Signals& signals, std::vector<double>& data) {
     data.push_back(signals.*member);
   });
 }
 
-recordings::NpzArrays arrays_of(const RunSignals& run,
+ModelArrays arrays_of(const RunSignals& run,
                                 const std::function<Signals(std::size_t step)>& signals_at) {
   std::vector<Signals> steps;
   steps.reserve(run.steps());
-  recordings::NpyArray recorded{{run.steps()}, {}};
-  recordings::NpyArray contact{{run.steps(), models::wheel_count}, {}};
+  ModelArray recorded{{run.steps()}, {}};
+  ModelArray contact{{run.steps(), models::wheel_count}, {}};
   for (std::size_t k = 0; k < run.steps(); ++k) {
     steps.push_back(signals_at(k));
     recorded.data.push_back(has_record(steps.back()) ? 1.0 : 0.0);
@@ -180,11 +180,11 @@ std::string readme_of(const RunRequest& request) {
                      fmt::arg("skip", 1e3 * experiment.scoring.skip));
 }
 
-recordings::NpzArrays exported_arrays(const RunSignals& run) {
+ModelArrays exported_arrays(const RunSignals& run) {
   return arrays_of(run, [&](std::size_t step) { return run.signals[step]; });
 }
 
-recordings::NpzArrays exported_arrays(const RunSignals& run, const NoiseRun& noise,
+ModelArrays exported_arrays(const RunSignals& run, const NoiseRun& noise,
                                       const noise::SensorNoise& levels) {
   return arrays_of(run, [&](std::size_t step) { return noisy(run, noise, levels, step); });
 }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "recordings/models/npz.hpp"
+#include "estimator/npz/npz.hpp"
 
 namespace touchdown::recordings {
 
@@ -14,7 +14,7 @@ Beliefs read_belief_npz(const std::filesystem::path& path) {
   if (const std::optional<ColumnError> wrong = columns.set_names(names)) {
     throw InputError(fmt::format("{}: {}", path.string(), wrong->what));
   }
-  const NpzArrays arrays = read_npz(path);
+  const ModelArrays arrays = read_npz(path);
   const std::size_t steps = arrays.at("time").data.size();
   for (const auto& [name, array] : arrays) {
     if (array.shape.size() == 1 && array.data.size() == steps) continue;

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "estimator/assembly/record.hpp"
+#include "estimator/record.hpp"
 #include "recordings/bags/bag.hpp"
 #include "recordings/log/writer.hpp"
 #include "recordings/mapping/joined_log.hpp"

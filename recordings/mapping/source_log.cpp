@@ -14,9 +14,9 @@
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "estimator/npz/npz.hpp"
 #include "recordings/beliefs/numbers_csv.hpp"
 #include "recordings/mapping/joint_columns.hpp"
-#include "recordings/models/npz.hpp"
 
 namespace touchdown::recordings {
 
@@ -127,9 +127,9 @@ struct ArrayColumn {
   std::size_t stride = 1;
 };
 
-ArrayColumn column_of(const NpzArrays& arrays, const SourceColumn& column,
+ArrayColumn column_of(const ModelArrays& arrays, const SourceColumn& column,
                       const std::filesystem::path& path) {
-  const NpyArray& array = arrays.at(column.name);
+  const ModelArray& array = arrays.at(column.name);
   const std::size_t width = array.shape.size() == 2 ? array.shape[1] : 1;
   if (!column.index && width != 1) {
     throw InputError(fmt::format("{}: {}: has two axes ({}): expected 'index' to select a column",
@@ -147,14 +147,14 @@ ArrayColumn column_of(const NpzArrays& arrays, const SourceColumn& column,
 
 void read_arrays(const std::filesystem::path& path, const SourceLogSink& sink) {
   const auto width = [&](const std::string& name) -> std::size_t {
-    const NpzArrays one = read_npz(
+    const ModelArrays one = read_npz(
         path, [&](std::string_view other) { return other == name ? any_array(other) : 0; });
     const auto found = one.find(name);
     return found != one.end() && found->second.shape.size() == 2 ? found->second.shape[1] : 1;
   };
   const std::vector<SourceColumn> wanted =
       sink.wanted({path.string(), true, npz_names(path), "", false, false, width});
-  const NpzArrays arrays = read_npz(path, [&](std::string_view name) {
+  const ModelArrays arrays = read_npz(path, [&](std::string_view name) {
     const bool is_wanted = std::any_of(wanted.begin(), wanted.end(),
                                        [&](const SourceColumn& one) { return one.name == name; });
     return is_wanted ? any_array(name) : 0;

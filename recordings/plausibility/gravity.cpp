@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "estimator/assembly/record.hpp"
+#include "estimator/record.hpp"
 
 namespace touchdown::recordings {
 

@@ -11,7 +11,8 @@
 #include "core/progress.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/experiment.hpp"
-#include "experiments/fitting/make_estimator.hpp"
+#include "estimator/npz/load_estimator.hpp"
+#include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/plan/request.hpp"
 #include "experiments/evaluation/tuning_table.hpp"
@@ -73,9 +74,9 @@ experiments::FittedModels read_models(const fs::path& directory,
   experiments::FittedModels models;
   for (const std::string& estimator : estimators) {
     experiments::FittedModel& model = models[simulator][estimator];
-    if (const auto kind = experiments::estimator_entry(experiment, estimator).fits()) {
-      model = experiments::read_fitted_model(
-          *kind, directory / "models" / experiments::model_name(simulator, estimator));
+    if (experiments::estimator_entry(experiment, estimator).fits()) {
+      static_cast<Model&>(model) =
+          load_model(directory / "models" / experiments::model_name(simulator, estimator));
     }
     model.hyperparameters = chosen[simulator][estimator];
   }

@@ -7,7 +7,7 @@
 
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/baselines.hpp"
-#include "experiments/estimators/decision.hpp"
+#include "experiments/estimators/entries.hpp"
 #include "experiments/results/captions.hpp"
 #include "render/curves/evidence_figure.hpp"
 #include "render/curves/score_figure.hpp"
@@ -67,7 +67,7 @@ std::optional<DensityFigure> density_figure(const experiments::ExperimentResult&
   std::vector<MeasurementConfig> drawn;
   for (const std::string& estimator : experiment.estimators) {
     const auto model = models->second.find(estimator);
-    if (model == models->second.end() || !model->second.measurement) continue;
+    if (model == models->second.end() || !model->second.grid) continue;
     const experiments::EstimatorEntry& entry = experiments::estimator_entry(experiment, estimator);
     const auto same = std::find(drawn.begin(), drawn.end(), entry.config->measurement);
     if (same != drawn.end()) {
@@ -75,7 +75,7 @@ std::optional<DensityFigure> density_figure(const experiments::ExperimentResult&
       continue;
     }
     drawn.push_back(entry.config->measurement);
-    figure.rows.push_back({entry.title, model->second.measurement->grids()});
+    figure.rows.push_back({entry.title, model->second.grid->grids()});
   }
   if (figure.rows.empty()) return std::nullopt;
   figure.title = fmt::format("Torques in contact and in the air: {}, {}", experiment.name,

@@ -11,13 +11,12 @@
 #include <gtest/gtest.h>
 
 #include "estimator/bayes/filter.hpp"
-#include "experiments/estimators/measurement_fitting.hpp"
+#include "experiments/estimators/fits.hpp"
 #include "experiments/logs/summary.hpp"
 #include "experiments/signals/estimator_runner.hpp"
 #include "program.hpp"
 #include "recordings/log/recording_file.hpp"
-#include "recordings/models/measurement_model.hpp"
-#include "recordings/models/parameter_model.hpp"
+#include "recordings/model_file.hpp"
 #include "recordings/signals_from.hpp"
 #include "scoring/score.hpp"
 #include "synthetic_log.hpp"
@@ -60,7 +59,7 @@ class Estimate : public ::testing::Test {
     const std::vector<const experiments::RunSignals*> runs = {&run};
     MeasurementConfig config = BayesFilterConfig::robust().measurement;
     config.fit.knee_count = config.fit.wheel_count = 60;
-    recordings::write_measurement_model(experiments::fit(runs, config, {}), folder_ / "m.npz");
+    recordings::save_model({.grid = experiments::fit(runs, config, {})}, folder_ / "m.npz");
   }
 
   void log(const std::string& name, const recordings::Recording& recording) const {
@@ -88,7 +87,7 @@ class Estimate : public ::testing::Test {
     BayesFilterConfig config = BayesFilterConfig::robust();
     config.sample_rate = rate;
     config.transition.window = window;
-    return BayesFilter(recordings::read_measurement_model(folder_ / "m.npz"), config);
+    return BayesFilter(*load_model(folder_ / "m.npz").grid, config);
   }
 
   void expect_beliefs(const Lines& lines, const recordings::Recording& recording,
@@ -306,11 +305,11 @@ TEST_F(Estimate, RecognizesTheEstimatorOfAParameterModel) {
   }
   EXPECT_THAT(complaint_about("a.mpack --model m.npz --estimator force_kinematics"),
               HasSubstr("m.npz: is a model of torques' densities"));
-  recordings::write_parameter_model({"force_kinematics", {{"force_mean", {1.0, 2.0}}}, {}},
-                                    folder_ / "l.npz");
+  recordings::write_npz(arrays_of(Parameters{{"force_mean", {1.0, 2.0}}}, "force_kinematics"),
+                        folder_ / "l.npz");
   EXPECT_THAT(complaint_about("a.mpack --model l.npz"),
               HasSubstr("l.npz: parameter 'force_deviation'"));
-  recordings::write_parameter_model({"lode", {{"slope", {1.0}}}, {}}, folder_ / "l.npz");
+  recordings::write_npz(arrays_of(Parameters{{"slope", {1.0}}}, "lode"), folder_ / "l.npz");
   EXPECT_THAT(complaint_about("a.mpack --model l.npz"), HasSubstr("unknown estimator 'lode'"));
 }
 

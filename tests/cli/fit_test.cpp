@@ -4,14 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "experiments/estimators/measurement_fitting.hpp"
-#include "experiments/estimators/phase_fitting.hpp"
+#include "estimator/models/parameters.hpp"
+#include "experiments/estimators/fits.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/signals/run_signals.hpp"
 #include "program.hpp"
 #include "recordings/log/recording_file.hpp"
-#include "recordings/models/measurement_model.hpp"
-#include "recordings/models/parameter_model.hpp"
+#include "recordings/model_file.hpp"
 #include "synthetic_log.hpp"
 
 namespace touchdown::cli {
@@ -74,7 +73,7 @@ TEST_F(Fit, OfLabelledLogsEqualsTheFitOfExperiments) {
                                              scoring::SampleUnit::run));
     }
     const std::vector<const experiments::RunSignals*> signals = {&runs[0], &runs[1]};
-    expect_same(recordings::read_measurement_model(folder_ / "m.npz"),
+    expect_same(*load_model(folder_ / "m.npz").grid,
                 touchdown::experiments::fit(
                     signals, experiments::estimator_entry(name).config->measurement, {}));
   }
@@ -91,8 +90,8 @@ TEST_F(Fit, ToCorrectLabelsEqualsTheFitToTheTruth) {
   }
   fit("with_truth.mpack -o with_truth.npz --estimator robust");
   fit("robot.mpack --labels robot.csv -o labelled.npz --estimator robust");
-  expect_same(recordings::read_measurement_model(folder_ / "labelled.npz"),
-              recordings::read_measurement_model(folder_ / "with_truth.npz"));
+  expect_same(*load_model(folder_ / "labelled.npz").grid,
+              *load_model(folder_ / "with_truth.npz").grid);
 }
 
 TEST_F(Fit, LeavesOutUnlabelledSteps) {
@@ -138,7 +137,7 @@ TEST_F(Fit, UsesLogsOfOneClassAsDeclared) {
     }
     return all;
   };
-  expect_same(recordings::read_measurement_model(folder_ / "m.npz"),
+  expect_same(*load_model(folder_ / "m.npz").grid,
               fit_measurement_model(samples(rolling), samples(hanging), config.fit));
 }
 
@@ -148,13 +147,12 @@ TEST_F(Fit, OfThePhaseFilterEqualsTheFitOfExperiments) {
   const experiments::RunSignals run = experiments::signals_of(
       recordings::read_recording(folder_ / "a.mpack"), {}, {}, scoring::SampleUnit::run);
   const std::vector<const experiments::RunSignals*> runs = {&run};
-  const PhaseModel expected = experiments::fit_phases(runs, PhaseFilterConfig{}.fit, 0.3).model;
-  const recordings::PhaseModelFile written = recordings::read_phase_model(folder_ / "m.npz");
-  EXPECT_EQ(written.model.transition, expected.transition);
-  ASSERT_EQ(written.model.torque.size(), expected.torque.size());
-  EXPECT_EQ(written.model.torque[2].log_density, expected.torque[2].log_density);
-  EXPECT_EQ(written.provenance.at("scenarios"), "synthetic");
-  EXPECT_EQ(written.provenance.at("seed:run"), "5:0");
+  const Model expected = experiments::fit_phases(runs, PhaseFilterConfig{}.fit, 0.3);
+  const Model written = load_model(folder_ / "m.npz");
+  EXPECT_EQ(arrays_of(*written.phase), arrays_of(*expected.phase));
+  EXPECT_EQ(written.arrays, expected.arrays);
+  EXPECT_THAT(text_of_array(written.arrays.at("provenance"), "provenance"),
+              AllOf(HasSubstr("scenarios: synthetic\n"), HasSubstr("seed:run: 5:0\n")));
 }
 
 TEST_F(Fit, OfParametersEqualsTheFitOfExperiments) {
@@ -165,11 +163,12 @@ TEST_F(Fit, OfParametersEqualsTheFitOfExperiments) {
        {"force_kinematics", "decision_network", "evidence_curves", "evidence_curves_quiet"}) {
     EXPECT_THAT(fit("a.mpack -o m.npz --estimator " + name), HasSubstr("2.700 s of 1 log"));
     const experiments::EstimatorEntry& entry = experiments::estimator_entry(name);
-    const recordings::ParameterModelFile written =
-        recordings::read_parameter_model(folder_ / "m.npz");
-    EXPECT_EQ(written.parameters, entry.fit(entry, {.whole = {&run}}).parameters->parameters);
-    EXPECT_EQ(written.estimator, name);
-    EXPECT_EQ(written.provenance.at("seed:run"), "5:0");
+    const Model written = load_model(folder_ / "m.npz");
+    EXPECT_EQ(parameters_of(written.arrays),
+              parameters_of(entry.fit(entry, {.whole = {&run}}).arrays));
+    EXPECT_EQ(estimator_of(written), name);
+    EXPECT_THAT(text_of_array(written.arrays.at("provenance"), "provenance"),
+                HasSubstr("seed:run: 5:0\n"));
   }
 }
 
@@ -219,7 +218,7 @@ TEST_F(Fit, LeavesOutTorquesThatAreNotFinite) {
   EXPECT_EQ(ended.exit_code, 0);
   EXPECT_THAT(ended.errors, HasSubstr("11 samples of a leg are not finite"));
   EXPECT_THAT(ended.output, HasSubstr("samples of both legs"));
-  recordings::read_measurement_model(folder_ / "m.npz");  // throws if a number in it is none
+  load_model(folder_ / "m.npz");  // throws if a number in it is none
   EXPECT_THAT(touchdown_program("fit a.mpack -o p.npz --estimator phase", folder_.path()).errors,
               HasSubstr("a.mpack: at 1.000 s: a torque or the acceleration is not finite"));
 }

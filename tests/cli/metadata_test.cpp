@@ -5,10 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
-#include "onboard/load_estimator.hpp"
+#include "estimator/npz/load_estimator.hpp"
+#include "estimator/npz/npz.hpp"
 #include "program.hpp"
 #include "recordings/log/recording_file.hpp"
-#include "recordings/models/npz.hpp"
+#include "recordings/model_file.hpp"
 #include "synthetic_log.hpp"
 
 namespace touchdown::cli {
@@ -191,7 +192,7 @@ TEST_F(Metadata, ChoosesTheEstimatorThatAGridWasFittedFor) {
 }
 
 TEST_F(Metadata, IsNotNeededByOlderFiles) {
-  recordings::NpzArrays arrays = read_npz(folder_ / "m.npz");
+  ModelArrays arrays = read_npz(folder_ / "m.npz");
   arrays.erase("metadata");
   recordings::write_npz(arrays, folder_ / "old.npz");
   EXPECT_THAT(run("estimate a.mpack --model old.npz --estimator reference"),
@@ -200,7 +201,7 @@ TEST_F(Metadata, IsNotNeededByOlderFiles) {
 }
 
 TEST_F(Metadata, DetectsAModelThatWasChangedAfterItsFit) {
-  recordings::NpzArrays arrays = read_npz(folder_ / "m.npz");
+  ModelArrays arrays = read_npz(folder_ / "m.npz");
   arrays["contact_likelihood"].data[100] += 1.0;
   recordings::write_npz(arrays, folder_ / "m.npz");
   EXPECT_THAT(complaint_about("estimate a.mpack --model m.npz"),

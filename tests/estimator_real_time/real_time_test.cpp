@@ -9,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include "estimator/assembly/signal_assembler.hpp"
 #include "estimator/bayes/filter.hpp"
 #include "estimator/bayes/measurement_only.hpp"
 #include "estimator/decision/filter.hpp"
@@ -17,10 +16,11 @@
 #include "estimator/force/force_kinematics.hpp"
 #include "estimator/force/support_force.hpp"
 #include "estimator/free_fall.hpp"
+#include "estimator/odometry/filter.hpp"
 #include "estimator/phase/filter.hpp"
+#include "estimator/signal_assembler.hpp"
 #include "estimator/upkie_observer.hpp"
 #include "experiments/batch/bayes.hpp"
-#include "odometry/filter.hpp"
 #include "tests/estimator/decision/random_model.hpp"
 #include "tests/estimator/evidence/random_curves.hpp"
 #include "tests/estimator/named_config.hpp"

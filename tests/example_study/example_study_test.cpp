@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "experiments/fitting/make_estimator.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "experiments/fitting/fitting.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "render/pictures/pictures.hpp"
 #include "tests/experiments/studies/study_test.hpp"

@@ -1,6 +1,5 @@
-#include "recordings/models/neural_network.hpp"
-
 #include "core/error.hpp"
+#include "estimator/npz/load_estimator.hpp"
 #include "tests/fuzz/archive.hpp"
 #include "tests/fuzz/entry.hpp"
 #include "tests/fuzz/memory_file.hpp"
@@ -14,7 +13,7 @@ TOUCHDOWN_FUZZ(neural_network) {
               "gru_hidden_weight", "gru_hidden_bias", "first_weight", "first_bias", "second_weight",
               "second_bias", "heads_weight", "heads_bias"}));
   try {
-    (void)recordings::read_neural_network(file.path());
+    (void)load_model(file.path());
   } catch (const Error& error) {
     expected(error, input);
   }

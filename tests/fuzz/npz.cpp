@@ -1,4 +1,4 @@
-#include "recordings/models/npz.hpp"
+#include "estimator/npz/npz.hpp"
 
 #include "core/error.hpp"
 #include "tests/fuzz/entry.hpp"
@@ -10,8 +10,8 @@ namespace touchdown::fuzz {
 TOUCHDOWN_FUZZ(npz) {
   const fuzz::MemoryFile file(input);
   try {
-    (void)recordings::npz_names(file.path());
-    (void)recordings::read_npz(file.path());
+    (void)npz_names(file.path());
+    (void)read_npz(file.path());
   } catch (const Error& error) {
     expected(error, input);
   }

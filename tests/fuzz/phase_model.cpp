@@ -1,6 +1,5 @@
-#include "recordings/models/phase_model.hpp"
-
 #include "core/error.hpp"
+#include "estimator/npz/load_estimator.hpp"
 #include "tests/fuzz/archive.hpp"
 #include "tests/fuzz/entry.hpp"
 #include "tests/fuzz/memory_file.hpp"
@@ -15,7 +14,7 @@ TOUCHDOWN_FUZZ(phase_model) {
               "torque_1_knee", "torque_1_wheel", "torque_1_log_density", "acceleration_0_noise",
               "acceleration_0_axis", "acceleration_0_log_density", "acceleration_1_noise"}));
   try {
-    (void)recordings::read_phase_model(file.path());
+    (void)load_model(file.path());
   } catch (const Error& error) {
     expected(error, input);
   }

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "odometry/filter.hpp"
+#include "estimator/odometry/filter.hpp"
 
 namespace {
 

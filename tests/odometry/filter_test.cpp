@@ -1,4 +1,4 @@
-#include "odometry/filter.hpp"
+#include "estimator/odometry/filter.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "odometry/lie.hpp"
+#include "estimator/odometry/lie.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "odometry/filter.hpp"
+#include "estimator/odometry/filter.hpp"
 #include "tests/estimator/random.hpp"
 
 namespace touchdown::odometry::test {

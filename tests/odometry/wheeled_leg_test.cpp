@@ -1,4 +1,4 @@
-#include "odometry/wheeled_leg.hpp"
+#include "estimator/odometry/wheeled_leg.hpp"
 
 #include <cmath>
 

@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "estimator/assembly/signal_assembler.hpp"
-#include "estimator/c_interface/touchdown.h"
-#include "recordings/models/npz.hpp"
+#include "estimator/signal_assembler.hpp"
+#include "estimator/touchdown.h"
+#include "recordings/model_file.hpp"
 #include "tests/estimator/models/models.hpp"
 #include "tests/scratch_folder.hpp"
 

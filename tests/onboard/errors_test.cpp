@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "onboard/load_estimator.hpp"
+#include "estimator/npz/load_estimator.hpp"
 
 namespace {
 

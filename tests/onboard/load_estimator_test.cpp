@@ -1,4 +1,4 @@
-#include "onboard/load_estimator.hpp"
+#include "estimator/npz/load_estimator.hpp"
 
 #include <functional>
 #include <memory>
@@ -8,8 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "recordings/models/header.hpp"
-#include "recordings/models/npz.hpp"
+#include "recordings/model_file.hpp"
 #include "tests/estimator/models/models.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -91,9 +90,10 @@ TEST_F(LoadEstimator, LoadsTheMetadata) {
 
 TEST_F(LoadEstimator, HeadersOfModelsAlwaysHaveMetadata) {
   const auto grid = file("grid.npz", test::fitted_arrays("robust"));
-  EXPECT_THAT(complaint([&] { recordings::header_of_model(grid, "grid"); }),
+  EXPECT_THAT(complaint([&] { recordings::load_model_for(grid, {}); }),
               HasSubstr("grid.npz: has no metadata"));
-  EXPECT_THAT(recordings::header_of_model(grid, "grid", {"reference", 1000.0, "upkie"}),
+  const Model model = recordings::load_model_for(grid, {"reference", 1000.0, "upkie"});
+  EXPECT_THAT(recordings::header_of_model(model, "grid.npz", "grid"),
               AllOf(HasSubstr("inline constexpr CompiledArray grid[] = {"),
                     HasSubstr("for 'reference' at 1000 Hz on the robot 'upkie'"),
                     HasSubstr("sample_rate: 1000\\n\"")));

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "estimator/c_interface/touchdown.h"
-#include "onboard/load_estimator.hpp"
+#include "estimator/npz/load_estimator.hpp"
+#include "estimator/touchdown.h"
 
 namespace touchdown {
 namespace {

@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/fingerprint.hpp"
-#include "recordings/models/neural_network.hpp"
+#include "recordings/model_file.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::training {
@@ -50,7 +50,7 @@ TEST_F(Train, WritesWeightsCurvesAndAManifest) {
   const TrainingResult result = run("a");
   ASSERT_EQ(result.history.size(), 3U);
   EXPECT_EQ(result.history[2].data_seconds, 3 * 8 * 50 * 0.005);
-  EXPECT_EQ(recordings::read_neural_network(result.network).hidden(), 8);
+  EXPECT_EQ(neural_network_of(load_model(result.network).arrays).hidden(), 8);
   EXPECT_EQ(read_history(result.directory / "tables" / "training.csv").size(), 3U);
   EXPECT_TRUE(std::filesystem::exists(result.figure));
   const auto manifest = nlohmann::json::parse(read_file(result.directory / "models" / "nmn.json"));

@@ -7,7 +7,7 @@
 
 #include "examples/upkie_observer/TouchdownObserver.h"
 #include "examples/upkie_observer/compiled_model.h"
-#include "recordings/models/npz.hpp"
+#include "recordings/model_file.hpp"
 #include "tests/estimator/models/models.hpp"
 #include "tests/scratch_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "estimator/decision/training.hpp"
+#include "estimator/decision/fit.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,3 @@
-#include "estimator/evidence/contributions.hpp"
-
 #include <array>
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "estimator/evidence/training.hpp"
+#include "estimator/evidence/fit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "estimator/evidence/monotone.hpp"
 #include "tests/estimator/evidence/random_curves.hpp"
 #include "tests/estimator/random.hpp"
 

@@ -9,7 +9,6 @@
 #include "core/error.hpp"
 #include "estimator/bayes/filter.hpp"
 #include "estimator/evidence/filter.hpp"
-#include "estimator/models/compiled.hpp"
 #include "estimator/models/configuration.hpp"
 #include "tests/estimator/models/models.hpp"
 

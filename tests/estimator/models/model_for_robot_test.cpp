@@ -1,11 +1,10 @@
-#include "estimator/models/model_for_robot.hpp"
-
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "estimator/models/make_estimator.hpp"
 #include "models.hpp"
 
 namespace touchdown {
@@ -31,9 +30,13 @@ std::vector<double> beliefs_of(const ModelArrays& arrays, const ModelUse& use = 
   return all;
 }
 
+ModelArrays adapted(const ModelArrays& arrays, const ModelUse& use) {
+  return arrays_of(model_for(model_of(arrays), use));
+}
+
 std::string complaint(const ModelArrays& arrays, const ModelUse& use) {
   try {
-    model_for(arrays, use);
+    adapted(arrays, use);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -45,13 +48,13 @@ TEST(ModelFor, AnotherRobotStoresItsLegs) {
        {"evidence_curves_quiet", "decision_network", "evidence_curves", "force_kinematics"}) {
     SCOPED_TRACE(name);
     const ModelArrays upkies = test::fitted_model(name);
-    const ModelArrays own = model_for(upkies, {.robot = "stilts", .geometry = long_legs});
+    const ModelArrays own = adapted(upkies, {.robot = "stilts", .geometry = long_legs});
     EXPECT_EQ(beliefs_of(own), beliefs_of(upkies, {.geometry = long_legs}));
     EXPECT_NE(beliefs_of(own), beliefs_of(upkies));
     EXPECT_EQ(beliefs_of(own, {.robot = "stilts"}), beliefs_of(own));
     EXPECT_THROW(make_estimator(own, {.robot = "upkie"}), InputError);
     EXPECT_NE(metadata_of(own)->fingerprint, metadata_of(upkies)->fingerprint);
-    EXPECT_EQ(beliefs_of(model_for(own, {.robot = "upkie", .geometry = LegGeometry{}})),
+    EXPECT_EQ(beliefs_of(adapted(own, {.robot = "upkie", .geometry = LegGeometry{}})),
               beliefs_of(upkies));
   }
 }
@@ -59,7 +62,7 @@ TEST(ModelFor, AnotherRobotStoresItsLegs) {
 TEST(ModelFor, AnotherConfigurationKeepsTheRest) {
   const ModelArrays usual = test::fitted_model("evidence_curves");
   const ModelUse use = {.configuration = {{"leave_below", "0.25"}}};
-  const ModelArrays quiet = model_for(usual, use);
+  const ModelArrays quiet = adapted(usual, use);
   const ModelMetadata metadata = *metadata_of(quiet);
   EXPECT_EQ(metadata.configuration.at("leave_below"), "0.25");
   EXPECT_EQ(metadata.configuration.at("return_above"),
@@ -70,14 +73,14 @@ TEST(ModelFor, AnotherConfigurationKeepsTheRest) {
 
 TEST(ModelFor, NoRequirementIsTheModel) {
   const ModelArrays arrays = test::fitted_model("phase");
-  EXPECT_EQ(metadata_of(model_for(arrays, {})), metadata_of(arrays));
-  EXPECT_EQ(metadata_of(model_for(arrays, {"phase", 1000.0, "upkie"})), metadata_of(arrays));
+  EXPECT_EQ(metadata_of(adapted(arrays, {})), metadata_of(arrays));
+  EXPECT_EQ(metadata_of(adapted(arrays, {"phase", 1000.0, "upkie"})), metadata_of(arrays));
 }
 
 TEST(ModelFor, AModelWithoutMetadataAddsThem) {
   const ModelArrays grid = test::fitted_arrays("robust");
   const ModelMetadata metadata =
-      *metadata_of(model_for(grid, {.estimator = "robust", .sample_rate = 500.0, .robot = "tall"}));
+      *metadata_of(adapted(grid, {.estimator = "robust", .sample_rate = 500.0, .robot = "tall"}));
   EXPECT_EQ(metadata.estimator, "robust");
   EXPECT_EQ(metadata.sample_rate, 500.0);
   EXPECT_EQ(metadata.robot, "tall");

@@ -3,10 +3,8 @@
 #include <string>
 
 #include "estimator/models/make_estimator.hpp"
-#include "estimator/models/measurement.hpp"
-#include "estimator/models/neural.hpp"
+#include "estimator/models/model.hpp"
 #include "estimator/models/parameters.hpp"
-#include "estimator/models/phase.hpp"
 #include "tests/estimator/decision/random_model.hpp"
 #include "tests/estimator/evidence/random_curves.hpp"
 #include "tests/estimator/named_config.hpp"

@@ -1,5 +1,3 @@
-#include "experiments/boosting/bins.hpp"
-
 #include <array>
 #include <cmath>
 #include <limits>
@@ -7,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "experiments/boosting/fit.hpp"
 #include "tests/estimator/random.hpp"
 
 namespace touchdown::experiments {

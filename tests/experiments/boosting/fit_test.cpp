@@ -13,7 +13,7 @@
 
 #include "core/error.hpp"
 #include "experiments/boosting/estimator.hpp"
-#include "experiments/boosting/window.hpp"
+#include "experiments/boosting/inputs.hpp"
 #include "tests/estimator/random.hpp"
 
 namespace touchdown::experiments {

@@ -1,11 +1,10 @@
-#include "experiments/boosting/trees.hpp"
-
 #include <array>
 #include <limits>
 
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "experiments/boosting/estimator.hpp"
 
 namespace touchdown::experiments {
 namespace {

@@ -1,5 +1,3 @@
-#include "experiments/boosting/window.hpp"
-
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -7,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "experiments/boosting/inputs.hpp"
 #include "tests/estimator/random.hpp"
 
 namespace touchdown::experiments {

@@ -1,9 +1,9 @@
-#include "experiments/estimators/boosting.hpp"
-
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "experiments/estimators/entries.hpp"
 #include "experiments/signals/run_signals.hpp"
+#include "recordings/model_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -17,12 +17,12 @@ TEST_P(BoostedEntry, KeepsItsTreesToTheBitInAFile) {
   const EstimatorEntry entry = GetParam()();
   EXPECT_TRUE(entry.is_upper_bound);
   const RunSignals run = synthetic_run(1'000'000, 1500);
-  const FittedModel fitted = entry.fit(entry, {.whole = {&run}});
-  write_fitted_model(fitted, folder.path() / "m.npz");
-  const FittedModel read = read_fitted_model(ModelKind::parameters, folder.path() / "m.npz");
-  EXPECT_EQ(read.parameters->parameters, fitted.parameters->parameters);
+  const Model fitted = entry.fit(entry, {.whole = {&run}});
+  recordings::save_model(fitted, folder / "m.npz");
+  const Model read = load_model(folder / "m.npz");
+  EXPECT_EQ(read.arrays, fitted.arrays);
   const RunSignals other = synthetic_run(3, 1500);
-  const auto p_contact_of = [&](const FittedModel& model) {
+  const auto p_contact_of = [&](const Model& model) {
     return predict(*entry.make(entry, {.model = &model}), other, noise_run(other, {}), {})[1]
         .p_contact;
   };
@@ -32,12 +32,12 @@ TEST_P(BoostedEntry, KeepsItsTreesToTheBitInAFile) {
 TEST_P(BoostedEntry, RefusesInvalidTrees) {
   const EstimatorEntry entry = GetParam()();
   const RunSignals run = synthetic_run(1'000'000, 1500);
-  const FittedModel fitted = entry.fit(entry, {.whole = {&run}});
+  const Model fitted = entry.fit(entry, {.whole = {&run}});
   const auto refused = [&](const char* name, const auto& change) {
-    recordings::ParameterModelFile file = *fitted.parameters;
-    change(file.parameters.at(name));
-    const FittedModel model = {.parameters =
-                                   std::make_shared<recordings::ParameterModelFile>(file)};
+    Model model = fitted;
+    ModelArray& array = model.arrays.at(name);
+    change(array.data);
+    array.shape = {array.data.size()};
     EXPECT_THROW(entry.make(entry, {.model = &model}), InputError) << name;
   };
   refused("leaf", [](std::vector<double>& values) { values.pop_back(); });
@@ -75,7 +75,7 @@ TEST_P(BoostedEntry, UsesTargetsIfItsFitDoes) {
   const RunSignals run = shown_by_targets(1'000'000);
   const RunSignals other = shown_by_targets(3);
   const auto right = [&](bool servo_load) {
-    const FittedModel model = entry.fit(entry, {.whole = {&run}, .servo_load = servo_load});
+    const Model model = entry.fit(entry, {.whole = {&run}, .servo_load = servo_load});
     const auto decided =
         decide(*entry.make(entry, {.model = &model}), other, noise_run(other, {}), {});
     std::size_t count = 0;

@@ -1,9 +1,9 @@
-#include "experiments/estimators/decision.hpp"
-
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "experiments/estimators/entries.hpp"
 #include "experiments/signals/run_signals.hpp"
+#include "recordings/model_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -14,13 +14,13 @@ TEST(DecisionNetworkEntry, KeepsItsWeightsToTheBitInAFile) {
   const ScratchFolder folder;
   const EstimatorEntry entry = decision_network_entry();
   const RunSignals run = synthetic_run(1'000'000, 1500);
-  const FittedModel fitted = entry.fit(entry, {.whole = {&run}});
-  write_fitted_model(fitted, folder.path() / "m.npz");
-  const FittedModel read = read_fitted_model(ModelKind::parameters, folder.path() / "m.npz");
-  EXPECT_EQ(read.parameters->parameters, fitted.parameters->parameters);
-  EXPECT_EQ(read.parameters->estimator, "decision_network");
+  const Model fitted = entry.fit(entry, {.whole = {&run}});
+  recordings::save_model(fitted, folder / "m.npz");
+  const Model read = load_model(folder / "m.npz");
+  EXPECT_EQ(read.arrays, fitted.arrays);
+  EXPECT_EQ(estimator_of(read), "decision_network");
   const RunSignals other = synthetic_run(3, 1500);
-  const auto p_contact_of = [&](const FittedModel& model) {
+  const auto p_contact_of = [&](const Model& model) {
     return predict(*entry.make(entry, {.model = &model}), other, noise_run(other, {}), {})[1]
         .p_contact;
   };
@@ -33,8 +33,9 @@ TEST(DecisionNetworkEntry, LearnsFromSegmentsToo) {
   RunSignals segment = synthetic_run(1'000'001, 1500);
   segment.info.scenario = "segment";
   EXPECT_THROW(entry.fit(entry, {.whole = {&standing}}), InputError);  // nothing but contact
-  const FittedModel fitted = entry.fit(entry, {.whole = {&standing}, .segments = {&segment}});
-  EXPECT_NE(fitted.parameters->provenance.at("scenarios").find("segment"), std::string::npos);
+  const Model fitted = entry.fit(entry, {.whole = {&standing}, .segments = {&segment}});
+  EXPECT_NE(text_of_array(fitted.arrays.at("provenance"), "provenance").find("segment"),
+            std::string::npos);
 }
 
 TEST(DecisionNetworkEntry, StopsOnRequest) {
@@ -47,17 +48,15 @@ TEST(DecisionNetworkEntry, StopsOnRequest) {
 TEST(DecisionNetworkEntry, RefusesModelsWithoutALayerOrWithOtherFeatures) {
   const EstimatorEntry entry = decision_network_entry();
   const RunSignals run = synthetic_run(1'000'000, 1500);
-  const recordings::ParameterModelFile good = *entry.fit(entry, {.whole = {&run}}).parameters;
+  const Model good = entry.fit(entry, {.whole = {&run}});
   for (const char* const part : {"second_weight", "senses"}) {
     for (const bool is_missing : {true, false}) {
-      recordings::ParameterModelFile file = good;
+      Model model = good;
       if (is_missing) {
-        file.parameters.erase(part);
+        model.arrays.erase(part);
       } else {
-        file.parameters.at(part) = {1.0};
+        model.arrays.at(part) = {{1}, {1.0}};
       }
-      const FittedModel model = {
-          .parameters = std::make_shared<recordings::ParameterModelFile>(std::move(file))};
       EXPECT_THROW(entry.make(entry, {.model = &model}), InputError) << part;
     }
   }
@@ -80,10 +79,10 @@ TEST(DecisionEntries, HaveTheServoLoadIfTheirFitDoes) {
   const RunSignals run = with_targets(synthetic_run(1'000'000, 1500));
   for (const EstimatorEntry& entry :
        {decision_network_entry(), evidence_curves_entry(), quiet_evidence_curves_entry()}) {
-    const FittedModel with = entry.fit(entry, {.whole = {&run}, .servo_load = true});
-    const FittedModel without = entry.fit(entry, {.whole = {&run}});
-    const auto has = [](const FittedModel& model, const char* name) {
-      return model.parameters->parameters.contains(name);
+    const Model with = entry.fit(entry, {.whole = {&run}, .servo_load = true});
+    const Model without = entry.fit(entry, {.whole = {&run}});
+    const auto has = [](const Model& model, const char* name) {
+      return model.arrays.contains(name);
     };
     EXPECT_EQ(has(with, "servo_weight"), entry.name == "decision_network");
     EXPECT_EQ(has(with, "curves_servo_load"), entry.name != "decision_network");
@@ -93,8 +92,7 @@ TEST(DecisionEntries, HaveTheServoLoadIfTheirFitDoes) {
     EXPECT_FALSE(has(without, "without_targets_bias"));
     // A fit without the channel does not depend on targets.
     const RunSignals plain = synthetic_run(1'000'000, 1500);
-    EXPECT_EQ(entry.fit(entry, {.whole = {&plain}}).parameters->parameters,
-              without.parameters->parameters);
+    EXPECT_EQ(entry.fit(entry, {.whole = {&plain}}).arrays, without.arrays);
 
     const RunSignals other = with_targets(synthetic_run(3, 1500));
     const auto estimator = entry.make(entry, {.model = &with});

@@ -3,8 +3,10 @@
 #include "core/error.hpp"
 #include "estimator/evidence/filter.hpp"
 #include "estimator/models/make_estimator.hpp"
-#include "experiments/estimators/decision.hpp"
+#include "estimator/models/parameters.hpp"
+#include "experiments/estimators/entries.hpp"
 #include "experiments/signals/run_signals.hpp"
+#include "recordings/model_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -16,13 +18,13 @@ TEST(EvidenceEntries, KeepTheirCurvesToTheBitInAFile) {
   const RunSignals run = synthetic_run(1'000'000, 1500);
   const RunSignals other = synthetic_run(3, 1500);
   for (const EstimatorEntry& entry : {evidence_curves_entry(), quiet_evidence_curves_entry()}) {
-    const FittedModel fitted = entry.fit(entry, {.whole = {&run}});
-    write_fitted_model(fitted, folder.path() / "m.npz");
-    const FittedModel read = read_fitted_model(ModelKind::parameters, folder.path() / "m.npz");
-    EXPECT_EQ(read.parameters->parameters, fitted.parameters->parameters);
-    EXPECT_EQ(read.parameters->estimator, entry.name);
+    const Model fitted = entry.fit(entry, {.whole = {&run}});
+    recordings::save_model(fitted, folder / "m.npz");
+    const Model read = load_model(folder / "m.npz");
+    EXPECT_EQ(read.arrays, fitted.arrays);
+    EXPECT_EQ(estimator_of(read), entry.name);
     EXPECT_EQ(evidence_in(read), evidence_in(fitted));
-    const auto p_contact_of = [&](const FittedModel& model) {
+    const auto p_contact_of = [&](const Model& model) {
       return predict(*entry.make(entry, {.model = &model}), other, noise_run(other, {}), {})[1]
           .p_contact;
     };
@@ -48,26 +50,25 @@ TEST(EvidenceEntries, AreFittedWithTheChosenSmoothness) {
 TEST(EvidenceEntries, RefuseIncompleteModelsAndOtherFeatures) {
   const EstimatorEntry entry = evidence_curves_entry();
   const RunSignals run = synthetic_run(1'000'000, 1500);
-  const recordings::ParameterModelFile good = *entry.fit(entry, {.whole = {&run}}).parameters;
+  const Model good = entry.fit(entry, {.whole = {&run}});
   const auto refused = [&](const auto& spoil) {
-    recordings::ParameterModelFile file = good;
-    spoil(file.parameters);
-    const FittedModel model = {
-        .parameters = std::make_shared<recordings::ParameterModelFile>(std::move(file))};
+    Parameters parameters = parameters_of(good.arrays);
+    spoil(parameters);
+    const Model model = {.arrays = arrays_of(parameters, entry.name)};
     EXPECT_THROW(entry.make(entry, {.model = &model}), InputError);
   };
-  refused([](recordings::Parameters& all) { all.erase("curves_load"); });
-  refused([](recordings::Parameters& all) { all.at("curves_torque_noise").pop_back(); });
-  refused([](recordings::Parameters& all) { all.at("bias")[0] = HUGE_VAL; });
-  refused([](recordings::Parameters& all) { all.at("senses")[0] -= 1.0; });
-  refused([](recordings::Parameters& all) { all.erase("senses"); });
+  refused([](Parameters& all) { all.erase("curves_load"); });
+  refused([](Parameters& all) { all.at("curves_torque_noise").pop_back(); });
+  refused([](Parameters& all) { all.at("bias")[0] = HUGE_VAL; });
+  refused([](Parameters& all) { all.at("senses")[0] -= 1.0; });
+  refused([](Parameters& all) { all.erase("senses"); });
 }
 
 TEST(EvidenceEntries, DecideByTheThresholdsInTheirMetadata) {
   const EstimatorEntry entry = evidence_curves_entry();
   const RunSignals run = synthetic_run(1'000'000, 1500);
   const RunSignals other = synthetic_run(3, 3000);
-  FittedModel model = entry.fit(entry, {.whole = {&run}});
+  Model model = entry.fit(entry, {.whole = {&run}});
   const auto decisions_with = [&](const char* key, const char* value) {
     model.metadata = ModelMetadata{.estimator = entry.name,
                                    .sample_rate = 1000.0,
@@ -93,7 +94,7 @@ TEST(EvidenceEntries, ShareAFitAndDifferInTheirOperatingPoint) {
   const RunSignals other = synthetic_run(3, 3000);
   // A model of either entry, with its metadata or without any, runs at the point of the entry.
   for (const EstimatorEntry& fitted : {balanced, quiet}) {
-    FittedModel model = fitted.fit(fitted, {.whole = {&run}});
+    Model model = fitted.fit(fitted, {.whole = {&run}});
     for (const bool has_metadata : {false, true}) {
       if (has_metadata) {
         model.metadata = ModelMetadata{.estimator = fitted.name,
@@ -116,8 +117,7 @@ TEST(EvidenceEntries, ShareAFitAndDifferInTheirOperatingPoint) {
 
 TEST(EvidenceIn, IsEmptyForOtherModels) {
   EXPECT_FALSE(evidence_in({}));
-  EXPECT_FALSE(evidence_in({.parameters = std::make_shared<recordings::ParameterModelFile>(
-                                recordings::ParameterModelFile{"force_kinematics", {}, {}})}));
+  EXPECT_FALSE(evidence_in({.arrays = arrays_of(Parameters{}, "force_kinematics")}));
 }
 
 }  // namespace

@@ -9,10 +9,11 @@
 #include "core/files.hpp"
 #include "core/yaml.hpp"
 #include "estimator/models/make_estimator.hpp"
+#include "estimator/npz/load_estimator.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/submissions/export.hpp"
-#include "onboard/load_estimator.hpp"
+#include "recordings/model_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -44,8 +45,8 @@ TEST(LoadedEstimator, EqualsItsEntryToTheBit) {
   for (const std::string& name : installed_estimators()) {
     const EstimatorEntry& entry = any_estimator_entry(name);
     const std::filesystem::path file = folder / (name + ".npz");
-    write_fitted_model(models.at("mujoco").at(name), file);
-    const FittedModel read = read_fitted_model(*entry.fits(), file);
+    recordings::save_model(models.at("mujoco").at(name), file);
+    const Model read = load_model(file);
     EXPECT_EQ(p_contact_of(*load_estimator(file), run),
               p_contact_of(*entry.make(entry, {.model = &read}), run))
         << name;

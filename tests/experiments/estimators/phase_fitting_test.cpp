@@ -1,10 +1,9 @@
-#include "experiments/estimators/phase_fitting.hpp"
-
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "experiments/estimators/fits.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 
 namespace touchdown::experiments {
@@ -49,11 +48,11 @@ TEST(PhaseFitting, RefusesRunsOfReservedSeeds) {
 TEST(PhaseFitting, SkipsTheBeginningAndRecordsItsProvenance) {
   const RunSignals run = run_of_seed(3);
   const std::vector<const RunSignals*> runs = {&run};
-  const auto& [model, provenance] = fit_phases(runs, coarse(), 0.5);
-  EXPECT_NEAR(model.seconds[index(Phase::flight)], 0.1, 1e-9);
-  EXPECT_EQ(provenance.at("seconds"), "0.500");
-  EXPECT_EQ(provenance.at("seed:run"), "3:7");
-  EXPECT_EQ(provenance.at("simulators"), "mujoco");
+  const Model model = fit_phases(runs, coarse(), 0.5);
+  EXPECT_NEAR(model.phase->seconds[index(Phase::flight)], 0.1, 1e-9);
+  EXPECT_EQ(text_of_array(model.arrays.at("provenance"), "provenance"),
+            "estimator: phase\nscenarios: stairs\nseconds: 0.500\nseed:run: 3:7\n"
+            "simulators: mujoco\n");
 }
 
 TEST(PhaseFitting, DetectsTethers) {

@@ -20,7 +20,6 @@ TEST(Registry, HasUniqueNamesAndCompleteEntries) {
     EXPECT_FALSE(entry.summary.empty()) << entry.name;
     EXPECT_FALSE(entry.reason.empty()) << entry.name;
     EXPECT_NE(entry.make, nullptr) << entry.name;
-    EXPECT_EQ(entry.fits().has_value(), entry.fit != nullptr) << entry.name;
     EXPECT_EQ(&estimator_entry(entry.name), &entry);
   }
   EXPECT_TRUE(names.contains(std::string(always_contact_name)));

@@ -67,7 +67,7 @@ std::vector<double> beliefs(const EstimatorEntry& plain,
                             const RunSignals& run) {
   const EstimatorEntry entry = with_hyperparameters(plain, hyperparameters);
   const FitRuns runs{{&fitted}};
-  FittedModel model;
+  Model model;
   if (entry.fits()) {
     model = fit_model(entry, runs);
     model.metadata = new_metadata(entry.name, runs, hyperparameters);

@@ -4,7 +4,6 @@
 #include "core/error.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
-#include "experiments/fitting/make_estimator.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/studies/experiment_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"

@@ -1,9 +1,9 @@
-#include "experiments/fitting/refits.hpp"
-
 #include <map>
 #include <set>
 
 #include <gtest/gtest.h>
+
+#include "experiments/fitting/fitting.hpp"
 
 namespace touchdown::experiments {
 namespace {

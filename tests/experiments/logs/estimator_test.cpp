@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "experiments/estimators/decision.hpp"
+#include "experiments/estimators/entries.hpp"
 #include "experiments/estimators/registry.hpp"
 
 namespace touchdown::experiments {

@@ -14,7 +14,7 @@ namespace {
 std::atomic<bool> stop = false;
 
 /// A fit that is asked to stop while it computes, and would not end otherwise.
-FittedModel endless(const EstimatorEntry& /*entry*/, const FitRuns& runs) {
+Model endless(const EstimatorEntry& /*entry*/, const FitRuns& runs) {
   stop = true;
   for (;;) runs.before_density();
 }

@@ -121,7 +121,7 @@ TEST(DropDetail, SpectraArePlainTransformsOfTheFiltersInput) {
   EXPECT_EQ(detail.bin_width, 1000.0 / 128.0);
   const noise::NoiseKey key = noise_key(study.experiment, 1, 3);
   const NoisyDrop& drop = detail.noisy[1];
-  BayesFilter filter(*study.models.at("mujoco").at("robust").measurement);
+  BayesFilter filter(*study.models.at("mujoco").at("robust").grid);
   const NoiseRun noise = noise_run(run, key);
   for (std::size_t k = 0; k <= 2608 + 450; ++k) {
     filter.update(noisy(run, noise, drop.noise.levels(), k));
@@ -282,8 +282,7 @@ TEST(DropPosterior, FollowsFromThePreviousPosteriorAndTheStepsEvidence) {
   const RunSignals run = synthetic_run(3);
   const DropPosterior posterior = study.posterior(run);
   const PhaseModel& model =
-      setup_of(study.experiment, {"mujoco", "mujoco", "phase"}, study.models, run)
-          .model->phase->model;
+      *setup_of(study.experiment, {"mujoco", "mujoco", "phase"}, study.models, run).model->phase;
   for (std::size_t k = 1; k < posterior.time.size(); ++k) {
     PhaseProbabilities expected{};
     double sum = 0.0;

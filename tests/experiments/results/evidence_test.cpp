@@ -7,20 +7,20 @@
 
 #include "estimator/evidence/curves.hpp"
 #include "experiments/results/result_files.hpp"
+#include "estimator/models/parameters.hpp"
 #include "tests/estimator/evidence/random_curves.hpp"
 
 namespace touchdown::experiments {
 namespace {
 
-FittedModel model_of(const EvidenceCurveSets& model) {
-  return {.parameters = std::make_shared<recordings::ParameterModelFile>(
-              recordings::ParameterModelFile{"evidence_curves", parameters_of(model), {}})};
+FittedModel fitted_model_of(const EvidenceCurveSets& model) {
+  return {{.arrays = arrays_of(parameters_of(model), "evidence_curves")}};
 }
 
 TEST(EvidenceTable, HasEveryCurveOverTheRangeOfItsRows) {
   EvidenceModel model = test::random_curves(1);
   model.seen[3] = {-0.1F, 2.0F};
-  const Table table = evidence_table({{"mujoco", {{"evidence_curves", model_of(model)}}}});
+  const Table table = evidence_table({{"mujoco", {{"evidence_curves", fitted_model_of(model)}}}});
   std::size_t rows = 0;
   for (const auto& row : table.rows) {
     if (cell(table, row, "channel") != "load" || cell(table, row, "scale_ms") != "8") continue;
@@ -46,7 +46,7 @@ TEST(EvidenceTable, NamesTheSetOfCurves) {
   const EvidenceModel without = test::random_curves(3);
   for (const EvidenceCurveSets& sets :
        {EvidenceCurveSets(with, without), EvidenceCurveSets(with), EvidenceCurveSets(without)}) {
-    const Table table = evidence_table({{"bullet", {{"evidence_curves_quiet", model_of(sets)}}}});
+    const Table table = evidence_table({{"bullet", {{"evidence_curves_quiet", fitted_model_of(sets)}}}});
     std::map<std::string, std::set<std::string>> channels;
     for (const auto& row : table.rows) {
       channels[cell(table, row, "targets")].insert(cell(table, row, "channel"));

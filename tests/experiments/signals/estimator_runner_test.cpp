@@ -10,7 +10,6 @@
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
-#include "experiments/fitting/make_estimator.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/plan/request.hpp"
 #include "experiments/studies/experiment_file.hpp"

@@ -2,10 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "experiments/estimators/measurement_fitting.hpp"
 #include "experiments/evaluation/tasks.hpp"
+#include "experiments/estimators/fits.hpp"
 #include "experiments/fitting/fitting.hpp"
-#include "experiments/fitting/make_estimator.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 
 namespace touchdown::experiments {
@@ -107,7 +106,7 @@ TEST(MissingRecords, RepeatThePreviousValuesInPhaseFits) {
   gaps.signals[1200].leg[0].wheel.torque = nan;
   repeats.signals[1200].leg[0].wheel.torque = repeats.signals[1199].leg[0].wheel.torque;
   const auto model = [&](const RunSignals& run) {
-    return fit_models(experiment, {&run}).at("mujoco").at("phase").phase->model;
+    return *fit_models(experiment, {&run}).at("mujoco").at("phase").phase;
   };
   const PhaseModel with = model(gaps);
   const PhaseModel expected = model(repeats);

@@ -121,7 +121,7 @@ std::vector<std::string> from_paper_to_robust() {
 }
 
 std::array<std::vector<double>, 2> p_contact_of(const EstimatorEntry& entry,
-                                                const FittedModel& model, const RunSignals& run,
+                                                const Model& model, const RunSignals& run,
                                                 const noise::SensorNoise& levels) {
   const auto estimator = entry.make(entry, {.model = &model});
   const NoiseRun noise = noise_run(run, {.seed = 5, .run = 1});

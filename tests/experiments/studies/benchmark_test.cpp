@@ -104,7 +104,7 @@ TEST_F(Benchmark, FitsToEveryRobotAndItsSensors) {
     ASSERT_TRUE(result->models.contains(std::string("mujoco") + fit)) << fit;
   }
   const auto density = [&](const std::string& fit) {
-    return result->models.at("mujoco" + fit).at("measurement_only").measurement->grids().contact;
+    return result->models.at("mujoco" + fit).at("measurement_only").grid->grids().contact;
   };
   EXPECT_NE(density(""), density("_upkie_harsh"));
   EXPECT_NE(density("_upkie_harsh"), density("_upkie_actuated_harsh"));

@@ -16,8 +16,12 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/experiment_context.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "recordings/models/parameter_model.hpp"
 #include "tests/experiments/studies/study_test.hpp"
+#include "experiments/run_directory/shard.hpp"
+#include "experiments/run_experiment.hpp"
+#include "experiments/studies/experiment_file.hpp"
+#include "tests/experiments/small_step_scene.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {
 namespace {
@@ -138,8 +142,7 @@ FittedModel model_by_servo_load() {
   for (std::size_t k = 0; k < evidence_knots; ++k) {
     model.servo_curve[3][k] = 4.0F * (static_cast<float>(k) - 22.0F);  // 0 nats at 12 N
   }
-  return {.parameters = std::make_shared<const recordings::ParameterModelFile>(
-              recordings::ParameterModelFile{"evidence_curves", parameters_of(model), {}})};
+  return {{.arrays = arrays_of(parameters_of(model), "evidence_curves")}};
 }
 
 TEST(ClosedLoop, ContactSourcesDecideAsInOfflineEvaluation) {

@@ -53,9 +53,9 @@ RunSignals run_with_gaps() {
 }
 
 /// Expects the numbers of a step in the documented order.
-void expect_step(const recordings::NpzArrays& arrays, std::size_t step, const Signals& signals) {
+void expect_step(const ModelArrays& arrays, std::size_t step, const Signals& signals) {
   const auto expect = [&](const char* name, std::size_t column, double value) {
-    const recordings::NpyArray& array = arrays.at(name);
+    const ModelArray& array = arrays.at(name);
     ASSERT_EQ(bits(array.data.at(step * array.columns() + column)), bits(value))
         << name << " at " << step;
   };
@@ -89,7 +89,7 @@ TEST(ExportedArrays, EqualTheInputsOfEstimatorsBitForBit) {
                                   .hip_torque = 0.9};
   RecordingEstimator estimator;
   static_cast<void>(predict(estimator, run, noise, levels));
-  const recordings::NpzArrays arrays = exported_arrays(run, noise, levels);
+  const ModelArrays arrays = exported_arrays(run, noise, levels);
   ASSERT_EQ(estimator.inputs.size(), run.steps() - 2);
   std::size_t next = 0;
   for (std::size_t k = 0; k < run.steps(); ++k) {
@@ -99,12 +99,12 @@ TEST(ExportedArrays, EqualTheInputsOfEstimatorsBitForBit) {
 
 TEST(ExportedArrays, OfFittedRunsAreWithoutNoise) {
   const RunSignals run = synthetic_run(1, 50);
-  const recordings::NpzArrays arrays = exported_arrays(run);
+  const ModelArrays arrays = exported_arrays(run);
   for (std::size_t k = 0; k < run.steps(); ++k) expect_step(arrays, k, run.signals[k]);
 }
 
 TEST(ExportedArrays, MarkStepsWithoutARecordAndGiveTheirTimes) {
-  const recordings::NpzArrays arrays = exported_arrays(run_with_gaps());
+  const ModelArrays arrays = exported_arrays(run_with_gaps());
   EXPECT_EQ(arrays.at("has_record").data[99], 1.0);
   EXPECT_EQ(arrays.at("has_record").data[100], 0.0);
   EXPECT_DOUBLE_EQ(arrays.at("time").data[100], 0.1);
@@ -113,7 +113,7 @@ TEST(ExportedArrays, MarkStepsWithoutARecordAndGiveTheirTimes) {
 
 TEST(ExportedArrays, HaveALabelForEachWheel) {
   const RunSignals run = synthetic_run(1, 1000);
-  const recordings::NpyArray contact = exported_arrays(run).at("contact");
+  const ModelArray contact = exported_arrays(run).at("contact");
   ASSERT_EQ(contact.shape, (std::vector<std::size_t>{1000, 2}));
   EXPECT_EQ(contact.data[2 * 603], 0.0);      // the left wheel is in the air first
   EXPECT_EQ(contact.data[2 * 603 + 1], 1.0);  // the right one lags
@@ -123,10 +123,9 @@ TEST(ExportedArrays, HaveALabelForEachWheel) {
 TEST(ExportedArrays, AreNoLargerThanTheirBound) {
   const RunSignals run = run_with_gaps();
   const NoiseRun noise = noise_run(run, {.seed = 5, .run = 3});
-  const recordings::NpzArrays arrays = exported_arrays(run, noise, {.acceleration = 1.0});
-  EXPECT_LE(
-      static_cast<double>(recordings::to_npz(arrays, "a.npz", recordings::Deflated::all).size()),
-      bytes_of_exported(static_cast<double>(run.steps())));
+  const ModelArrays arrays = exported_arrays(run, noise, {.acceleration = 1.0});
+  EXPECT_LE(static_cast<double>(to_npz(arrays, "a.npz", Deflated::all).size()),
+            bytes_of_exported(static_cast<double>(run.steps())));
 }
 
 TEST(Sha256, IsThatOfTheStandardsExamples) {

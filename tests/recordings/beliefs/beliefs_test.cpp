@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "recordings/beliefs/file.hpp"
 #include "recordings/log/packing.hpp"
-#include "recordings/models/npz.hpp"
+#include "recordings/model_file.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::recordings {
@@ -54,7 +54,7 @@ TEST(Beliefs, AreTheSameInAllFormats) {
       "a.csv",
       "p_right, time ,contact_right,p_left,contact_left\n1,0,1,.25,True\n0,1e-3,true,1e-9,0\n")));
   expect_two_steps(read_beliefs(folder.write("a.mpack", dictionaries(two_steps))));
-  NpzArrays arrays;
+  ModelArrays arrays;
   for (const Step& step : two_steps) {
     for (const auto& [name, value] : step) {
       arrays[name].shape = {2};
@@ -115,12 +115,12 @@ TEST(Beliefs, ThatAreWrongAreRefusedByLineAndColumn) {
 
 TEST(Beliefs, InArraysThatAreWrongAreRefusedByNameAndIndex) {
   const ScratchFolder folder;
-  const auto complaint = [&](const NpzArrays& arrays, const std::string& expected) {
+  const auto complaint = [&](const ModelArrays& arrays, const std::string& expected) {
     write_npz(arrays, folder / "a.npz");
     EXPECT_THAT([&] { read_beliefs(folder / "a.npz"); },
                 ThrowsMessage<InputError>(HasSubstr(expected)));
   };
-  const NpyArray two{{2}, {0.0, 1.0}};
+  const ModelArray two{{2}, {0.0, 1.0}};
   complaint({{"time", two}, {"p_left", two}, {"p_rigth", two}},
             "a.npz: unknown name 'p_rigth' (did you mean 'p_right'?)");
   complaint({{"time", two}, {"p_left", two}, {"p_right", {{3}, {0, 1, 1}}}},

@@ -13,7 +13,7 @@
 
 #include "core/error.hpp"
 #include "recordings/log/reader.hpp"
-#include "recordings/models/npz.hpp"
+#include "recordings/model_file.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::recordings {
@@ -320,13 +320,13 @@ TEST_F(Conversion, MappingThatIsWrongIsNamedByItsPlaceWithTheNearestName) {
 }
 
 /// A log of four rows as arrays.
-NpzArrays sample_arrays() {
+ModelArrays sample_arrays() {
   const auto array = [](std::size_t columns) {
-    NpyArray made{{4, columns}, {}};
+    ModelArray made{{4, columns}, {}};
     for (std::size_t i = 0; i < 4 * columns; ++i) made.data.push_back(static_cast<double>(i));
     return made;
   };
-  NpzArrays arrays = {{"q", array(7)}, {"v", array(6)}, {"m", array(6)}, {"o", array(4)}};
+  ModelArrays arrays = {{"q", array(7)}, {"v", array(6)}, {"m", array(6)}, {"o", array(4)}};
   arrays["g"] = arrays["a"] = array(3);
   arrays["t"] = {{4}, {0.0, 0.1, 0.2, 0.3}};
   arrays["left"] = arrays["right"] = array(1);
@@ -359,12 +359,12 @@ TEST_F(Conversion, ArraysAreReadByTheirColumns) {
 }
 
 TEST_F(Conversion, ArraysThatDoNotFitAreNamed) {
-  const auto expect = [&](const NpzArrays& arrays, const std::string& mapping,
+  const auto expect = [&](const ModelArrays& arrays, const std::string& mapping,
                           const char* message) {
     write_npz(arrays, folder_ / "log.npz");
     EXPECT_THAT(complaint_about(folder_ / "log.npz", mapping), HasSubstr(message)) << mapping;
   };
-  NpzArrays arrays = sample_arrays();
+  ModelArrays arrays = sample_arrays();
   arrays["v"].shape = {3, 6};
   arrays["v"].data.resize(18);
   expect(arrays, array_mapping, "log.npz: v has 3 rows, and t has 4");
@@ -664,7 +664,7 @@ TEST_F(Conversion, LogWithoutOrientationNamesWhatWouldDo) {
 }
 
 TEST_F(Conversion, ArrayWithAColumnForEachWheelHoldsBothLabels) {
-  NpzArrays arrays = sample_arrays();
+  ModelArrays arrays = sample_arrays();
   arrays["contact"] = {{4, 2}, {1, 1, 0, 1, 0, 1, 1, 1}};
   write_npz(arrays, folder_ / "log.npz");
   for (const char* contact :

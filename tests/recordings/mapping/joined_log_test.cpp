@@ -20,7 +20,7 @@
 #include "recordings/bags/sensor_messages.hpp"
 #include "recordings/log/reader.hpp"
 #include "recordings/mapping/conversion.hpp"
-#include "recordings/models/npz.hpp"
+#include "recordings/model_file.hpp"
 #include "tests/bag_writer.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -567,9 +567,9 @@ TEST_F(JoinedLog, NamesThatAFileLacksHaveARemedy) {
 
 TEST_F(JoinedLog, ArraysAreJoinedToo) {
   const std::size_t n = 500;
-  NpzArrays joints;
-  NpzArrays imu;
-  const auto fill = [](NpyArray& array, std::vector<std::size_t> shape, const auto& value) {
+  ModelArrays joints;
+  ModelArrays imu;
+  const auto fill = [](ModelArray& array, std::vector<std::size_t> shape, const auto& value) {
     array.shape = std::move(shape);
     const std::size_t width = array.shape.size() == 2 ? array.shape[1] : 1;
     for (std::size_t k = 0; k < array.shape[0] * width; ++k) {

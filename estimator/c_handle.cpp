@@ -1,0 +1,135 @@
+#include "estimator/c_handle.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "estimator/numerics/number_text.hpp"
+
+namespace touchdown {
+
+namespace {
+
+static_assert(static_cast<unsigned>(RecordFault::clock_rate) == TOUCHDOWN_CLOCK_RATE &&
+              static_cast<unsigned>(RecordFault::upside_down) == TOUCHDOWN_UPSIDE_DOWN &&
+              static_cast<int>(SignalStatus::frozen) == TOUCHDOWN_FROZEN &&
+              static_cast<int>(SignalStatus::degraded) == TOUCHDOWN_DEGRADED);
+
+Eigen::Vector3d vector(const double (&values)[3]) noexcept {  // NOLINT: C's arrays
+  return {values[0], values[1], values[2]};
+}
+
+touchdown_belief in_c(const Belief& belief, RecordFaults faults) noexcept {
+  return {{belief.wheel[0].p_contact, belief.wheel[1].p_contact},
+          {belief.wheel[0].contact ? 1 : 0, belief.wheel[1].contact ? 1 : 0},
+          belief.p_any_wheel,
+          belief.p_both_wheels,
+          static_cast<int>(belief.status),
+          faults.bits,
+          static_cast<int>(belief.unusable)};
+}
+
+std::string described(const ModelMetadata& metadata) {
+  return metadata.estimator + ", " + text_of(metadata.sample_rate) + " Hz, robot " +
+         (metadata.robot.empty() ? "unknown" : metadata.robot) + ", fingerprint " +
+         (metadata.fingerprint.empty() ? "unknown" : metadata.fingerprint);
+}
+
+}  // namespace
+
+touchdown_estimator* new_handle(const Model& model, const ModelUse& use) {
+  const ModelMetadata metadata = metadata_for(model, use);
+  const double rate = use.sample_rate > 0.0 ? use.sample_rate : metadata.sample_rate;
+  auto handle = std::make_unique<touchdown_estimator>(touchdown_estimator{
+      described(metadata), make_estimator(model, use), SignalAssembler({.sample_rate = rate})});
+  return handle.release();
+}
+
+touchdown_estimator* new_handle(const ModelArrays& arrays, const ModelUse& use) {
+  return new_handle(model_of(arrays), use);
+}
+
+ModelUse use_of(const touchdown_use* use) {
+  if (use == nullptr) return {};
+  return {.estimator = use->estimator == nullptr ? "" : use->estimator,
+          .sample_rate = use->sample_rate,
+          .robot = use->robot == nullptr ? "" : use->robot};
+}
+
+void write_error(const char* message, char* error, std::size_t error_size) noexcept {
+  if (error == nullptr || error_size == 0) return;
+  const std::size_t size = std::min(std::strlen(message), error_size - 1);
+  std::memcpy(error, message, size);
+  error[size] = '\0';
+}
+
+}  // namespace touchdown
+
+using namespace touchdown;  // NOLINT: C functions cannot be in a namespace
+
+touchdown_record touchdown_empty_record(void) {
+  constexpr double n = not_reported;
+  constexpr touchdown_joint joint = {n, n, n};
+  return {
+      n,  {joint, joint, joint, joint, joint, joint}, {n, n, n, n}, {n, n, n}, {n, n, n}, {n, n, n},
+      0.0};
+}
+
+touchdown_belief touchdown_update(touchdown_estimator* estimator, const touchdown_record* record) {
+  return touchdown_update_with_targets(estimator, record, nullptr);
+}
+
+touchdown_belief touchdown_update_with_targets(touchdown_estimator* estimator,
+                                               const touchdown_record* record,
+                                               const touchdown_target* targets) {
+  if (estimator == nullptr || record == nullptr) {
+    Belief none;
+    none.status = SignalStatus::invalid;
+    return in_c(none, {});
+  }
+  std::array<JointSignals, 6> joints;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const touchdown_joint& joint = record->joint[i];
+    joints[i] = {joint.position, joint.velocity, joint.torque};
+  }
+  std::array<JointTarget, 6> commands;
+  for (std::size_t i = 0; targets != nullptr && i < commands.size(); ++i) {
+    const touchdown_target& target = targets[i];
+    commands[i] = {target.position, target.velocity, target.feedforward_torque, target.kp,
+                   target.kd};
+  }
+  const double(&q)[4] = record->orientation;  // NOLINT: C's arrays
+  const Signals& signals =
+      estimator->assembler.assemble({.time = record->time,
+                                     .joints = joints,
+                                     .orientation = {q[0], q[1], q[2], q[3]},
+                                     .angular_velocity = vector(record->angular_velocity),
+                                     .linear_acceleration = vector(record->linear_acceleration),
+                                     .proper_acceleration = vector(record->proper_acceleration),
+                                     .ground_velocity_command = record->ground_velocity_command,
+                                     .targets = commands});
+  return in_c(estimator->estimator->update(signals), estimator->assembler.faults());
+}
+
+void touchdown_reset(touchdown_estimator* estimator) {
+  if (estimator == nullptr) return;
+  estimator->estimator->reset();
+  estimator->assembler.reset();
+}
+
+void touchdown_destroy(touchdown_estimator* estimator) { delete estimator; }
+
+const char* touchdown_model_text(const touchdown_estimator* estimator) {
+  return estimator == nullptr ? "" : estimator->text.c_str();
+}
+
+const char* touchdown_status_text(int status) {
+  return to_text(static_cast<SignalStatus>(status)).data();  // a literal, so zero-terminated
+}
+
+const char* touchdown_signal_text(int signal) {
+  const std::string_view text = to_text(static_cast<SignalIndex>(signal));
+  return text.empty() ? "" : text.data();
+}
+
+const char* touchdown_version() { return TOUCHDOWN_VERSION; }

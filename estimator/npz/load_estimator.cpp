@@ -1,0 +1,63 @@
+#include "estimator/npz/load_estimator.hpp"
+
+#include <algorithm>
+
+#include "estimator/models/parameters.hpp"
+#include "estimator/npz/npz.hpp"
+
+namespace touchdown {
+
+namespace {
+
+bool is_of_grid(std::string_view name) {
+  return name == "wheel_torque" || name == "knee_torque" || name == "contact_likelihood" ||
+         name == "no_contact_likelihood";
+}
+
+bool is_of_phase_model(std::string_view name) {
+  return name == "sample_rate" || name == "seconds" || name == "transition" ||
+         name == provenance_array || name.starts_with("torque_") ||
+         name.starts_with("acceleration_");
+}
+
+/// Which arrays of a file belong to the model: all arrays of a parameter model or a network; of a
+/// grid or a phase model only its own, because the file may hold others.
+NpzNeeds model_needs(const std::filesystem::path& path) {
+  const std::vector<std::string> names = npz_names(path);
+  const auto has = [&](std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  if (has(estimator_array) || has("gru_input_weight")) return any_array;
+  bool (*const belongs)(std::string_view) = has("transition") ? is_of_phase_model : is_of_grid;
+  return [belongs](std::string_view name) {
+    return name == metadata_array || belongs(name) ? any_array(name) : 0;
+  };
+}
+
+/// What `make` makes of a file's model. The errors of `make` get the file's name in front.
+template <typename Make>
+auto made_of_file(const std::filesystem::path& path, const Make& make) {
+  ModelArrays arrays = read_npz(path, model_needs(path));
+  try {
+    return make(model_of(std::move(arrays)));
+  } catch (const InputError& error) {
+    throw InputError(path.string() + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+Model load_model(const std::filesystem::path& path) {
+  return made_of_file(path, [](Model model) { return model; });
+}
+
+std::unique_ptr<ContactEstimator> load_estimator(const std::filesystem::path& path,
+                                                 const ModelUse& use) {
+  return made_of_file(path, [&](const Model& model) { return make_estimator(model, use); });
+}
+
+ModelMetadata load_metadata(const std::filesystem::path& path, const ModelUse& use) {
+  return made_of_file(path, [&](const Model& model) { return metadata_for(model, use); });
+}
+
+}  // namespace touchdown

@@ -1,0 +1,192 @@
+#include "estimator/npz/npz.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <span>
+#include <system_error>
+#include <zip.h>
+
+#include "core/error.hpp"
+
+namespace touchdown {
+
+namespace {
+
+/// 1 GB of numbers: far more than any model has.
+constexpr std::size_t most_numbers = std::size_t{1} << 27U;
+constexpr std::string_view extension = ".npy";
+
+struct DiscardZip {
+  void operator()(zip_t* archive) const { zip_discard(archive); }
+};
+using Zip = std::unique_ptr<zip_t, DiscardZip>;
+
+struct CloseMember {
+  void operator()(zip_file_t* member) const { zip_fclose(member); }
+};
+using Member = std::unique_ptr<zip_file_t, CloseMember>;
+
+Zip open_zip(const std::filesystem::path& path, int flags) {
+  int code = 0;
+  errno = 0;
+  Zip archive(zip_open(path.c_str(), flags, &code));
+  if (archive) return archive;
+  if (code == ZIP_ER_MEMORY) throw std::bad_alloc();
+  if (code == ZIP_ER_OPEN && (errno == EMFILE || errno == ENFILE)) {
+    throw Error(path.string() + ": cannot be opened: " + std::strerror(errno));
+  }
+  zip_error_t error;
+  zip_error_init_with_code(&error, code);
+  const std::string reason = zip_error_strerror(&error);
+  zip_error_fini(&error);
+  throw InputError(path.string() + ": is not a readable .npz file: " + reason);
+}
+
+ModelArray read_member(zip_t& archive, zip_uint64_t index, const std::string& where,
+                       std::size_t most) {
+  zip_stat_t status;
+  if (zip_stat_index(&archive, index, 0, &status) != 0 || (status.valid & ZIP_STAT_SIZE) == 0) {
+    throw InputError(where + ": has no sensible size");
+  }
+  const Member member(zip_fopen_index(&archive, index, 0));
+  if (!member) throw InputError(where + ": " + zip_strerror(&archive));
+  const NpyBytes bytes = [&](std::span<char> buffer) {
+    const zip_int64_t size = zip_fread(member.get(), buffer.data(), buffer.size());
+    if (size < 0) throw InputError(where + ": " + zip_file_strerror(member.get()));
+    return static_cast<std::size_t>(size);
+  };
+  ModelArray array = read_npy(bytes, status.size, where, most);
+  // libzip compares the checksum at the end of a member.
+  std::array<char, 1> rest{};
+  if (bytes(rest) != 0) throw InputError(where + ": is longer than its header states");
+  return array;
+}
+
+/// Calls `visit(index, name)` for every array of the file.
+template <typename Visit>
+void for_each_array(zip_t& archive, const std::filesystem::path& path, const Visit& visit) {
+  bool has_arrays = false;
+  const zip_int64_t count = zip_get_num_entries(&archive, 0);
+  for (zip_int64_t i = 0; i < count; ++i) {
+    const auto index = static_cast<zip_uint64_t>(i);
+    const char* raw_name = zip_get_name(&archive, index, 0);
+    std::string name = raw_name == nullptr ? "" : raw_name;
+    if (!name.ends_with(extension)) continue;
+    name.resize(name.size() - extension.size());
+    has_arrays = true;
+    visit(index, name);
+  }
+  if (!has_arrays) throw InputError(path.string() + ": holds no arrays");
+}
+
+Zip open_npz(const std::filesystem::path& path) {
+  using Type = std::filesystem::file_type;
+  std::error_code error;
+  const Type type = std::filesystem::status(path, error).type();
+  if (type == Type::directory) throw InputError(path.string() + ": is a folder");
+  if (type == Type::not_found) throw InputError(path.string() + ": no such file");
+  if (type == Type::none) {  // a folder without permission, a loop of links, too long a name
+    throw InputError(path.string() + ": cannot be opened: " + error.message());
+  }
+  if (type != Type::regular) throw InputError(path.string() + ": is not a regular file");
+  return open_zip(path, ZIP_RDONLY | ZIP_CHECKCONS);
+}
+
+struct FreeSource {
+  void operator()(zip_source_t* source) const { zip_source_free(source); }
+};
+using Source = std::unique_ptr<zip_source_t, FreeSource>;
+
+/// The bytes of an archive that was written to a source.
+std::string content_of(zip_source_t& source) {
+  zip_stat_t status;
+  if (zip_source_stat(&source, &status) != 0 || (status.valid & ZIP_STAT_SIZE) == 0 ||
+      zip_source_open(&source) != 0) {
+    throw std::bad_alloc();
+  }
+  std::string content(status.size, '\0');
+  const zip_int64_t size = zip_source_read(&source, content.data(), content.size());
+  zip_source_close(&source);
+  if (size != static_cast<zip_int64_t>(content.size())) throw std::bad_alloc();
+  return content;
+}
+
+[[noreturn]] void complain(zip_t& archive, const std::string& where, const char* what) {
+  if (zip_error_code_zip(zip_get_error(&archive)) == ZIP_ER_MEMORY) throw std::bad_alloc();
+  throw Error(where + ": " + what + ": " + zip_strerror(&archive));
+}
+
+void add_member(zip_t& archive, const std::string& name, const std::string& bytes,
+                Deflated deflated) {
+  zip_source_t* source = zip_source_buffer(&archive, bytes.data(), bytes.size(), 0);
+  const zip_int64_t added =
+      source == nullptr ? -1 : zip_file_add(&archive, name.c_str(), source, ZIP_FL_ENC_UTF_8);
+  if (added < 0) {
+    zip_source_free(source);
+    complain(archive, name, "cannot be added");
+  }
+  const auto index = static_cast<zip_uint64_t>(added);
+  // A fixed date: the same arrays must give the same bytes.
+  constexpr zip_uint16_t midnight = 0;
+  constexpr zip_uint16_t first_of_january_1980 = (1U << 5U) | 1U;
+  // The grids of a phase model take 40 MB, and a third of that deflated, at any level.
+  const bool is_deflated = deflated == Deflated::all || bytes.size() > 400'000;
+  if (zip_set_file_compression(&archive, index, is_deflated ? ZIP_CM_DEFLATE : ZIP_CM_STORE,
+                               is_deflated ? 1 : 0) != 0 ||
+      zip_file_set_dostime(&archive, index, midnight, first_of_january_1980, 0) != 0) {
+    complain(archive, name, "cannot be added");
+  }
+}
+
+}  // namespace
+
+std::size_t any_array(std::string_view /*name*/) { return most_numbers; }
+
+ModelArrays read_npz(const std::filesystem::path& path, const NpzNeeds& needs) {
+  const Zip archive = open_npz(path);
+  ModelArrays arrays;
+  std::size_t left = most_numbers;
+  for_each_array(*archive, path, [&](zip_uint64_t index, const std::string& name) {
+    const std::size_t needed = needs(name);
+    if (needed == 0) return;
+    const std::string where = path.string() + ": " + name;
+    ModelArray array = read_member(*archive, index, where, std::min(needed, left));
+    left -= array.data.size();
+    arrays[name] = std::move(array);
+  });
+  return arrays;
+}
+
+std::vector<std::string> npz_names(const std::filesystem::path& path) {
+  std::vector<std::string> names;
+  for_each_array(*open_npz(path), path,
+                 [&](zip_uint64_t /*index*/, const std::string& name) { names.push_back(name); });
+  return names;
+}
+
+// NOLINTNEXTLINE(performance-unnecessary-value-param): the loop empties the arrays
+std::string to_npz(ModelArrays arrays, const std::string& name, Deflated deflated) {
+  // In memory: otherwise libzip would make a temporary file of unknown name, which could be left
+  // behind.
+  const Source memory(zip_source_buffer_create(nullptr, 0, 0, nullptr));
+  if (!memory) throw std::bad_alloc();
+  std::vector<std::string> contents;  // libzip reads them when the archive is closed
+  contents.reserve(arrays.size());
+  Zip archive(zip_open_from_source(memory.get(), ZIP_CREATE | ZIP_TRUNCATE, nullptr));
+  if (!archive) throw std::bad_alloc();
+  zip_source_keep(memory.get());  // closing the archive releases its own reference
+  for (auto& [member, array] : arrays) {
+    contents.push_back(to_npy(array));
+    array = {};  // large models are in memory once
+    add_member(*archive, member + std::string(extension), contents.back(), deflated);
+  }
+  if (zip_close(archive.get()) != 0) complain(*archive, name, "cannot be written");
+  static_cast<void>(archive.release());
+  return content_of(*memory);
+}
+
+}  // namespace touchdown

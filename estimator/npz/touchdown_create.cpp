@@ -1,0 +1,23 @@
+// The only function of estimator/touchdown.h that reads a file.
+
+#include <string>
+
+#include "estimator/c_handle.hpp"
+#include "estimator/npz/load_estimator.hpp"
+
+touchdown_estimator* touchdown_create(const char* model_path, const touchdown_use* use, char* error,
+                                      size_t error_size) {
+  return touchdown::handle_or_error(
+      [&] {
+        if (model_path == nullptr) {
+          throw touchdown::InputError("touchdown_create: the model's path is missing");
+        }
+        const touchdown::Model model = touchdown::load_model(model_path);
+        try {
+          return touchdown::new_handle(model, touchdown::use_of(use));
+        } catch (const touchdown::InputError& caught) {
+          throw touchdown::InputError(std::string(model_path) + ": " + caught.what());
+        }
+      },
+      error, error_size);
+}
