@@ -7,7 +7,6 @@
 #include "core/program.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/fitting/fitting.hpp"
-#include "experiments/fitting/refits.hpp"
 #include "experiments/plan/training_data.hpp"
 #include "experiments/results/result_files.hpp"
 #include "experiments/stages.hpp"

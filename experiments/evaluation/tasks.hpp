@@ -12,7 +12,7 @@
 #include <tuple>
 #include <vector>
 
-#include "experiments/fitting/make_estimator.hpp"
+#include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/plan.hpp"
 #include "experiments/plan/rollouts.hpp"
 #include "experiments/run_directory/store.hpp"

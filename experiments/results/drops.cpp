@@ -10,9 +10,9 @@
 #include "estimator/bayes/transition_model.hpp"
 #include "estimator/phase/labels.hpp"
 #include "estimator/phase/prepared_model.hpp"
-#include "experiments/estimators/filters.hpp"
-#include "experiments/estimators/phase_fitting.hpp"
-#include "experiments/fitting/make_estimator.hpp"
+#include "experiments/estimators/entries.hpp"
+#include "experiments/estimators/fits.hpp"
+#include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/condition.hpp"
 
 namespace touchdown::experiments {

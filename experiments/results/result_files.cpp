@@ -18,7 +18,7 @@
 #include "core/files.hpp"
 #include "core/fingerprint.hpp"
 #include "estimator/evidence/channels.hpp"
-#include "experiments/estimators/decision.hpp"
+#include "experiments/estimators/entries.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/results/captions.hpp"

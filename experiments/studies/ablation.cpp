@@ -10,7 +10,7 @@
 
 #include "core/rows.hpp"
 #include "experiments/config/experiment_yaml.hpp"
-#include "experiments/estimators/filters.hpp"
+#include "experiments/estimators/entries.hpp"
 #include "experiments/evaluation/joint_bootstrap.hpp"
 #include "experiments/figures/figure_spec.hpp"
 #include "experiments/results/captions.hpp"

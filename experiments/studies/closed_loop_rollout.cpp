@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "experiments/fitting/make_estimator.hpp"
+#include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/plan/plan.hpp"
 #include "experiments/plan/request.hpp"

@@ -8,7 +8,7 @@
 #include "core/files.hpp"
 #include "core/table.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "experiments/fitting/make_estimator.hpp"
+#include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/request.hpp"
 #include "experiments/studies/benchmark.hpp"
 #include "render/film/video.hpp"

@@ -13,9 +13,9 @@
 #include "core/error.hpp"
 #include "estimator/bayes/filter.hpp"
 #include "estimator/phase/config.hpp"
-#include "experiments/fitting/make_estimator.hpp"
-#include "experiments/plan/condition.hpp"
 #include "experiments/evaluation/tasks.hpp"
+#include "experiments/fitting/fitting.hpp"
+#include "experiments/plan/condition.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 
 namespace touchdown::experiments {
