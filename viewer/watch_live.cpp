@@ -6,7 +6,7 @@
 #include <thread>
 #include <utility>
 
-#include "render/film/pose.hpp"
+#include "render/film/scene_view.hpp"
 #include "viewer/live_keys.hpp"
 #include "viewer/live_panel.hpp"
 #include "viewer/screen/live_plots.hpp"

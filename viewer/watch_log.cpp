@@ -10,9 +10,8 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
-#include "render/film/pose.hpp"
-#include "render/film/strip_rows.hpp"
-#include "render/strip/signal_strip.hpp"
+#include "render/film/scene_view.hpp"
+#include "render/film/strip.hpp"
 #include "viewer/screen/keys.hpp"
 #include "viewer/screen/live_plots.hpp"
 #include "viewer/screen/panel.hpp"

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "render/scene/primitives.hpp"
+#include "render/film/primitives.hpp"
 
 namespace touchdown::render {
 

@@ -8,7 +8,7 @@
 
 #include "recordings/mcap/log.hpp"
 #include "recordings/mcap/writer.hpp"
-#include "render/film/pose.hpp"
+#include "render/film/scene_view.hpp"
 #include "render/mcap/messages.hpp"
 #include "scenarios/ending.hpp"
 #include "scoring/labels.hpp"

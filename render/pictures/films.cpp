@@ -5,7 +5,7 @@
 
 #include "core/files.hpp"
 #include "experiments/run_directory/directory.hpp"
-#include "render/film/composer.hpp"
+#include "render/film/painter.hpp"
 #include "render/film/video.hpp"
 
 namespace touchdown::render {

@@ -5,10 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "render/film/pose.hpp"
 #include "render/film/scene_view.hpp"
 #include "render/replay/encoding.hpp"
-#include "render/scene/primitives.hpp"
+#include "render/film/primitives.hpp"
 
 namespace touchdown::render {
 

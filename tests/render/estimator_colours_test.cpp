@@ -10,7 +10,7 @@
 #include "experiments/studies/operating_points/figures.hpp"
 #include "render/curves/score_figure.hpp"
 #include "render/figures/facets.hpp"
-#include "render/film/strip_rows.hpp"
+#include "render/film/strip.hpp"
 #include "render/palette.hpp"
 #include "tests/render/staged_run.hpp"
 #include "tests/scratch_folder.hpp"

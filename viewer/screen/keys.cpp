@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render/strip/plots.hpp"
+#include "render/film/plots.hpp"
 
 namespace touchdown::viewer {
 

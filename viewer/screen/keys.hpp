@@ -6,7 +6,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "render/strip/text.hpp"
+#include "render/film/plots.hpp"
 #include "viewer/window/window.hpp"
 
 namespace touchdown::viewer {

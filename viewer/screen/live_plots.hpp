@@ -6,7 +6,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "render/strip/signal_strip.hpp"
+#include "render/film/strip.hpp"
 #include "viewer/live/run.hpp"
 
 namespace touchdown::viewer {

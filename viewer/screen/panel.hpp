@@ -7,8 +7,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "render/strip/plots.hpp"
-#include "render/strip/text.hpp"
+#include "render/film/plots.hpp"
 
 namespace touchdown::viewer {
 

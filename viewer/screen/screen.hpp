@@ -9,7 +9,7 @@
 #include <opencv2/core.hpp>
 
 #include "render/film/scene_view.hpp"
-#include "render/strip/text.hpp"
+#include "render/film/plots.hpp"
 #include "viewer/screen/camera_control.hpp"
 #include "viewer/window/window.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "render/encode/writer.hpp"
+#include "render/film/encode.hpp"
 #include "tests/render/staged_run.hpp"
 #include "tests/scratch_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "render/encode/picture.hpp"
+#include "render/film/encode.hpp"
 
 #include <algorithm>
 

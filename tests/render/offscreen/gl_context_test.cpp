@@ -1,4 +1,4 @@
-#include "render/offscreen/gl_context.hpp"
+#include "render/film/gl_context.hpp"
 
 #include <cstdlib>
 #include <dlfcn.h>

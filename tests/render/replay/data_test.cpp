@@ -7,10 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "render/film/pose.hpp"
+#include "render/film/scene_view.hpp"
 #include "render/replay/encoding.hpp"
 #include "render/replay/html.hpp"
-#include "render/scene/primitives.hpp"
+#include "render/film/primitives.hpp"
 #include "tests/render/staged_run.hpp"
 
 namespace touchdown::render {

@@ -1,4 +1,4 @@
-#include "render/scene/primitives.hpp"
+#include "render/film/primitives.hpp"
 
 #include <array>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "render/palette.hpp"
-#include "render/strip/signal_strip.hpp"
+#include "render/film/strip.hpp"
 
 namespace touchdown::render {
 namespace {

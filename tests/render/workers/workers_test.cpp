@@ -1,4 +1,4 @@
-#include "render/workers/workers.hpp"
+#include "render/film/painter.hpp"
 
 #include <csignal>
 #include <filesystem>

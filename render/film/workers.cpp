@@ -1,5 +1,3 @@
-#include "render/workers/workers.hpp"
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -21,6 +19,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/error.hpp"
+#include "render/film/painter.hpp"
 
 namespace touchdown::render {
 namespace {

@@ -1,11 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <variant>
+#include <functional>
 #include <vector>
-
-#include "render/offscreen/egl_context.hpp"
-#include "render/offscreen/osmesa_context.hpp"
 
 namespace touchdown::render {
 
@@ -21,9 +18,11 @@ namespace touchdown::render {
 class GlContext {
  public:
   GlContext(int width, int height);
+  GlContext(const GlContext&) = delete;
+  GlContext& operator=(const GlContext&) = delete;
 
   /// Waits until `pixels` contains all drawing.
-  void finish();
+  void finish() { finish_(); }
 
   /// BGRA, 8 bits each, rows from the top, no padding.
   std::uint8_t* pixels() { return pixels_.data(); }
@@ -34,7 +33,7 @@ class GlContext {
   int width_;
   int height_;
   std::vector<std::uint8_t> pixels_;
-  std::variant<std::monostate, OsmesaContext, EglContext> context_;
+  std::function<void()> finish_;  ///< owns the library's context
 };
 
 }  // namespace touchdown::render

@@ -5,7 +5,13 @@
 #include <memory>
 #include <string>
 
+#include <opencv2/core/mat.hpp>
+
 namespace touchdown::render {
+
+/// Writes a picture (8UC3, BGR) as a PNG, or as a JPEG of quality 82 for a path with `.jpg`. The
+/// same picture gives the same bytes. Errors: `Error` when it cannot be compressed or written.
+void write_picture(const cv::Mat& bgr, const std::filesystem::path& path);
 
 /// The encoding of frames: x264 veryfast at constant quality `crf`, 4:2:0, BT.601, a key frame
 /// every 2 s. `encoder` is FFmpeg's name of an encoder that accepts x264's options.

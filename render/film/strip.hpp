@@ -5,9 +5,15 @@
 
 #include <opencv2/core.hpp>
 
-#include "render/strip/plots.hpp"
+#include "render/film/plots.hpp"
+#include "render/film/request.hpp"
 
 namespace touchdown::render {
+
+/// The plots of the strip: all of them for one run, P(contact) and knee torques for two runs, and
+/// P(contact) alone for more.
+std::vector<StripRow> strip_rows(const std::vector<VideoSource>& sources,
+                                 const scoring::LabelConfig& labels);
 
 /// The time that a strip shows.
 struct StripWindow {
