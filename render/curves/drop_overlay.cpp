@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "experiments/drops/drops.hpp"
-#include "render/gnuplot/panel_grid.hpp"
+#include "render/gnuplot/frame.hpp"
 #include "render/gnuplot/text.hpp"
 #include "simulators/registry.hpp"
 

@@ -10,7 +10,6 @@
 
 #include "estimator/evidence/channels.hpp"
 #include "render/gnuplot/frame.hpp"
-#include "render/gnuplot/panel_grid.hpp"
 #include "render/gnuplot/text.hpp"
 #include "render/palette.hpp"
 

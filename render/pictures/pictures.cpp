@@ -4,7 +4,7 @@
 
 #include "core/files.hpp"
 #include "core/progress.hpp"
-#include "render/figures/facets.hpp"
+#include "render/gnuplot/facets.hpp"
 #include "render/pictures/drop_figures.hpp"
 #include "render/pictures/films.hpp"
 #include "render/pictures/heatmaps.hpp"

@@ -9,7 +9,7 @@
 #include "experiments/studies/closed_loop/figures.hpp"
 #include "experiments/studies/operating_points/figures.hpp"
 #include "render/curves/score_figure.hpp"
-#include "render/figures/facets.hpp"
+#include "render/gnuplot/facets.hpp"
 #include "render/film/strip.hpp"
 #include "render/palette.hpp"
 #include "tests/render/staged_run.hpp"

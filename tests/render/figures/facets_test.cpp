@@ -1,4 +1,4 @@
-#include "render/figures/facets.hpp"
+#include "render/gnuplot/facets.hpp"
 
 #include <algorithm>
 #include <regex>
@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
-#include "render/figures/facet_data.hpp"
+#include "render/gnuplot/facet_script.hpp"
 #include "render/gnuplot/process.hpp"
 #include "tests/scratch_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "render/gnuplot/dateless_pdf.hpp"
+#include "render/gnuplot/figure.hpp"
 
 #include <qpdf/qpdf-c.h>
 

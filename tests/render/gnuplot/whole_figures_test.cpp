@@ -13,7 +13,6 @@
 #include "core/files.hpp"
 #include "render/gnuplot/figure.hpp"
 #include "render/gnuplot/process.hpp"
-#include "render/gnuplot/whole_file.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {
