@@ -22,7 +22,7 @@
 #include "recordings/log/annotator.hpp"
 #include "recordings/log/byte_source.hpp"
 #include "recordings/mapping/mapped_log.hpp"
-#include "render/curves/log_figure.hpp"
+#include "render/figures/log_figure.hpp"
 #include "scenarios/ending.hpp"
 
 namespace touchdown::cli {

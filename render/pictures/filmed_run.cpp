@@ -17,7 +17,7 @@
 #include "experiments/tuning/table.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "render/palette.hpp"
-#include "render/pictures/stop.hpp"
+#include "render/stop.hpp"
 #include "scenarios/compiled_scenes.hpp"
 #include "scenarios/leg_geometry.hpp"
 #include "scenarios/scenario.hpp"

@@ -4,12 +4,10 @@
 
 #include "core/files.hpp"
 #include "core/progress.hpp"
+#include "render/figures/figures.hpp"
 #include "render/gnuplot/facets.hpp"
-#include "render/pictures/drop_figures.hpp"
 #include "render/pictures/films.hpp"
-#include "render/pictures/heatmaps.hpp"
-#include "render/pictures/score_figures.hpp"
-#include "render/pictures/stop.hpp"
+#include "render/stop.hpp"
 
 namespace touchdown::render {
 
@@ -21,9 +19,12 @@ void draw_pictures(experiments::ExperimentResult& result, const std::vector<Film
     Progress progress("drawing", "kinds of figures", 3);
     if (result.cells.size() > 1) draw_heatmaps(result, stop);
     progress.advance();
-    draw_score_figures(result, stop);
+    draw_densities(result, stop);
+    draw_evidence(result, stop);
+    draw_scores(result, stop);
     progress.advance();
-    draw_drop_figures(result, stop);
+    draw_drop_details(result, stop);
+    draw_phase_posteriors(result, stop);
     for (const StudyPictures& study : studies) {
       stop_if_asked(stop);
       if (study.draw && study.is_requested(result.experiment)) study.draw(result);

@@ -8,7 +8,7 @@
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/estimators/baselines.hpp"
 #include "experiments/results/captions.hpp"
-#include "render/maps/error_scale.hpp"
+#include "render/figures/error_scale.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {

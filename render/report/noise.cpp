@@ -10,8 +10,8 @@
 
 #include "experiments/estimators/registry.hpp"
 #include "experiments/results/captions.hpp"
-#include "render/maps/error_scale.hpp"
-#include "render/maps/level_borders.hpp"
+#include "render/figures/error_scale.hpp"
+#include "render/figures/iso_lines.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {

@@ -4,8 +4,8 @@
 
 #include "experiments/results/captions.hpp"
 #include "experiments/studies/cross_simulator/config.hpp"
-#include "render/curves/drop_overlay.hpp"
-#include "render/pictures/chosen_run.hpp"
+#include "render/figures/drop_overlay.hpp"
+#include "render/figures/chosen_run.hpp"
 
 namespace touchdown::render {
 

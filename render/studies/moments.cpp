@@ -1,7 +1,7 @@
 #include "render/studies/moments.hpp"
 
 #include "experiments/studies/moments/config.hpp"
-#include "render/curves/moments_figure.hpp"
+#include "render/figures/moments_figure.hpp"
 
 namespace touchdown::render {
 

@@ -8,7 +8,7 @@
 #include "core/files.hpp"
 #include "experiments/studies/closed_loop/figures.hpp"
 #include "experiments/studies/operating_points/figures.hpp"
-#include "render/curves/score_figure.hpp"
+#include "render/figures/figures.hpp"
 #include "render/gnuplot/facets.hpp"
 #include "render/film/strip.hpp"
 #include "render/palette.hpp"

@@ -10,8 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "render/curves/drop_detail_figure.hpp"
-#include "render/curves/phase_posterior_figure.hpp"
+#include "render/figures/figures.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {

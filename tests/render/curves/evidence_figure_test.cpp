@@ -1,4 +1,4 @@
-#include "render/curves/evidence_figure.hpp"
+#include "render/figures/figures.hpp"
 
 #include <algorithm>
 #include <cmath>

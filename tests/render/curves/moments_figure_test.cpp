@@ -1,4 +1,4 @@
-#include "render/curves/moments_figure.hpp"
+#include "render/figures/moments_figure.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

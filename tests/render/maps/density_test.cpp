@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "render/maps/density_figure.hpp"
+#include "render/figures/figures.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {

@@ -12,8 +12,8 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "render/maps/heatmap_figure.hpp"
-#include "render/maps/iso_lines.hpp"
+#include "render/figures/figures.hpp"
+#include "render/figures/iso_lines.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {

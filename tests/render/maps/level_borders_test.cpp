@@ -1,4 +1,4 @@
-#include "render/maps/level_borders.hpp"
+#include "render/figures/iso_lines.hpp"
 
 #include <cmath>
 

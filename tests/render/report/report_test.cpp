@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "experiments/results/summary_file.hpp"
-#include "render/maps/error_scale.hpp"
+#include "render/figures/error_scale.hpp"
 #include "render/report/html.hpp"
 #include "tests/scratch_folder.hpp"
 

@@ -1,5 +1,3 @@
-#include "render/maps/heatmap_figure.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -7,9 +5,10 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "render/figures/figures.hpp"
+#include "render/figures/iso_lines.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/gnuplot/text.hpp"
-#include "render/maps/level_borders.hpp"
 #include "render/palette.hpp"
 
 namespace touchdown::render {

@@ -1,5 +1,3 @@
-#include "render/curves/evidence_figure.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,9 +7,16 @@
 #include <fmt/format.h>
 
 #include "estimator/evidence/channels.hpp"
+#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/estimators/decision.hpp"
+#include "experiments/results/captions.hpp"
+#include "render/figures/chosen_run.hpp"
+#include "render/figures/figures.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/gnuplot/text.hpp"
 #include "render/palette.hpp"
+#include "render/stop.hpp"
+#include "simulators/registry.hpp"
 
 namespace touchdown::render {
 namespace {
@@ -151,6 +156,46 @@ std::string evidence_described(const EvidenceFigure& figure,
   return text;
 }
 
+/// The figures of all estimators that have evidence curves, with the estimators' names.
+std::vector<std::pair<std::string, EvidenceFigure>> evidence_figures(
+    const experiments::ExperimentResult& result, const std::string& simulator) {
+  std::vector<std::pair<std::string, EvidenceFigure>> figures;
+  const experiments::Experiment& experiment = result.experiment;
+  const auto models = result.models.find(simulator);
+  if (models == result.models.end()) return figures;
+  for (const std::string& estimator : experiment.estimators) {
+    const auto fitted = models->second.find(estimator);
+    if (fitted == models->second.end()) continue;
+    const std::optional<EvidenceCurveSets> sets = experiments::evidence_in(fitted->second);
+    if (!sets) continue;
+    const auto add = [&](const std::string& name, const std::string& steps,
+                         const EvidenceModel& model) {
+      figures.emplace_back(
+          name,
+          EvidenceFigure{
+              fmt::format("Evidence of each input for a wheel's contact{}: {}, {}, {}", steps,
+                          experiments::estimator_entry(experiment, estimator).title,
+                          experiment.name, simulators::simulator_title(simulator)),
+              model,
+              fmt::format(
+                  "Fitted to {}{}, seed {}; {}{}. The curves form an additive model (GAM) of the "
+                  "log odds of contact: values above 0 are evidence for contact, values below 0 "
+                  "against it. The estimator adds the values of all curves. Each curve averages 0 "
+                  "over the training data and covers all but two in a thousand of its rows. Axes "
+                  "are compressed as the estimator's inputs are; those of noise levels are "
+                  "logarithmic.",
+                  experiments::plural(fitted_runs(result, simulator), "run"),
+                  experiment.training_segments.empty() ? "" : " and segments of others",
+                  experiment.seed, experiments::labels_text(experiment),
+                  experiments::setup_caption(experiment))});
+    };
+    add(estimator, sets->without_targets ? " at steps with targets" : "", sets->usual);
+    if (!sets->without_targets) continue;
+    add(estimator + "_without_targets", " at steps without targets", *sets->without_targets);
+  }
+  return figures;
+}
+
 }  // namespace
 
 std::vector<CompressedTick> compressed_ticks(double low, double high, double softsign_scale) {
@@ -219,6 +264,15 @@ Figure draw_evidence_figure(const EvidenceFigure& figure, const std::filesystem:
     data += evidence_block(figure.model, panel);
   }
   return frame.draw(stem, commands, data, evidence_described(figure, all));
+}
+
+void draw_evidence(const experiments::ExperimentResult& result, const std::atomic<bool>* stop) {
+  for (const std::string& simulator : result.experiment.simulators) {
+    for (const auto& [estimator, evidence] : evidence_figures(result, simulator)) {
+      stop_if_asked(stop);
+      draw_evidence_figure(evidence, result.directory.file("figures", estimator + "_" + simulator));
+    }
+  }
 }
 
 }  // namespace touchdown::render

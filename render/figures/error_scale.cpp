@@ -1,4 +1,4 @@
-#include "render/maps/error_scale.hpp"
+#include "render/figures/error_scale.hpp"
 
 #include <algorithm>
 #include <cmath>

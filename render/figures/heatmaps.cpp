@@ -1,5 +1,3 @@
-#include "render/pictures/heatmaps.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,8 +8,8 @@
 #include "experiments/config/experiment_estimators.hpp"
 #include "experiments/estimators/baselines.hpp"
 #include "experiments/results/captions.hpp"
-#include "render/maps/heatmap_figure.hpp"
-#include "render/pictures/stop.hpp"
+#include "render/figures/figures.hpp"
+#include "render/stop.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {
@@ -95,8 +93,7 @@ Heatmap filled(Heatmap heatmap, const experiments::ExperimentResult& result,
 
 }  // namespace
 
-std::vector<Figure> draw_heatmaps(const experiments::ExperimentResult& result,
-                                  const std::atomic<bool>* stop) {
+void draw_heatmaps(const experiments::ExperimentResult& result, const std::atomic<bool>* stop) {
   const experiments::Experiment& experiment = result.experiment;
   const noise::KneeWheelGridConfig& apart = experiment.noise.knee_wheel;
   const CellCoordinates by_torque = [](const noise::NoiseCell& cell) {
@@ -106,7 +103,6 @@ std::vector<Figure> draw_heatmaps(const experiments::ExperimentResult& result,
     return cell.accelerometer == apart.accelerometer ? std::array{cell.wheel, cell.knee}
                                                      : std::array<double, 2>{NAN, NAN};
   };
-  std::vector<Figure> figures;
   for (const std::string& simulator : experiment.simulators) {
     stop_if_asked(stop);
     if (experiments::test_runs(result, simulator).scored == 0) continue;
@@ -118,8 +114,8 @@ std::vector<Figure> draw_heatmaps(const experiments::ExperimentResult& result,
     heatmap.y_label = "torque noise (N·m)";
     heatmap.x = experiment.noise.accelerometer;
     heatmap.y = experiment.noise.torque;
-    figures.push_back(draw_heatmap(filled(heatmap, result, simulator, by_torque),
-                                   result.directory.file("figures", "error_" + simulator)));
+    draw_heatmap(filled(heatmap, result, simulator, by_torque),
+                 result.directory.file("figures", "error_" + simulator));
     if (apart.knee.empty()) continue;
     stop_if_asked(stop);
     heatmap.title = fmt::format("Error rate under torque noise, {} m/s² on the accelerometer: {}",
@@ -128,10 +124,9 @@ std::vector<Figure> draw_heatmaps(const experiments::ExperimentResult& result,
     heatmap.y_label = "knee torque noise (N·m)";
     heatmap.x = apart.wheel;
     heatmap.y = apart.knee;
-    figures.push_back(draw_heatmap(filled(heatmap, result, simulator, by_joint),
-                                   result.directory.file("figures", "knee_wheel_" + simulator)));
+    draw_heatmap(filled(heatmap, result, simulator, by_joint),
+                 result.directory.file("figures", "knee_wheel_" + simulator));
   }
-  return figures;
 }
 
 }  // namespace touchdown::render

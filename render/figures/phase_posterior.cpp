@@ -1,5 +1,3 @@
-#include "render/curves/phase_posterior_figure.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,8 +5,12 @@
 
 #include <fmt/format.h>
 
+#include "experiments/results/captions.hpp"
+#include "render/figures/chosen_run.hpp"
+#include "render/figures/figures.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/gnuplot/text.hpp"
+#include "render/stop.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {
@@ -211,6 +213,25 @@ std::string column_commands(const experiments::DropPosterior& drop, const PanelG
   return text;
 }
 
+FigureText posterior_text(const experiments::Experiment& experiment,
+                          const experiments::PosteriorConfig& config) {
+  return {
+      fmt::format("The phase filter through one {}: {}", config.choice.at ? "moment" : "drop",
+                  experiment.name),
+      fmt::format(
+          "{} Noise: {} N·m on torques, {} m/s² on the accelerometer. True phases look "
+          "ahead: an unloading is named after the takeoff that follows. Likelihoods are "
+          "those of one step, tempered as in the filter; black: the true phase. "
+          "Log-likelihood error: where the most probable phase is wrong about a wheel, its "
+          "log-likelihood ratio to the true phase, by source; memory is the previous belief. "
+          "Dashed verticals: the last wheel leaves the ground, the first one lands.",
+          drop_text(experiment, config.choice), config.noise.torque, config.noise.accelerometer),
+      "Over the time around one drop, for each engine: true contact of both wheels, the true "
+      "phase, the likelihood of every phase, the log-likelihood error by source, the stacked "
+      "probabilities "
+      "of all phases, and the contact probability of both wheels."};
+}
+
 }  // namespace
 
 Figure draw_phase_posterior(const std::vector<experiments::DropPosterior>& drops,
@@ -239,6 +260,25 @@ Figure draw_phase_posterior(const std::vector<experiments::DropPosterior>& drops
     data.push_back({fmt::format("{}_likelihood_{}.dat", name, i + 1), likelihood_text(drops[i])});
   }
   return grid.draw(stem, commands, data);
+}
+
+void draw_phase_posteriors(const experiments::ExperimentResult& result,
+                           const std::atomic<bool>* stop) {
+  const experiments::Experiment& experiment = result.experiment;
+  if (!experiment.posterior) return;
+  const experiments::PosteriorConfig& config = *experiment.posterior;
+  std::vector<experiments::DropPosterior> drops;
+  for (const std::string& simulator : experiment.simulators) {
+    stop_if_asked(stop);
+    draw_if_possible([&] {
+      const experiments::Rollout& run =
+          chosen_run(result, simulator, config.choice.run, "posterior");
+      drops.push_back(experiments::drop_posterior(experiment, config, run.signals, result.models));
+    });
+  }
+  if (drops.empty()) return;
+  draw_phase_posterior(drops, posterior_text(experiment, config),
+                       result.directory.file("figures", "phase_posterior"));
 }
 
 }  // namespace touchdown::render

@@ -1,4 +1,4 @@
-#include "render/curves/drop_overlay.hpp"
+#include "render/figures/drop_overlay.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "render/curves/log_figure.hpp"
+#include "render/figures/log_figure.hpp"
 
 #include <algorithm>
 #include <cmath>

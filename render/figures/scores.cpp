@@ -1,5 +1,3 @@
-#include "render/curves/score_figure.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,8 +6,15 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/estimators/baselines.hpp"
+#include "experiments/results/captions.hpp"
+#include "render/figures/figures.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/gnuplot/text.hpp"
+#include "render/palette.hpp"
+#include "render/stop.hpp"
+#include "simulators/registry.hpp"
 
 namespace touchdown::render {
 namespace {
@@ -61,6 +66,35 @@ std::string reliability_described(const ScoreFigure& figure) {
     text += '.';
   }
   return text;
+}
+
+std::string title_of(const noise::NoiseCell& cell) {
+  if (cell.torque == 0.0 && cell.accelerometer == 0.0) return "no noise";
+  return fmt::format("noise: {} N·m, {} m/s²", cell.torque, cell.accelerometer);
+}
+
+/// The scores at the highlighted noise settings in this engine, without the constant answer and the
+/// oracle.
+std::vector<ScorePanel> score_panels(const experiments::ExperimentResult& result,
+                                     const std::string& simulator) {
+  std::vector<ScorePanel> panels;
+  for (const noise::NoiseCell& cell : result.experiment.highlights) {
+    ScorePanel panel{title_of(cell), {}};
+    for (const experiments::ScoreSummary& score : result.scores) {
+      const bool shown = score.condition.test_simulator == simulator && score.cell == cell &&
+                         score.view == scoring::scored_views().front() &&
+                         score.condition.estimator != experiments::always_contact_name &&
+                         score.condition.estimator != "oracle";
+      if (!shown) continue;
+      panel.rows.push_back(
+          {experiments::estimator_entry(result.experiment, score.condition.estimator).title,
+           line_type_of(result.experiment.estimators, score.condition.estimator),
+           score.total.calibration, score.contact_frequency, score.total.takeoff,
+           score.total.landing});
+    }
+    if (!panel.rows.empty()) panels.push_back(std::move(panel));
+  }
+  return panels;
 }
 
 }  // namespace
@@ -245,6 +279,35 @@ Figure draw_latency_figure(const ScoreFigure& figure, const std::filesystem::pat
     }
   }
   return frame.draw(stem, commands, latency_data(figure), latency_described(figure));
+}
+
+void draw_scores(const experiments::ExperimentResult& result, const std::atomic<bool>* stop) {
+  const experiments::Experiment& experiment = result.experiment;
+  for (const std::string& simulator : experiment.simulators) {
+    const std::string where =
+        fmt::format("{}, {}", experiment.name, simulators::simulator_title(simulator));
+    const auto stem = [&](const char* name) {
+      stop_if_asked(stop);
+      return result.directory.file("figures", fmt::format("{}_{}", name, simulator));
+    };
+    const std::vector<ScorePanel> panels = score_panels(result, simulator);
+    if (panels.empty() || experiments::test_runs(result, simulator).scored == 0) continue;
+    const std::string scored = experiments::scored_text(result, simulator);
+    draw_reliability_figure(
+        {"Calibration of contact probabilities: " + where, panels,
+         fmt::format("{}. Every step of both wheels counts. Bars: {}. On the diagonal, the stated "
+                     "probability equals the share of steps in contact. Below: steps per bin.",
+                     scored, experiments::intervals_text(experiment))},
+        stem("reliability"));
+    draw_latency_figure(
+        {"Latency of takeoffs and landings: " + where, panels,
+         fmt::format(
+             "{}. Events of both wheels, flights of at least {:.0f} ms; early detections "
+             "have negative latency. Bins of 5 ms; every histogram has its own scale. The "
+             "line is the mean; ± is the standard deviation over the events that were found.",
+             scored, 1e3 * experiment.scoring.minimum_flight)},
+        stem("latency"));
+  }
 }
 
 }  // namespace touchdown::render

@@ -1,5 +1,3 @@
-#include "render/maps/density_figure.hpp"
-
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -11,9 +9,15 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
+#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/results/captions.hpp"
+#include "render/figures/chosen_run.hpp"
+#include "render/figures/figures.hpp"
+#include "render/figures/iso_lines.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/gnuplot/text.hpp"
-#include "render/maps/iso_lines.hpp"
+#include "render/stop.hpp"
+#include "simulators/registry.hpp"
 
 namespace touchdown::render {
 namespace {
@@ -23,7 +27,7 @@ constexpr std::array<double, 3> enclosed_shares = {0.5, 0.9, 0.99};
 /// The contact probabilities with a contour line: undecided, and the filter's decision threshold.
 constexpr std::array<double, 2> probability_levels = {0.5, 0.8};
 /// Densities are clipped below at this share of their peak.
-constexpr double faintest = 1e-4;
+constexpr double faintest_density = 1e-4;
 /// The axes cover the region with this share of both densities.
 constexpr double shown_share = 0.97;
 /// Along an axis with more points than this, only every n-th is drawn.
@@ -91,7 +95,7 @@ std::array<double, enclosed_shares.size()> levels_of(const std::vector<double>& 
 }
 
 double share_of_peak(double density, double peak) {
-  return peak > 0.0 ? std::max(density / peak, faintest) : faintest;
+  return peak > 0.0 ? std::max(density / peak, faintest_density) : faintest_density;
 }
 
 std::string points(const LikelihoodGrids& grids, const std::vector<double>& probability,
@@ -131,8 +135,9 @@ std::string density_data(const DensityFigure& figure) {
   return text;
 }
 
-constexpr double panel_width = 268.0, panel_height = 216.0, left_margin = 76.0, gap_x = 62.0;
-constexpr double gap_y = 104.0, bar_height = 12.0, top_margin = 46.0;
+constexpr double density_width = 268.0, density_height = 216.0, density_left = 76.0,
+                 density_gap_x = 62.0;
+constexpr double density_gap_y = 104.0, density_bar = 12.0, density_top = 46.0;
 
 /// One column of the figure.
 struct DensityColumn {
@@ -145,7 +150,7 @@ struct DensityColumn {
 constexpr const char* density_scale =
     "set logscale cb\nset cbrange [1e-4:1]\n"
     "set cbtics ('10⁻⁴' 1e-4, '10⁻³' 1e-3, '10⁻²' 1e-2, '0.1' 0.1, '1' 1)\n";
-constexpr DensityColumn columns[] = {
+constexpr DensityColumn density_columns[] = {
     {"in contact", "(0 '#ffffff', 1 '#b9d7ea', 2 '#5aa5d1', 3 '#0072b2', 4 '#00304d')",
      density_scale, 3, "density, share of its peak"},
     {"in the air", "(0 '#ffffff', 1 '#f6d3b8', 2 '#ec9656', 3 '#d55e00', 4 '#5c2800')",
@@ -182,6 +187,37 @@ std::string described(const DensityFigure& figure) {
   return text;
 }
 
+std::optional<DensityFigure> density_figure(const experiments::ExperimentResult& result,
+                                            const std::string& simulator) {
+  const experiments::Experiment& experiment = result.experiment;
+  const auto models = result.models.find(simulator);
+  if (models == result.models.end()) return std::nullopt;
+  DensityFigure figure;
+  std::vector<MeasurementConfig> drawn;
+  for (const std::string& estimator : experiment.estimators) {
+    const auto model = models->second.find(estimator);
+    if (model == models->second.end() || !model->second.measurement) continue;
+    const experiments::EstimatorEntry& entry = experiments::estimator_entry(experiment, estimator);
+    const auto same = std::find(drawn.begin(), drawn.end(), entry.config->measurement);
+    if (same != drawn.end()) {
+      figure.rows[static_cast<std::size_t>(same - drawn.begin())].title += ", " + entry.title;
+      continue;
+    }
+    drawn.push_back(entry.config->measurement);
+    figure.rows.push_back({entry.title, model->second.measurement->grids()});
+  }
+  if (figure.rows.empty()) return std::nullopt;
+  figure.title = fmt::format("Torques in contact and in the air: {}, {}", experiment.name,
+                             simulators::simulator_title(simulator));
+  figure.caption = fmt::format(
+      "Kernel densities fitted to {} without noise, both legs, seed {}; {}{}. Lines enclose 50, 90 "
+      "and 99 % of a density; on the right they mark P = 0.5 and the decision threshold, 0.8. Axes "
+      "cover 97 % of both densities.",
+      experiments::plural(fitted_runs(result, simulator), "run"), experiment.seed,
+      experiments::labels_text(experiment), experiments::setup_caption(experiment));
+  return figure;
+}
+
 }  // namespace
 
 double density_level(const std::vector<double>& grid, double share) {
@@ -216,25 +252,26 @@ DensityAxes axes_of(const LikelihoodGrids& grids) {
 Figure draw_density_figure(const DensityFigure& figure, const std::filesystem::path& stem) {
   if (figure.rows.empty()) throw InputError("a density figure without models");
   const auto rows = static_cast<double>(figure.rows.size());
-  const double body = top_margin + rows * panel_height + (rows - 1.0) * gap_y;
+  const double body = density_top + rows * density_height + (rows - 1.0) * density_gap_y;
   const FigureFrame frame(figure.title, figure.caption,
-                          left_margin + 3.0 * panel_width + 2.0 * gap_x + 30.0, body + 126.0);
+                          density_left + 3.0 * density_width + 2.0 * density_gap_x + 30.0,
+                          body + 126.0);
   const std::string file = gnuplot_file(stem.filename().string() + ".dat");
   std::string commands =
       "unset key\nset border 15\nset tics out\nunset grid\n"
       "set xlabel 'knee torque (N·m)' offset 0,0.3\nset xtics autofreq\n";
   for (std::size_t r = 0; r < figure.rows.size(); ++r) {
-    const double top = top_margin + static_cast<double>(r) * (panel_height + gap_y);
+    const double top = density_top + static_cast<double>(r) * (density_height + density_gap_y);
     const DensityAxes axes = axes_of(figure.rows[r].grids);
-    for (std::size_t c = 0; c < std::size(columns); ++c) {
-      const DensityColumn& column = columns[c];
-      const double left = left_margin + static_cast<double>(c) * (panel_width + gap_x);
-      commands += frame.panel(left, top, panel_width, panel_height);
+    for (std::size_t c = 0; c < std::size(density_columns); ++c) {
+      const DensityColumn& column = density_columns[c];
+      const double left = density_left + static_cast<double>(c) * (density_width + density_gap_x);
+      commands += frame.panel(left, top, density_width, density_height);
       if (c == 0) {
         commands += frame.label(figure.rows[r].title, left, top - 34.0, "left font ',11'");
       }
       commands += r + 1 == figure.rows.size()
-                      ? frame.colour_bar(left, body + 62.0, panel_width, bar_height) +
+                      ? frame.colour_bar(left, body + 62.0, density_width, density_bar) +
                             fmt::format("set cblabel '{}' offset 0,0.5\n", column.bar_label)
                       : "unset colorbox\n";
       commands += fmt::format(
@@ -247,6 +284,15 @@ Figure draw_density_figure(const DensityFigure& figure, const std::filesystem::p
     }
   }
   return frame.draw(stem, commands, density_data(figure), described(figure));
+}
+
+void draw_densities(const experiments::ExperimentResult& result, const std::atomic<bool>* stop) {
+  for (const std::string& simulator : result.experiment.simulators) {
+    stop_if_asked(stop);
+    if (const auto densities = density_figure(result, simulator)) {
+      draw_density_figure(*densities, result.directory.file("figures", "densities_" + simulator));
+    }
+  }
 }
 
 }  // namespace touchdown::render

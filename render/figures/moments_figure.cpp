@@ -1,4 +1,4 @@
-#include "render/curves/moments_figure.hpp"
+#include "render/figures/moments_figure.hpp"
 
 #include <array>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace touchdown::render {
 
 namespace {
 
-constexpr double torque_width = 330.0, density_height = 170.0, moments_height = 66.0,
+constexpr double torque_width = 330.0, density_curve_height = 170.0, moments_height = 66.0,
                  torque_left = 112.0;
 constexpr double torque_gap_x = 74.0, torque_gap_y = 72.0, torque_top = 26.0;
 
@@ -143,7 +143,7 @@ Figure draw_moments_figure(const Table& moments, const Table& densities,
       "0.01 N·m. Points and bars above them: mean ± one standard deviation. The real robot has no "
       "curve, because its published densities include their kernels.",
       torque_left + 2.0 * torque_width + torque_gap_x + 24.0,
-      torque_top + 2.0 * (moments_height + density_height) + torque_gap_y + 50.0);
+      torque_top + 2.0 * (moments_height + density_curve_height) + torque_gap_y + 50.0);
   const std::string file = gnuplot_file(stem.filename().string() + ".dat");
   std::string commands = "unset key\nset grid xtics noytics\nset border 3\nset tics nomirror\n";
   std::string data = "#torque_nm\tdensity_per_nm, then #mean_nm\tsd_nm\trow\n";
@@ -153,14 +153,14 @@ Figure draw_moments_figure(const Table& moments, const Table& densities,
     const std::size_t row = p / 2;
     const std::size_t column = p % 2;
     const double left = torque_left + static_cast<double>(column) * (torque_width + torque_gap_x);
-    const double top =
-        torque_top + static_cast<double>(row) * (moments_height + density_height + torque_gap_y);
+    const double top = torque_top + static_cast<double>(row) *
+                                        (moments_height + density_curve_height + torque_gap_y);
     commands += frame.panel(left, top, torque_width, moments_height) +
                 fmt::format("set title {} offset 0,-0.6\nset xrange [0:{}]\n",
                             gnuplot_text(torque_panels[p].title), number(torque_axis_end(all))) +
                 moment_bars(all, file, block + all.size() - 1, column == 0) +
                 FigureFrame::end_panel();
-    commands += frame.panel(left, top + moments_height, torque_width, density_height) +
+    commands += frame.panel(left, top + moments_height, torque_width, density_curve_height) +
                 "unset title\n" + density_curves(all, file, block, column == 0) +
                 FigureFrame::end_panel();
     data += torque_data(moments, densities, torque_panels[p]);

@@ -1,14 +1,17 @@
-#include "render/curves/drop_detail_figure.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
 
+#include "experiments/results/captions.hpp"
+#include "render/figures/chosen_run.hpp"
+#include "render/figures/figures.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/gnuplot/text.hpp"
 #include "render/palette.hpp"
+#include "render/stop.hpp"
+#include "simulators/registry.hpp"
 
 namespace touchdown::render {
 namespace {
@@ -206,6 +209,46 @@ struct DetailColumn {
   }
 };
 
+/// "Not shown: NMN, Free fall."; empty where all of the experiment's estimators are shown.
+std::string left_out_text(const experiments::Experiment& experiment,
+                          const std::vector<std::string>& shown) {
+  std::vector<std::string> titles;
+  for (const std::string& name : experiment.estimators) {
+    if (std::find(shown.begin(), shown.end(), name) != shown.end()) continue;
+    titles.push_back(experiments::estimator_title(name));
+  }
+  return titles.empty() ? "" : fmt::format(" Not shown: {}.", fmt::join(titles, ", "));
+}
+
+void draw_detail(const experiments::ExperimentResult& result, const std::string& simulator) {
+  const experiments::Experiment& experiment = result.experiment;
+  const experiments::DetailConfig& config = *experiment.detail;
+  const experiments::Rollout& run = chosen_run(result, simulator, config.choice.run, "detail");
+  const recordings::Recording recording =
+      chosen_recording(result, simulator, config.choice.run, "detail");
+  const experiments::DropDetail detail =
+      experiments::drop_detail(experiment, config, recording, run.signals, result.models);
+  const FigureText text{
+      fmt::format("One {} in detail: {}, {}", config.choice.at ? "moment" : "drop", experiment.name,
+                  simulators::simulator_title(simulator)),
+      fmt::format(
+          "{} Left wheel and leg. Spectra, power and median frequency are computed over the "
+          "{:.0f} ms before each instant. They, the switch probabilities and the torque "
+          "evidence come from the models of {}. Dashed verticals: takeoffs and landings of "
+          "the left wheel.{}",
+          drop_text(experiment, config.choice), 1e3 / detail.bin_width, detail.transition_of,
+          left_out_text(experiment, config.estimators)),
+      fmt::format(
+          "Rows of curves over the time around one drop, with a column for each of {} noise "
+          "settings: height of the base, knee and wheel torque with and without noise, evidence of "
+          "these torques for contact, contact probability of {}, spectrograms of the true and of "
+          "the noisy vertical acceleration with their power and median frequency, and the "
+          "probabilities of a takeoff and a landing. The time in true contact is tinted.",
+          config.noise.size(), fmt::join(config.estimators, ", "))};
+  draw_drop_detail(detail, experiment.estimators, text,
+                   result.directory.file("figures", "detail_" + simulator));
+}
+
 }  // namespace
 
 std::string spectrum_text(const experiments::SpectrumTrace& trace, double bin_width) {
@@ -253,6 +296,14 @@ Figure draw_drop_detail(const experiments::DropDetail& detail,
                     spectrum_text(detail.noisy[i].spectrum, detail.bin_width)});
   }
   return grid.draw(stem, commands, data);
+}
+
+void draw_drop_details(const experiments::ExperimentResult& result, const std::atomic<bool>* stop) {
+  if (!result.experiment.detail) return;
+  for (const std::string& simulator : result.experiment.simulators) {
+    stop_if_asked(stop);
+    draw_if_possible([&] { draw_detail(result, simulator); });
+  }
 }
 
 }  // namespace touchdown::render
