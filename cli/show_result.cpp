@@ -7,8 +7,8 @@
 #include "core/program/streams.hpp"
 #include "experiments/results/manifest.hpp"
 #include "experiments/results/terminal.hpp"
-#include "render/pictures/filmed_report.hpp"
-#include "render/pictures/pictures.hpp"
+#include "render/report/pictures.hpp"
+#include "render/report/report.hpp"
 #include "render/studies/registry.hpp"
 
 namespace touchdown::cli {

@@ -17,7 +17,7 @@
 #include "experiments/logs/robot.hpp"
 #include "noise/sensors/profile.hpp"
 #include "recordings/log/recording_file.hpp"
-#include "render/pictures/filmed_run.hpp"
+#include "render/report/filmed_run.hpp"
 #include "render/report/subject.hpp"
 #include "scenarios/generation/named.hpp"
 #include "scenarios/scenario_file.hpp"

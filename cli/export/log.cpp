@@ -15,8 +15,8 @@
 #include "recordings/log/recording_file.hpp"
 #include "recordings/mapping/conversion.hpp"
 #include "recordings/mcap/log.hpp"
-#include "render/mcap/scene.hpp"
-#include "render/pictures/filmed_run.hpp"
+#include "render/report/filmed_run.hpp"
+#include "render/report/mcap.hpp"
 
 namespace touchdown::cli {
 

@@ -20,7 +20,7 @@ struct ExportedLog {
 void export_log(const ExportedLog& files, const CliSession& session);
 
 /// Writes a log, with the beliefs in it, as an MCAP file and prints a summary. If the log contains
-/// its scene, or a `robot` is named, the file shows it too (render/mcap/scene.hpp). Errors: as
+/// its scene, or a `robot` is named, the file shows it too (render/report/mcap.hpp). Errors: as
 /// above.
 void export_mcap(const std::string& log, const std::string& robot, const std::string& output,
                  const CliSession& session);

@@ -8,8 +8,8 @@
 #include "core/program/streams.hpp"
 #include "experiments/score_beliefs.hpp"
 #include "render/benchmark/standings_figure.hpp"
-#include "render/pictures/filmed_report.hpp"
-#include "render/pictures/films.hpp"
+#include "render/report/films.hpp"
+#include "render/report/report.hpp"
 #include "render/studies/registry.hpp"
 
 namespace touchdown::cli {

@@ -9,7 +9,7 @@
 #include "render/benchmark/scene_tables.hpp"
 #include "render/benchmark/standings_figure.hpp"
 #include "render/gnuplot/figure.hpp"
-#include "render/report/page.hpp"
+#include "render/report/html.hpp"
 
 namespace touchdown::render {
 

@@ -1,5 +1,3 @@
-#include "render/report/figures.hpp"
-
 #include <algorithm>
 #include <sstream>
 
@@ -7,6 +5,7 @@
 
 #include "core/files.hpp"
 #include "render/gnuplot/figure.hpp"
+#include "render/report/sections.hpp"
 
 namespace touchdown::render {
 namespace {

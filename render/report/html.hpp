@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "render/report/subject.hpp"
+
 namespace touchdown::render {
 
 /// A section of the page and of its list of contents. A section without `html` is left out.
@@ -34,5 +36,10 @@ std::string policy_source(std::string_view sha256);
 
 /// "3.9 MB", "250 kB".
 std::string size_text(std::uintmax_t bytes);
+
+/// Writes a page that needs no network: the header, a list of contents, and all sections that are
+/// not empty.
+void write_page(const ReportSubject& subject, const std::filesystem::path& path,
+                const std::string& header_html, std::vector<ReportSection> sections);
 
 }  // namespace touchdown::render

@@ -1,5 +1,3 @@
-#include "render/report/noise.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -12,6 +10,7 @@
 #include "experiments/results/captions.hpp"
 #include "render/figures/error_scale.hpp"
 #include "render/figures/iso_lines.hpp"
+#include "render/report/sections.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {

@@ -13,7 +13,7 @@
 #include "experiments/studies/experiment_file.hpp"
 #include "render/film/video.hpp"
 #include "render/palette.hpp"
-#include "render/pictures/filmed_run.hpp"
+#include "render/report/filmed_run.hpp"
 #include "render/report/html.hpp"
 #include "simulators/registry.hpp"
 

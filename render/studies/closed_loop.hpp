@@ -1,6 +1,6 @@
 #pragma once
 
-#include "render/pictures/study_pictures.hpp"
+#include "render/report/study_pictures.hpp"
 
 namespace touchdown::render {
 

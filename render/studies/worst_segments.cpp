@@ -10,7 +10,7 @@
 #include "experiments/plan/sensors.hpp"
 #include "render/benchmark/scores.hpp"
 #include "render/film/video.hpp"
-#include "render/pictures/filmed_run.hpp"
+#include "render/report/filmed_run.hpp"
 #include "scenarios/engine.hpp"
 
 namespace touchdown::render {

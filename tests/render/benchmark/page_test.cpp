@@ -10,7 +10,7 @@
 #include "core/files.hpp"
 #include "experiments/results/summary_file.hpp"
 #include "render/benchmark/standings_figure.hpp"
-#include "render/pictures/filmed_report.hpp"
+#include "render/report/report.hpp"
 #include "render/studies/registry.hpp"
 #include "tests/scratch_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "render/pictures/filmed_run.hpp"
+#include "render/report/filmed_run.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,3 @@
-#include "render/replay/data.hpp"
-
 #include <cmath>
 #include <limits>
 
@@ -7,10 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "render/film/scene_view.hpp"
-#include "render/replay/encoding.hpp"
-#include "render/replay/html.hpp"
 #include "render/film/primitives.hpp"
+#include "render/film/scene_view.hpp"
+#include "render/report/sections.hpp"
 #include "tests/render/staged_run.hpp"
 
 namespace touchdown::render {
@@ -168,26 +165,8 @@ TEST_F(ReplayData, NamesCannotCloseTheScriptThatContainsThem) {
   EXPECT_EQ(data["runs"][0]["estimators"][0]["name"], beliefs[0].name);
 }
 
-TEST(ReplayEncoding, NumbersBeyondTheRangeAreClamped) {
-  EXPECT_EQ(words_of(packed(std::vector<double>{0.0, 1.0, -1.0, 1e9, -1e9, NAN, 0.26}, 0.1)),
-            (std::vector<int>{0, 10, -10, 32767, -32767, 0, 3}));
-}
-
-TEST(ReplayEncoding, PositionsKeepATenThousandthOfTheirExtent) {
-  for (const double extent : {0.0, 1e-3, 4.0, 500.0}) {
-    std::vector<Eigen::Vector3d> positions;
-    for (int i = 0; i <= 10; ++i) positions.emplace_back(7.0 + extent * i / 10.0, -3.0, extent);
-    const PositionCode code = code_of(positions);
-    for (const Eigen::Vector3d& position : positions) {
-      const Eigen::Vector3d steps = ((position - code.origin) / code.unit).array().round();
-      EXPECT_LE(steps.cwiseAbs().maxCoeff(), 32767.0);
-      EXPECT_LT((code.origin + code.unit * steps - position).norm(), 1e-5 + 1e-4 * extent);
-    }
-  }
-}
-
 /// A sphere of many triangles keeps its shape with few.
-TEST(ReplayEncoding, LargeMeshesAreReduced) {
+TEST(ReplayMeshes, AreReducedAndKeepTheirShape) {
   constexpr int rows = 100, columns = 200;
   TriangleMesh sphere;
   for (int i = 0; i <= rows; ++i) {

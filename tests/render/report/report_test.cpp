@@ -56,7 +56,9 @@ class Report : public ::testing::Test {
       "versions": {"touchdown": "0.1.0", "commit": "v0.1.0-3-gabc<"}, "seeds": {"experiment": 1}})");
     experiments::write_summary({}, folder_.path());
   }
-  std::string page() const { return read_file(write_report(read_subject(folder_.path()), {}, {})); }
+  std::string page(const std::vector<StudyPictures>& studies = {}) const {
+    return read_file(make_report(read_subject(folder_.path()), {}, studies));
+  }
 
   const ScratchFolder folder_;
 };
@@ -168,11 +170,14 @@ TEST_F(Report, JoinsIntervalsAndMarksMissingNumbers) {
 }
 
 TEST_F(Report, HasTheSectionsOfStudiesThatAreNotEmpty) {
-  const auto path =
-      write_report(read_subject(folder_.path()), {},
-                   {{"mine", "My study", "<p>found</p>"}, {"none", "Empty study", ""}});
-  EXPECT_THAT(read_file(path), AllOf(HasSubstr("href=\"#mine\""), HasSubstr("<p>found</p>"),
-                                     Not(HasSubstr("Empty study"))));
+  const auto study = [](const ReportSection& section) {
+    return StudyPictures{.is_requested = [](const experiments::Experiment&) { return true; },
+                         .section = [section](const ReportSubject&) { return section; }};
+  };
+  const std::string html =
+      page({study({"mine", "My study", "<p>found</p>"}), study({"none", "Empty study", ""})});
+  EXPECT_THAT(html, AllOf(HasSubstr("href=\"#mine\""), HasSubstr("<p>found</p>"),
+                          Not(HasSubstr("Empty study"))));
 }
 
 TEST_F(Report, RefusesOtherDirectories) {

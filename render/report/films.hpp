@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "render/pictures/filmed_run.hpp"
+#include "render/report/filmed_run.hpp"
 
 namespace touchdown::render {
 

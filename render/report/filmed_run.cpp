@@ -1,4 +1,4 @@
-#include "render/pictures/filmed_run.hpp"
+#include "render/report/filmed_run.hpp"
 
 #include <cmath>
 #include <memory>

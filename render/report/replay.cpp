@@ -1,17 +1,93 @@
-#include "render/replay/data.hpp"
-
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include <Eigen/Core>
 #include <fmt/format.h>
 
-#include "render/film/scene_view.hpp"
-#include "render/replay/encoding.hpp"
 #include "render/film/primitives.hpp"
+#include "render/film/scene_view.hpp"
+#include "render/report/html.hpp"
+#include "render/report/sections.hpp"
 
 namespace touchdown::render {
 
 namespace {
+
+/// A position p is `origin + unit · (i, j, k)`, with whole numbers of 16 bits. `unit` is in metres.
+struct PositionCode {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  double unit = 1e-5;
+};
+
+constexpr double largest = std::numeric_limits<std::int16_t>::max();
+
+/// The mesh with its vertices at the middles of a grid's cells.
+TriangleMesh on_grid(const TriangleMesh& mesh, const Eigen::Vector3d& corner, double cell) {
+  TriangleMesh result;
+  std::map<std::array<long, 3>, int> index_of;
+  std::vector<int> moved;
+  for (const Eigen::Vector3d& vertex : mesh.vertices) {
+    const Eigen::Vector3d at = ((vertex - corner) / cell).array().floor();
+    const std::array<long, 3> key = {std::lround(at.x()), std::lround(at.y()), std::lround(at.z())};
+    const auto [found, is_new] =
+        index_of.try_emplace(key, static_cast<int>(result.vertices.size()));
+    if (is_new) {
+      result.vertices.emplace_back(corner + cell * (at + Eigen::Vector3d::Constant(0.5)));
+    }
+    moved.push_back(found->second);
+  }
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    std::array<int, 3> triangle;
+    for (std::size_t k = 0; k < 3; ++k) {
+      triangle[k] = moved[static_cast<std::size_t>(mesh.indices[i + k])];
+    }
+    const auto [a, b, c] = triangle;
+    if (a == b || b == c || c == a) continue;
+    result.indices.insert(result.indices.end(), triangle.begin(), triangle.end());
+  }
+  return result;
+}
+
+/// Whole numbers of 16 bits, little-endian, as base64. Numbers beyond the range are clamped.
+std::string packed(const std::vector<double>& values, double unit) {
+  std::string bytes;
+  bytes.reserve(2 * values.size());
+  for (const double value : values) {
+    const double steps = std::isfinite(value) ? value / unit : 0.0;
+    const auto code = static_cast<std::uint16_t>(
+        static_cast<std::int16_t>(std::lround(std::clamp(steps, -largest, largest))));
+    bytes += static_cast<char>(code & 0xffU);
+    bytes += static_cast<char>(code >> 8U);
+  }
+  return base64(bytes);
+}
+
+/// Whole numbers of 8 bits.
+std::string packed(const std::vector<std::uint8_t>& values) {
+  return base64(std::string_view(reinterpret_cast<const char*>(values.data()), values.size()));
+}
+
+/// The finest code of these positions.
+PositionCode code_of(const std::vector<Eigen::Vector3d>& positions) {
+  if (positions.empty()) return {};
+  Eigen::Vector3d low = positions.front();
+  Eigen::Vector3d high = positions.front();
+  for (const Eigen::Vector3d& position : positions) {
+    low = low.cwiseMin(position);
+    high = high.cwiseMax(position);
+  }
+  PositionCode code{.origin = 0.5 * (low + high)};
+  code.unit = std::max(code.unit, 0.5 * (high - low).maxCoeff() / largest);
+  return code;
+}
 
 using Json = nlohmann::ordered_json;
 
@@ -164,7 +240,75 @@ Json camera_json() {
           {"look_at", numbers(camera.look_at)}};
 }
 
+/// JSON inside a script element: nothing in it may close the element.
+std::string inline_json(const nlohmann::ordered_json& data) {
+  std::string text = data.dump();
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
+    text.replace(at, 1, "\\u003c");
+  }
+  return text;
+}
+
+std::string engines_html(const std::vector<VideoSource>& runs) {
+  if (runs.size() < 2) return {};
+  std::string html = "<fieldset class=\"picks engines\"><legend>Engine</legend>\n";
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    html += fmt::format(
+        "<label><input type=\"radio\" name=\"replay-engine\" value=\"{}\"{}> {}</label>\n", i,
+        i == 0 ? " checked" : "", escaped(label_of(runs[i])));
+  }
+  return html + "</fieldset>\n";
+}
+
+/// The length of what is left out, in words.
+std::string cap_text(const std::vector<VideoSource>& runs) {
+  double end = 0.0;
+  for (const VideoSource& run : runs) {
+    end = std::max(end, run.recording.period() * static_cast<double>(run.recording.steps()));
+  }
+  return end > longest_replay + 1.0
+             ? fmt::format(" Only the first {:.0f} of {:.0f} seconds are here.", longest_replay,
+                           end)
+             : "";
+}
+
+constexpr const char* controls = R"(<div class="stage">
+<canvas class="view" tabindex="0" role="application" aria-label="The robot on its terrain. Arrow keys turn the view, plus and minus move it, Home resets it, Space plays."></canvas>
+<p class="state" aria-hidden="true"></p>
+</div>
+<div class="transport">
+<button type="button" class="play" aria-pressed="false">Play</button>
+<label class="speed">Speed <select><option value="0.1">0.1×</option><option value="0.25">0.25×</option><option value="0.5">0.5×</option><option value="1" selected>1×</option><option value="2">2×</option></select></label>
+<button type="button" class="reset">Reset view</button>
+<button type="button" data-jump="flight" data-step="-1" aria-label="Previous flight">‹ Flight</button>
+<button type="button" data-jump="flight" data-step="1" aria-label="Next flight">Flight ›</button>
+<button type="button" data-jump="error" data-step="-1" aria-label="Previous error of the first estimator shown">‹ Error</button>
+<button type="button" data-jump="error" data-step="1" aria-label="Next error of the first estimator shown">Error ›</button>
+</div>
+<canvas class="overview" aria-hidden="true"></canvas>
+<input type="range" class="time" min="0" step="0.01" value="0" aria-label="Time">
+<canvas class="curves" aria-hidden="true"></canvas>
+<fieldset class="picks estimators-shown"><legend>P(contact): left wheel, right wheel</legend></fieldset>
+)";
+
 }  // namespace
+
+TriangleMesh reduced(const TriangleMesh& mesh, std::size_t most_triangles) {
+  TriangleMesh result = mesh;
+  if (mesh.vertices.empty()) return result;
+  Eigen::Vector3d low = mesh.vertices.front();
+  Eigen::Vector3d high = low;
+  for (const Eigen::Vector3d& vertex : mesh.vertices) {
+    low = low.cwiseMin(vertex);
+    high = high.cwiseMax(vertex);
+  }
+  double cells = 256.0;
+  while (result.indices.size() > 3 * most_triangles && cells > 1.0) {
+    result = on_grid(mesh, low, (high - low).maxCoeff() / cells);
+    cells /= 1.25;
+  }
+  return result;
+}
 
 Json replay_data(const std::vector<VideoSource>& runs, const scoring::LabelConfig& labels) {
   Json data = {{"camera", camera_json()}, {"scenes", Json::array()}, {"runs", Json::array()}};
@@ -185,6 +329,19 @@ Json replay_data(const std::vector<VideoSource>& runs, const scoring::LabelConfi
     data["runs"].push_back(std::move(run));
   }
   return data;
+}
+
+std::string replay_html(const std::vector<VideoSource>& runs, const scoring::LabelConfig& labels) {
+  return fmt::format(
+      "<div class=\"replay\" hidden>\n{}{}"
+      "<p class=\"note\">Drag to turn, scroll (after a click) or pinch to zoom. Wheels are green "
+      "in true contact and orange in the air. Below, the whole run: true contact (green: dark of "
+      "both wheels, light of one) with the errors of the first estimator shown in red. The curves "
+      "show the seconds around the present, at {:.0f} Hz.{}</p>\n"
+      "<script type=\"application/json\">{}</script>\n</div>\n"
+      "<noscript><p class=\"note\">The replay needs JavaScript.</p></noscript>\n",
+      engines_html(runs), controls, replay_belief_rate, cap_text(runs),
+      inline_json(replay_data(runs, labels)));
 }
 
 }  // namespace touchdown::render

@@ -1,4 +1,4 @@
-#include "render/pictures/pictures.hpp"
+#include "render/report/pictures.hpp"
 
 #include <chrono>
 
@@ -6,7 +6,7 @@
 #include "core/progress.hpp"
 #include "render/figures/figures.hpp"
 #include "render/gnuplot/facets.hpp"
-#include "render/pictures/films.hpp"
+#include "render/report/films.hpp"
 #include "render/stop.hpp"
 
 namespace touchdown::render {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "experiments/results/result.hpp"
-#include "render/pictures/filmed_run.hpp"
-#include "render/pictures/study_pictures.hpp"
+#include "render/report/filmed_run.hpp"
+#include "render/report/study_pictures.hpp"
 
 namespace touchdown::render {
 

@@ -1,4 +1,4 @@
-#include "render/pictures/films.hpp"
+#include "render/report/films.hpp"
 
 #include <algorithm>
 #include <system_error>
