@@ -74,6 +74,24 @@ struct Heatmap {
 /// Maps with more cells than this show no numbers.
 inline constexpr std::size_t most_numbered_cells = 64;
 
+/// What the size of a heatmap and the places of its cells depend on.
+struct HeatmapShape {
+  std::size_t panels, columns, rows;
+  bool has_intervals;   ///< cells show them
+  std::string caption;  ///< its lines make the picture higher
+};
+
+/// The size of a heatmap's picture (px), and its panels without their labels: left, top, width and
+/// height as shares of the picture. Cells divide a panel evenly, the first row is the lowest.
+struct HeatmapPlaces {
+  int width, height;
+  std::vector<std::array<double, 4>> panels;
+};
+HeatmapPlaces heatmap_places(const HeatmapShape& shape);
+
+/// The estimators with a panel in the maps of `draw_heatmaps`, in this order.
+std::vector<std::string> mapped_estimators(const experiments::Experiment& experiment);
+
 /// Draws a heatmap. Errors: `InputError` when a panel's size is not y × x.
 Figure draw_heatmap(const Heatmap& heatmap, const std::filesystem::path& stem);
 

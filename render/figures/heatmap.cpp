@@ -125,12 +125,43 @@ std::string heatmap_data(const Heatmap& heatmap, const CellSize& cell) {
   return text + line_text + label_text + cross_text;
 }
 
-/// Cells of all panels have the same size.
-CellSize cell_size(const Heatmap& heatmap, bool numbers) {
-  if (numbers && !heatmap.panels.front().low.empty()) return {92.0, 54.0};
-  if (numbers) return {60.0, 44.0};
-  const double width = std::max(26.0, 350.0 / static_cast<double>(heatmap.x.size()));
+constexpr double map_gap_x = 74.0, map_gap_y = 72.0,
+                 scale_width = 104.0;  ///< between panels, for the scale (px)
+
+/// Where panels are in the body of the frame (px). Their cells have the same size.
+struct PanelLayout {
+  CellSize cell;
+  std::size_t columns, rows;  ///< of panels
+  double panel_width, panel_height;
+  double width, height;
+
+  double left(std::size_t panel) const {
+    return static_cast<double>(panel % columns) * (panel_width + map_gap_x) + map_gap_x - 8.0;
+  }
+  double top(std::size_t panel) const {
+    return static_cast<double>(panel / columns) * (panel_height + map_gap_y) + 22.0;
+  }
+};
+
+CellSize cell_size(const HeatmapShape& shape) {
+  const bool has_numbers = shape.columns * shape.rows <= most_numbered_cells;
+  if (has_numbers && shape.has_intervals) return {92.0, 54.0};
+  if (has_numbers) return {60.0, 44.0};
+  const double width = std::max(26.0, 350.0 / static_cast<double>(shape.columns));
   return {width, std::max(22.0, 0.82 * width)};
+}
+
+PanelLayout layout_of(const HeatmapShape& shape) {
+  PanelLayout layout{};
+  layout.cell = cell_size(shape);
+  layout.columns = std::min<std::size_t>(shape.panels, shape.panels == 4 ? 2 : 3);
+  layout.rows = (shape.panels + layout.columns - 1) / layout.columns;
+  layout.panel_width = layout.cell.width * static_cast<double>(shape.columns);
+  layout.panel_height = layout.cell.height * static_cast<double>(shape.rows);
+  layout.width = std::max(
+      560.0, static_cast<double>(layout.columns) * (layout.panel_width + map_gap_x) + scale_width);
+  layout.height = static_cast<double>(layout.rows) * (layout.panel_height + map_gap_y);
+  return layout;
 }
 
 /// As many of an axis's values as fit: every one, every second, ... `space` is per value (px).
@@ -222,18 +253,11 @@ std::string described(const Heatmap& heatmap) {
 
 Figure draw_heatmap(const Heatmap& heatmap, const std::filesystem::path& stem) {
   check(heatmap);
-  const std::size_t panels = heatmap.panels.size();
-  const std::size_t columns = std::min<std::size_t>(panels, panels == 4 ? 2 : 3);
-  const std::size_t rows = (panels + columns - 1) / columns;
   const bool numbers = heatmap.x.size() * heatmap.y.size() <= most_numbered_cells;
-  const CellSize cell = cell_size(heatmap, numbers);
-  const double panel_width = cell.width * static_cast<double>(heatmap.x.size());
-  const double panel_height = cell.height * static_cast<double>(heatmap.y.size());
-  const double gap_x = 74.0, gap_y = 72.0, bar = 104.0;
-  const double width = std::max(560.0, static_cast<double>(columns) * (panel_width + gap_x) + bar);
-  const FigureFrame frame(heatmap.title, heatmap.caption, width,
-                          static_cast<double>(rows) * (panel_height + gap_y));
-
+  const PanelLayout layout = layout_of({heatmap.panels.size(), heatmap.x.size(), heatmap.y.size(),
+                                        !heatmap.panels.front().low.empty(), heatmap.caption});
+  const CellSize& cell = layout.cell;
+  const FigureFrame frame(heatmap.title, heatmap.caption, layout.width, layout.height);
   const std::string name = stem.filename().string();
   std::string commands = fmt::format(
       "unset grid\nset border 0\nset tics scale 0\n"
@@ -242,21 +266,31 @@ Figure draw_heatmap(const Heatmap& heatmap, const std::filesystem::path& stem) {
       colour_scale(heatmap), static_cast<double>(heatmap.x.size()) - 0.5,
       static_cast<double>(heatmap.y.size()) - 0.5, tics(heatmap.x, cell.width),
       tics(heatmap.y, 2.0 * cell.height));
-  for (std::size_t i = 0; i < panels; ++i) {
-    const double left = static_cast<double>(i % columns) * (panel_width + gap_x) + gap_x - 8.0;
-    const std::size_t row = i / columns;
-    const double top = static_cast<double>(row) * (panel_height + gap_y) + 22.0;
-    commands += frame.panel(left, top, panel_width, panel_height);
+  for (std::size_t i = 0; i < heatmap.panels.size(); ++i) {
+    commands += frame.panel(layout.left(i), layout.top(i), layout.panel_width, layout.panel_height);
     commands += fmt::format(
         "set title {} offset 0,-0.6\nset xlabel {} offset 0,0.4\nset ylabel {} offset 0.6,0\n",
         gnuplot_text(heatmap.panels[i].title), gnuplot_text(heatmap.x_label),
-        gnuplot_text(i % columns == 0 ? heatmap.y_label : ""));
-    commands += i == 0 ? frame.colour_bar(width - bar + 16.0, top, 14.0, panel_height) +
+        gnuplot_text(i % layout.columns == 0 ? heatmap.y_label : ""));
+    commands += i == 0 ? frame.colour_bar(layout.width - scale_width + 16.0, layout.top(0), 14.0,
+                                          layout.panel_height) +
                              "set cblabel 'error rate (%), lower is better' offset 0.4,0\n"
                        : "unset colorbox\n";
     commands += panel_plot(heatmap, name, i, numbers, cell) + FigureFrame::end_panel();
   }
   return frame.draw(stem, commands, heatmap_data(heatmap, cell), described(heatmap));
+}
+
+HeatmapPlaces heatmap_places(const HeatmapShape& shape) {
+  const PanelLayout layout = layout_of(shape);
+  const FigureFrame frame({}, shape.caption, layout.width, layout.height);
+  HeatmapPlaces places{frame.width(), frame.height(), {}};
+  for (std::size_t i = 0; i < shape.panels; ++i) {
+    const double left = frame.x(layout.left(i)), upper = frame.y(layout.top(i));
+    places.panels.push_back({left, 1.0 - upper, frame.x(layout.left(i) + layout.panel_width) - left,
+                             upper - frame.y(layout.top(i) + layout.panel_height)});
+  }
+  return places;
 }
 
 }  // namespace touchdown::render

@@ -70,8 +70,7 @@ double always_contact(const experiments::ExperimentResult& result, const std::st
 Heatmap filled(Heatmap heatmap, const experiments::ExperimentResult& result,
                const std::string& simulator, const CellCoordinates& coordinates) {
   const experiments::Experiment& experiment = result.experiment;
-  for (const std::string& estimator : experiment.estimators) {
-    if (estimator == experiments::always_contact_name) continue;
+  for (const std::string& estimator : mapped_estimators(experiment)) {
     heatmap.panels.push_back(panel_of(result, simulator, estimator, heatmap, coordinates));
   }
   heatmap.caption = fmt::format(
@@ -92,6 +91,12 @@ Heatmap filled(Heatmap heatmap, const experiments::ExperimentResult& result,
 }
 
 }  // namespace
+
+std::vector<std::string> mapped_estimators(const experiments::Experiment& experiment) {
+  std::vector<std::string> names = experiment.estimators;
+  std::erase(names, experiments::always_contact_name);
+  return names;
+}
 
 void draw_heatmaps(const experiments::ExperimentResult& result, const std::atomic<bool>* stop) {
   const experiments::Experiment& experiment = result.experiment;

@@ -106,6 +106,14 @@ std::string data_uri(std::string_view media_type, const std::filesystem::path& p
   return fmt::format("data:{};base64,{}", media_type, base64(read_file(path)));
 }
 
+std::string inline_json(const nlohmann::ordered_json& data) {
+  std::string text = data.dump();
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
+    text.replace(at, 1, "\\u003c");
+  }
+  return text;
+}
+
 std::string policy_source(std::string_view sha256) {
   std::string bytes;
   for (std::size_t i = 0; i + 1 < sha256.size(); i += 2) {

@@ -30,6 +30,9 @@ std::string base64(std::string_view bytes);
 /// The file's content as a `data:` URI. Errors: `InputError` when the file cannot be read.
 std::string data_uri(std::string_view media_type, const std::filesystem::path& path);
 
+/// JSON inside a script element: nothing in it may close the element.
+std::string inline_json(const nlohmann::ordered_json& data);
+
 /// The source expression of a Content-Security-Policy for a script or style with this hexadecimal
 /// SHA-256 digest.
 std::string policy_source(std::string_view sha256);

@@ -240,15 +240,6 @@ Json camera_json() {
           {"look_at", numbers(camera.look_at)}};
 }
 
-/// JSON inside a script element: nothing in it may close the element.
-std::string inline_json(const nlohmann::ordered_json& data) {
-  std::string text = data.dump();
-  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
-    text.replace(at, 1, "\\u003c");
-  }
-  return text;
-}
-
 std::string engines_html(const std::vector<VideoSource>& runs) {
   if (runs.size() < 2) return {};
   std::string html = "<fieldset class=\"picks engines\"><legend>Engine</legend>\n";

@@ -24,10 +24,11 @@ ReportSection results_section(const ReportSubject& subject);
 /// The paper's tables at the highlighted noise settings, with the paper's numbers beside ours.
 ReportSection paper_section(const ReportSubject& subject);
 
-/// Maps of the error rate over the study's noise grids; empty for a single noise setting.
+/// The drawn maps of the error rate over noise levels; a cell that the reader points at shows its
+/// numbers.
 ReportSection heatmap_section(const ReportSubject& subject);
 
-/// The figures of the run directory, with the texts of their scripts.
+/// The other figures of the run directory, with the texts of their scripts.
 ReportSection figures_section(const ReportSubject& subject);
 
 /// Only this much of a longer run is replayed (s), because the page contains it.
