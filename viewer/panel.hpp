@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,8 +9,34 @@
 #include <opencv2/core.hpp>
 
 #include "render/film/plots.hpp"
+#include "render/film/strip.hpp"
+#include "viewer/live_run.hpp"
 
 namespace touchdown::viewer {
+
+/// The colour (0xRRGGBB) of the i-th estimator, as in figures and films.
+unsigned estimator_colour(std::size_t i);
+
+/// Curves that grow with a live run: P(contact) of both wheels over their true contact, torques and
+/// the vertical acceleration.
+class LivePlots {
+ public:
+  /// The number of estimators; `period` between samples (s); `weight` of the robot (N).
+  LivePlots(std::size_t estimators, double period, double weight);
+
+  void append(const std::vector<LiveSample>& samples);
+  /// Draws the last seconds. Valid until the next call.
+  const cv::Mat& draw(int width, int height);
+
+ private:
+  double end() const;
+
+  double period_;
+  std::size_t count_ = 0;               ///< samples
+  std::vector<render::StripRow> rows_;  ///< until the first picture
+  std::unique_ptr<render::SignalStrip> strip_;
+  cv::Mat image_;
+};
 
 /// The contact of both wheels as two small boxes: filled in contact, empty without. A decision that
 /// differs from the true contact has a red border.

@@ -1,19 +1,62 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
 #include <opencv2/core.hpp>
 
-#include "render/film/scene_view.hpp"
 #include "render/film/plots.hpp"
-#include "viewer/screen/camera_control.hpp"
-#include "viewer/window/window.hpp"
+#include "render/film/scene_view.hpp"
+#include "viewer/window.hpp"
 
 namespace touchdown::viewer {
+
+/// What a key does. The list of all keys, which `h` shows, is made of these.
+struct KeyBinding {
+  std::vector<int> keys;
+  std::string label;  ///< the keys' names: "↑ ↓"
+  std::string text;   ///< what they do
+  std::function<void(const KeyPress& press)> act;
+};
+
+/// Acts on pressed keys, in their order. Keys without a binding do nothing.
+void act_on(const std::vector<KeyBinding>& bindings, const std::vector<KeyPress>& presses);
+
+/// The list of keys and of what the mouse does, at most `width`·`height` pixels.
+cv::Mat key_list(const render::TextPen& pen, const std::vector<KeyBinding>& bindings,
+                 const std::vector<std::pair<std::string, std::string>>& mouse, int width,
+                 int height);
+
+/// The camera, which follows the robot, and which a user turns and moves closer.
+class CameraControl {
+ public:
+  /// The next of the modes: film, behind, side, above.
+  void next_mode();
+  std::string mode() const;
+
+  /// Turns the camera by a motion of the mouse (pixels).
+  void turn(double right, double down);
+  /// Moves it closer by steps of the mouse wheel.
+  void approach(double steps);
+
+  /// Follows the robot's base (m, world) smoothly. `seconds` since the last call; 0 jumps there.
+  void follow(const Eigen::Vector3d& base, double seconds);
+
+  const render::SceneCamera& camera() const { return camera_; }
+  const Eigen::Vector3d& target() const { return target_; }
+
+ private:
+  std::size_t mode_ = 0;
+  render::SceneCamera camera_;
+  Eigen::Vector3d target_ = Eigen::Vector3d::Zero();
+  bool follows_ = false;
+};
 
 /// A rectangle in the window (pixels, from the upper left corner).
 struct Area {

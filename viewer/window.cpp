@@ -1,4 +1,4 @@
-#include "viewer/window/window.hpp"
+#include "viewer/window.hpp"
 
 #include <cctype>
 #include <map>
