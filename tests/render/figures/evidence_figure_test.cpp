@@ -1,5 +1,3 @@
-#include "render/figures/figures.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
+#include "render/figures/figures.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {

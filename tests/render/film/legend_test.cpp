@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "render/palette.hpp"
 #include "render/film/strip.hpp"
+#include "render/palette.hpp"
 
 namespace touchdown::render {
 namespace {

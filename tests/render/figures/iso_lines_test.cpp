@@ -10,7 +10,8 @@ namespace {
 
 using ::testing::ElementsAre;
 
-constexpr CellSize cell{27.0, 22.0};
+/// Of fine maps (px).
+constexpr CellSize usual_cell{27.0, 22.0};
 
 using Rows = std::vector<std::vector<double>>;
 
@@ -48,7 +49,7 @@ std::size_t edges_between(const Rows& rows, const std::vector<double>& levels) {
 TEST(LevelBorders, RunAlongCellsEdgesAndCoverEveryOneOnce) {
   const Rows rows = hill(13);
   std::size_t segments = 0;
-  for (const LevelBorder& border : level_borders(rows, {5.0, 10.0, 15.0}, cell)) {
+  for (const LevelBorder& border : level_borders(rows, {5.0, 10.0, 15.0}, usual_cell)) {
     segments += border.line.size() - 1;
     for (std::size_t i = 0; i < border.line.size(); ++i) {
       // Corners are between cells; cells have whole coordinates.
@@ -65,7 +66,7 @@ TEST(LevelBorders, RunAlongCellsEdgesAndCoverEveryOneOnce) {
 }
 
 TEST(LevelBorders, LabelEveryLevelBetweenTheirTwoSides) {
-  const auto borders = level_borders({{1.5, 3.0, 12.0}}, {1.0, 2.0, 5.0, 10.0}, cell);
+  const auto borders = level_borders({{1.5, 3.0, 12.0}}, {1.0, 2.0, 5.0, 10.0}, usual_cell);
   ASSERT_EQ(borders.size(), 2U);
   EXPECT_EQ(label_of(borders[0]), "2 %");
   EXPECT_EQ(label_of(borders[1]), "5, 10 %");
@@ -78,14 +79,15 @@ TEST(LevelBorders, LabelEveryLevelBetweenTheirTwoSides) {
 }
 
 TEST(LevelBorders, LabelsKeepApartAndTheLongestLineHasOne) {
-  const auto borders = level_borders(hill(13), {5.0, 6.0, 10.0, 11.0, 15.0}, cell);
+  const auto borders = level_borders(hill(13), {5.0, 6.0, 10.0, 11.0, 15.0}, usual_cell);
   ASSERT_TRUE(borders.front().labelled.has_value());
   for (std::size_t i = 0; i < borders.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       if (!borders[i].labelled || !borders[k].labelled) continue;
       const LabelPlace a = label_place(borders[i]), b = label_place(borders[k]);
-      EXPECT_GE(std::max(cell.width * std::abs(a.x - b.x), cell.height * std::abs(a.y - b.y)),
-                30.0);
+      EXPECT_GE(
+          std::max(usual_cell.width * std::abs(a.x - b.x), usual_cell.height * std::abs(a.y - b.y)),
+          30.0);
     }
   }
 }
@@ -104,9 +106,66 @@ TEST(LevelBorders, LeaveGapsForTheirLabels) {
 }
 
 TEST(LevelBorders, KeepAwayFromUnknownCells) {
-  EXPECT_TRUE(level_borders({{1.0, NAN, 3.0}}, {2.0}, cell).empty());
-  EXPECT_TRUE(level_borders({}, {2.0}, cell).empty());
-  EXPECT_TRUE(level_borders({{1.0, 1.5}}, {2.0}, cell).empty());
+  EXPECT_TRUE(level_borders({{1.0, NAN, 3.0}}, {2.0}, usual_cell).empty());
+  EXPECT_TRUE(level_borders({}, {2.0}, usual_cell).empty());
+  EXPECT_TRUE(level_borders({{1.0, 1.5}}, {2.0}, usual_cell).empty());
+}
+
+/// A circle's iso-line lies on the circle, up to the error of linear interpolation.
+TEST(IsoLines, LieOnTheLevel) {
+  std::vector<std::vector<double>> rows(41, std::vector<double>(41));
+  for (std::size_t r = 0; r < 41; ++r) {
+    for (std::size_t c = 0; c < 41; ++c) {
+      rows[r][c] = std::hypot(static_cast<double>(r) - 20.0, static_cast<double>(c) - 20.0);
+    }
+  }
+  const auto segments = iso_lines(rows, 12.3);
+  double length = 0.0;
+  for (const IsoSegment& segment : segments) {
+    for (const auto& point : segment) {
+      EXPECT_NEAR(std::hypot(point[0] - 20.0, point[1] - 20.0), 12.3, 0.02);
+    }
+    length += std::hypot(segment[0][0] - segment[1][0], segment[0][1] - segment[1][1]);
+  }
+  EXPECT_NEAR(length, 2.0 * M_PI * 12.3, 0.3);
+}
+
+TEST(IsoLines, AreJoinedFromEndToEnd) {
+  std::vector<std::vector<double>> rows(21, std::vector<double>(21));
+  for (std::size_t r = 0; r < 21; ++r) {
+    for (std::size_t c = 0; c < 21; ++c) {
+      rows[r][c] = std::hypot(static_cast<double>(r) - 10.0, static_cast<double>(c) - 10.0);
+    }
+  }
+  const auto closed = joined(iso_lines(rows, 6.3));
+  ASSERT_EQ(closed.size(), 1u);
+  EXPECT_EQ(closed[0].size(), iso_lines(rows, 6.3).size() + 1);
+  EXPECT_NEAR(closed[0].front()[0], closed[0].back()[0], 1e-9);
+  EXPECT_NEAR(closed[0].front()[1], closed[0].back()[1], 1e-9);
+  const auto corners = joined(iso_lines(rows, 12.2));  // cut off by the border
+  ASSERT_EQ(corners.size(), 4u);
+  std::size_t segments = 0;
+  for (const IsoLine& line : corners) segments += line.size() - 1;
+  EXPECT_EQ(segments, iso_lines(rows, 12.2).size());
+  EXPECT_TRUE(joined({}).empty());
+}
+
+TEST(IsoLines, SeparateTheCornersOfASaddle) {
+  // The middle (0.5) is below 0.6: the two high corners are cut off from each other.
+  const auto segments = iso_lines({{1.0, 0.0}, {0.0, 1.0}}, 0.6);
+  ASSERT_EQ(segments.size(), 2u);
+  for (const IsoSegment& segment : segments) {
+    const double x = 0.5 * (segment[0][0] + segment[1][0]);
+    const double y = 0.5 * (segment[0][1] + segment[1][1]);
+    EXPECT_NEAR(x, y, 1e-12);               // on the diagonal through the high corners
+    EXPECT_LT(std::min(x, 1.0 - x), 0.25);  // close to one of them
+  }
+}
+
+TEST(IsoLines, SkipUnknownCells) {
+  EXPECT_TRUE(iso_lines({{0.0, NAN}, {1.0, 1.0}}, 0.5).empty());
+  EXPECT_TRUE(iso_lines({}, 0.5).empty());
+  EXPECT_TRUE(iso_lines({{0.0, 1.0}}, 0.5).empty());
 }
 
 }  // namespace

@@ -1,5 +1,3 @@
-#include "render/film/painter.hpp"
-
 #include <csignal>
 #include <filesystem>
 #include <numeric>
@@ -12,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "render/film/painter.hpp"
 
 namespace touchdown::render {
 namespace {
