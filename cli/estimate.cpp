@@ -20,8 +20,8 @@
 #include "recordings/log/annotator.hpp"
 #include "recordings/log/byte_source.hpp"
 #include "recordings/mapping/mapped_log.hpp"
-#include "render/curves/log_figure.hpp"
 #include "scenarios/scenario.hpp"
+#include "render/figures/log_figure.hpp"
 
 namespace touchdown::cli {
 

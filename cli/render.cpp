@@ -10,7 +10,7 @@
 #include "core/program.hpp"
 #include "experiments/run_directory/lock.hpp"
 #include "render/film/video.hpp"
-#include "render/pictures/filmed_run.hpp"
+#include "render/report/filmed_run.hpp"
 
 namespace touchdown::cli {
 

@@ -1,3 +1,5 @@
+#include "render/report/report.hpp"
+
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -9,8 +11,7 @@
 #include "core/program.hpp"
 #include "experiments/run_directory/lock.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "render/pictures/filmed_report.hpp"
-#include "render/pictures/films.hpp"
+#include "render/report/films.hpp"
 #include "render/studies/registry.hpp"
 
 namespace touchdown::cli {

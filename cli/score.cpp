@@ -7,10 +7,10 @@
 #include "core/files.hpp"
 #include "core/program.hpp"
 #include "experiments/submissions/score_beliefs.hpp"
-#include "render/pictures/filmed_report.hpp"
-#include "render/pictures/films.hpp"
+#include "render/report/films.hpp"
+#include "render/report/report.hpp"
 #include "render/studies/benchmark.hpp"
-"render/studies/registry.hpp"
+#include "render/studies/registry.hpp"
 
 namespace touchdown::cli {
 

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "experiments/logs/estimator.hpp"
-#include "viewer/live/real_time.hpp"
-#include "viewer/live/run.hpp"
+#include "viewer/live_run.hpp"
 
 namespace touchdown::viewer {
 

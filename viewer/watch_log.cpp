@@ -1,5 +1,3 @@
-#include "viewer/watch_log.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,13 +8,11 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
-#include "render/film/pose.hpp"
-#include "render/film/strip_rows.hpp"
-#include "render/strip/signal_strip.hpp"
-#include "viewer/screen/keys.hpp"
-#include "viewer/screen/live_plots.hpp"
-#include "viewer/screen/panel.hpp"
-#include "viewer/screen/screen.hpp"
+#include "render/film/scene_view.hpp"
+#include "render/film/strip.hpp"
+#include "viewer/panel.hpp"
+#include "viewer/screen.hpp"
+#include "viewer/watch.hpp"
 
 namespace touchdown::viewer {
 

@@ -13,7 +13,7 @@
 
 #include "models/robot_model.hpp"
 #include "recordings/recording.hpp"
-#include "render/encode/writer.hpp"
+#include "render/film/encode.hpp"
 #include "render/palette.hpp"
 #include "scoring/labels.hpp"
 

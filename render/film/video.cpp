@@ -14,9 +14,8 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "render/encode/picture.hpp"
+#include "render/film/encode.hpp"
 #include "render/film/painter.hpp"
-#include "render/workers/workers.hpp"
 
 namespace touchdown::render {
 namespace {

@@ -1,19 +1,35 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "render/gnuplot/figure.hpp"
 
 namespace touchdown::render {
 
+/// The distance between ticks that gives an axis of length `span` at most `most` of them: 1, 2 or 5
+/// times a power of ten.
+double tick_step(double span, double most);
+
 /// The frame of a figure: the title above, the caption below, and the body between them, in which
 /// panels have fixed pixel positions. All lengths are in pixels of the PNG.
 class FigureFrame {
  public:
+  /// Sizes of title and caption (px).
+  struct Style {
+    double title_height = 38.0;
+    double caption_line = 16.0, caption_padding = 14.0;
+    double letter = 6.6;  ///< of the caption, on average
+    double margin = 0.0;  ///< that the caption leaves free
+  };
+
   /// `body_height` is the height that the panels need.
   FigureFrame(const std::string& title, const std::string& caption, double width,
               double body_height);
+  FigureFrame(FigureText text, double width, double body_height, const Style& style);
 
   int width() const;
   int height() const;
@@ -35,13 +51,59 @@ class FigureFrame {
   /// A `set label` command for a position in the body.
   std::string label(const std::string& text, double left, double top, const char* style) const;
 
- private:
+  /// A place in the body as a share of the figure, from its left and from its lower edge.
   double x(double pixels) const { return pixels / width_; }
-  double y(double pixels) const;
+  double y(double pixels) const { return 1.0 - (style_.title_height + pixels) / height_; }
+  const FigureText& text() const { return text_; }
+  /// The caption, wrapped to the figure's width, and its height (px).
+  const std::string& caption_lines() const { return caption_lines_; }
+  double caption_height() const;
 
-  std::string title_, caption_;
-  std::string caption_lines_;  ///< the caption, wrapped to the figure's width
+ private:
+  Style style_;
+  FigureText text_;
+  std::string caption_lines_;
   double width_, height_;
+};
+
+/// Panels in rows and columns that share their time axis, at fixed pixel positions. The title is
+/// above, the caption below, and every row has a legend on its right. It builds the gnuplot
+/// commands of a figure with a width of about 1280 pixels; its texts stay legible in a paper's
+/// column.
+class PanelGrid {
+ public:
+  struct Layout {
+    std::vector<std::string> columns = {""};  ///< their titles; empty for none
+    std::vector<double> row_heights;          ///< px
+    double panel_width = 452.0;               ///< px
+    double right = 250.0;                     ///< width of the legends beside the panels (px)
+    std::optional<double> at = {};            ///< origin of the time axis (s); default: a takeoff
+  };
+
+  PanelGrid(Layout layout, FigureText text);
+
+  std::size_t rows() const { return layout_.row_heights.size(); }
+
+  /// Opens the multiplot: fonts, titles and caption, and the time axis between two times (ms).
+  std::string begin(double from, double to) const;
+  /// Places the next plot. The last row has tics and label of the time axis, the first column those
+  /// of the vertical axis. `y_label` may have two lines.
+  std::string panel(std::size_t row, std::size_t column, std::string_view y_label) const;
+  /// Puts the next plot's key right of the row, at this distance (px).
+  std::string key(std::size_t row, double offset = 14.0) const;
+  /// Puts a colour bar of this width right of the row, at this distance (px).
+  std::string colour_bar(std::size_t row, double offset, double width) const;
+  /// Draws the figure of these commands. Files and errors as `draw_figure`.
+  Figure draw(const std::filesystem::path& stem, const std::string& commands,
+              const std::vector<PlotData>& data) const;
+
+ private:
+  double left(std::size_t column) const;  ///< edge of a panel (px)
+  double top(std::size_t row) const;      ///< from the figure's upper edge (px)
+  double keys() const { return frame_.width() - layout_.right; }  ///< left edge of legends (px)
+
+  Layout layout_;
+  FigureFrame frame_;
 };
 
 }  // namespace touchdown::render

@@ -1,12 +1,19 @@
-#include "render/report/figures.hpp"
+#include "render/figures/figures.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <sstream>
 
 #include <fmt/format.h>
 
 #include "core/files.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/results/captions.hpp"
+#include "render/figures/error_scale.hpp"
 #include "render/gnuplot/figure.hpp"
+#include "render/report/sections.hpp"
+#include "simulators/registry.hpp"
 
 namespace touchdown::render {
 namespace {
@@ -50,15 +57,25 @@ FigureText text_of(const fs::path& figure) {
   return text;
 }
 
-/// Whether a drawing needs the whole width of the page.
-bool is_wide(const fs::path& svg) {
-  if (svg.extension() != ".svg") return false;
+struct PictureSize {
+  double width = 0.0, height = 0.0;  ///< px; 0: unknown
+};
+
+PictureSize size_of(const fs::path& svg) {
+  PictureSize size;
+  if (svg.extension() != ".svg") return size;
   const std::string text = read_file(svg);
   const std::size_t box = text.find("viewBox=\"");
-  double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
-  if (box == std::string::npos) return false;
-  std::istringstream(text.substr(box + 9, 80)) >> left >> top >> width >> height;
-  return width > 1.4 * height || width >= 1200.0;
+  double left = 0.0, top = 0.0;
+  if (box == std::string::npos) return size;
+  std::istringstream(text.substr(box + 9, 80)) >> left >> top >> size.width >> size.height;
+  return size;
+}
+
+/// Whether a drawing needs the whole width of the page.
+bool is_wide(const fs::path& svg) {
+  const PictureSize size = size_of(svg);
+  return size.width > 1.4 * size.height || size.width >= 1200.0;
 }
 
 /// Further data files of a figure: `<figure>_….dat`.
@@ -95,46 +112,184 @@ void sort_by_engine(std::vector<fs::path>& files, const std::vector<std::string>
   });
 }
 
+/// The figure with its texts and links to its files; empty for one that is too large. `overlay`
+/// lies over the picture.
+std::string figure_html(const fs::path& file, const std::vector<std::string>& simulators,
+                        const std::string& overlay = {}) {
+  fs::path shown = file;
+  const fs::path painted = fs::path(file).replace_extension(".png");
+  if (size_of_file(file) > largest_picture && is_there(painted)) shown = painted;
+  if (size_of_file(shown) > largest_picture) return {};
+  const FigureText text = text_of(file);
+  std::string picture =
+      fmt::format("<img loading=\"lazy\" alt=\"{}\" src=\"{}\">", escaped(text.alt),
+                  data_uri(shown.extension() == ".svg" ? "image/svg+xml" : "image/png", shown));
+  if (!overlay.empty()) {
+    picture = fmt::format(
+        "<div class=\"map\" tabindex=\"0\" role=\"group\" aria-label=\"{}. The arrow keys choose a "
+        "cell.\">{}{}</div>",
+        escaped(text.title), picture, overlay);
+  }
+  std::string html = fmt::format(
+      "<figure{}><div class=\"pan\" tabindex=\"0\" role=\"group\" aria-label=\"{}\">"
+      "{}</div>\n<figcaption><b>{}.</b> {}",
+      is_wide(file) ? " class=\"wide\"" : "", escaped(text.title), picture, escaped(text.title),
+      escaped(text.caption));
+  for (const char* kind : {".svg", ".png", ".pdf", ".gp", ".dat", ".csv"}) {
+    const fs::path beside = fs::path(file).replace_extension(kind);
+    if (!is_there(beside)) continue;
+    html += fmt::format(" <a href=\"figures/{0}\">{1}</a>", escaped(beside.filename().string()),
+                        kind + 1);
+  }
+  std::vector<fs::path> more_data = more_data_of(file);
+  sort_by_engine(more_data, simulators);
+  for (const fs::path& data : more_data) {
+    html += fmt::format(" <a href=\"figures/{0}\">{0}</a>", escaped(data.string()));
+  }
+  return html + "</figcaption></figure>\n";
+}
+
+using Cells = std::vector<experiments::CellSummary>;
+
+/// A noise level that a map varies.
+struct NoiseAxis {
+  double noise::NoiseCell::*level;
+  const char *unit, *name;
+  std::vector<double> levels;
+};
+
+/// The maps over a grid of two noise levels: `figures/<name>_<engine>`.
+struct NoiseMaps {
+  std::string name;
+  NoiseAxis x, y;
+  std::optional<double> accelerometer = {};  ///< where it is no axis (m/s²)
+};
+
+/// The maps that `draw_heatmaps` draws of an experiment.
+std::vector<NoiseMaps> noise_maps(const experiments::Experiment& experiment) {
+  using noise::NoiseCell;
+  const noise::NoiseGridConfig& noise = experiment.noise;
+  const noise::KneeWheelGridConfig& joints = noise.knee_wheel;
+  std::vector<NoiseMaps> maps = {
+      {"error",
+       {&NoiseCell::accelerometer, "m/s²", "accelerometer noise", noise.accelerometer},
+       {&NoiseCell::torque, "N·m", "torque noise", noise.torque}}};
+  if (joints.knee.empty()) return maps;
+  maps.push_back({"knee_wheel",
+                  {&NoiseCell::wheel, "N·m", "wheel noise", joints.wheel},
+                  {&NoiseCell::knee, "N·m", "knee noise", joints.knee},
+                  joints.accelerometer});
+  return maps;
+}
+
+/// What a cell shows when the reader chooses it.
+std::string readout(const experiments::CellSummary& cell, const NoiseMaps& maps) {
+  const auto level = [&](const NoiseAxis& axis) {
+    return fmt::format("{} {:.4g} {}", axis.name, cell.cell.*axis.level, axis.unit);
+  };
+  std::string text = fmt::format("{}, {}: {}, {}: accuracy {}",
+                                 simulators::simulator_title(cell.condition.test_simulator),
+                                 experiments::estimator_title(cell.condition.estimator),
+                                 level(maps.y), level(maps.x), with_interval(cell.success));
+  if (std::isfinite(cell.always_contact)) {
+    text += fmt::format("; always contact {:.3f}", cell.always_contact);
+  }
+  return text + fmt::format("; error rate {} %", error_text(error_percent(cell.success.estimate)));
+}
+
+/// The readouts of one estimator's map in one engine, from the lowest row on.
+nlohmann::ordered_json readouts(const Cells& cells, const std::string& simulator,
+                                const std::string& estimator, const NoiseMaps& maps) {
+  nlohmann::ordered_json texts = nlohmann::ordered_json::array();
+  for (const double y : maps.y.levels) {
+    for (const double x : maps.x.levels) {
+      const auto cell =
+          std::find_if(cells.begin(), cells.end(), [&](const experiments::CellSummary& one) {
+            return one.condition.test_simulator == simulator &&
+                   one.condition.estimator == estimator && one.cell.*maps.x.level == x &&
+                   one.cell.*maps.y.level == y &&
+                   one.cell.accelerometer == maps.accelerometer.value_or(one.cell.accelerometer);
+          });
+      texts.push_back(cell == cells.end() ? "not part of this study" : readout(*cell, maps));
+    }
+  }
+  return texts;
+}
+
+/// The readouts of a drawn map and their places in it, for `script.js`. Empty for a drawing of
+/// another size, which has its cells elsewhere.
+std::string map_overlay(const ReportSubject& subject, const fs::path& drawing,
+                        const std::string& simulator, const NoiseMaps& maps) {
+  const std::vector<std::string> estimators = mapped_estimators(subject.experiment);
+  const std::size_t columns = maps.x.levels.size(), rows = maps.y.levels.size();
+  const FigureText text = text_of(drawing);
+  const HeatmapPlaces places = heatmap_places(
+      {estimators.size(), columns, rows, columns * rows <= most_numbered_cells, text.caption});
+  const PictureSize size = size_of(drawing);
+  if (size.width != places.width || size.height != places.height) return {};
+  nlohmann::ordered_json data = {{"columns", columns}, {"panels", nlohmann::ordered_json::array()}};
+  for (std::size_t i = 0; i < estimators.size(); ++i) {
+    data["panels"].push_back(
+        {{"place", places.panels[i]},
+         {"cells", readouts(subject.summary.cells, simulator, estimators[i], maps)}});
+  }
+  return fmt::format("<script type=\"application/json\">{}</script>", inline_json(data));
+}
+
+/// A drawn map and the readouts of its cells.
+struct MapOverlay {
+  fs::path drawing;
+  std::string html;
+};
+
+/// The maps that the page shows with readouts.
+std::vector<MapOverlay> map_overlays(const ReportSubject& subject) {
+  std::vector<MapOverlay> overlays;
+  const std::vector<NoiseMaps> all = noise_maps(subject.experiment);
+  for (const NoiseMaps& maps : all) {
+    for (const std::string& simulator : subject.experiment.simulators) {
+      const fs::path drawing =
+          subject.directory / "figures" / fmt::format("{}_{}.svg", maps.name, simulator);
+      if (!is_there(drawing)) continue;
+      const std::string overlay = map_overlay(subject, drawing, simulator, maps);
+      if (!overlay.empty()) overlays.push_back({drawing, overlay});
+    }
+  }
+  return overlays;
+}
+
 }  // namespace
+
+ReportSection heatmap_section(const ReportSubject& subject) {
+  ReportSection section{"noise", "Under sensor noise", {}};
+  for (const auto& [drawing, overlay] : map_overlays(subject)) {
+    section.html += figure_html(drawing, subject.experiment.simulators, overlay);
+  }
+  if (section.html.empty()) return section;
+  section.html = fmt::format(
+      "<div class=\"heatmaps gallery\">\n<p class=\"readout\" aria-live=\"polite\">Point at a "
+      "cell, "
+      "tap it, or use the arrow keys: its numbers appear here.</p>\n{}</div>\n"
+      "<p class=\"note\">The table “Accuracy” below lists the accuracies.</p>\n",
+      section.html);
+  return section;
+}
 
 ReportSection figures_section(const ReportSubject& subject) {
   ReportSection section{"figures", "Figures", {}};
-  const fs::path folder = subject.directory / "figures";
+  const std::vector<MapOverlay> maps = map_overlays(subject);
   std::vector<fs::path> files;
-  for (const fs::path& path : entries_in(folder)) {
-    const bool drawn = path.extension() == ".svg";
+  for (const fs::path& path : entries_in(subject.directory / "figures")) {
+    const bool is_map = std::any_of(maps.begin(), maps.end(),
+                                    [&](const MapOverlay& map) { return map.drawing == path; });
+    const bool drawn = path.extension() == ".svg" && !is_map;
     const bool painted =
         path.extension() == ".png" && !is_there(fs::path(path).replace_extension(".svg"));
     if (drawn || painted) files.push_back(path);
   }
-  const std::vector<std::string>& simulators = subject.experiment.simulators;
-  sort_by_engine(files, simulators);
+  sort_by_engine(files, subject.experiment.simulators);
   for (const fs::path& file : files) {
-    fs::path shown = file;
-    const fs::path painted = fs::path(file).replace_extension(".png");
-    if (size_of_file(file) > largest_picture && is_there(painted)) {
-      shown = painted;
-    }
-    if (size_of_file(shown) > largest_picture) continue;
-    const FigureText text = text_of(file);
-    section.html += fmt::format(
-        "<figure{}><div class=\"pan\" tabindex=\"0\" role=\"group\" aria-label=\"{}\">"
-        "<img loading=\"lazy\" alt=\"{}\" src=\"{}\"></div>\n<figcaption><b>{}.</b> {}",
-        is_wide(file) ? " class=\"wide\"" : "", escaped(text.title), escaped(text.alt),
-        data_uri(shown.extension() == ".svg" ? "image/svg+xml" : "image/png", shown),
-        escaped(text.title), escaped(text.caption));
-    for (const char* kind : {".svg", ".png", ".pdf", ".gp", ".dat", ".csv"}) {
-      const fs::path beside = fs::path(file).replace_extension(kind);
-      if (!is_there(beside)) continue;
-      section.html += fmt::format(" <a href=\"figures/{0}\">{1}</a>",
-                                  escaped(beside.filename().string()), kind + 1);
-    }
-    std::vector<fs::path> more_data = more_data_of(file);
-    sort_by_engine(more_data, simulators);
-    for (const fs::path& data : more_data) {
-      section.html += fmt::format(" <a href=\"figures/{0}\">{0}</a>", escaped(data.string()));
-    }
-    section.html += "</figcaption></figure>\n";
+    section.html += figure_html(file, subject.experiment.simulators);
   }
   if (!section.html.empty()) section.html = "<div class=\"gallery\">\n" + section.html + "</div>\n";
   return section;

@@ -1,19 +1,26 @@
 #include "render/report/report.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "render/report/figures.hpp"
-#include "render/report/findings.hpp"
+#include "core/files.hpp"
+#include "experiments/results/captions.hpp"
+#include "experiments/run_directory/directory.hpp"
+#include "render/report/films.hpp"
 #include "render/report/html.hpp"
-#include "render/report/noise.hpp"
-#include "render/report/page.hpp"
-#include "render/report/results.hpp"
+#include "render/report/sections.hpp"
+#include "render/report/subject.hpp"
 #include "render/report/tables.hpp"
+#include "simulators/registry.hpp"
 
 namespace touchdown::render {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -77,20 +84,111 @@ ReportSection reproduce_section(const ReportSubject& subject) {
   return {"reproduce", "Reproduction", html};
 }
 
+namespace fs = std::filesystem;
+
+/// A jump to a drop goes to this time before the takeoff (s).
+constexpr double run_up = 0.4;
+/// The button of a drop stays highlighted until this time after the landing (s).
+constexpr double follow_through = 0.4;
+
+/// Buttons that jump to a run's flights, in a film until `end` (s).
+std::string drops_html(const FilmedRun& run, double end) {
+  const std::string engine = escaped(simulators::simulator_title(run.recording.info.simulator));
+  std::size_t drops = 0;
+  std::string items;
+  for (const scoring::Flight& flight : visible_flights(run.recording, run.labels)) {
+    const double takeoff = static_cast<double>(flight.takeoff) * run.recording.period();
+    const double landing = static_cast<double>(flight.landing) * run.recording.period();
+    if (takeoff <= 0.0 || landing > end) continue;
+    ++drops;
+    items += fmt::format(
+        "<li><button type=\"button\" class=\"drop\" data-seek=\"{:.3f}\" data-end=\"{:.3f}\" "
+        "aria-label=\"Play the drop at {:.2f} seconds in {}\">{:.2f} s<small>{:.0f} ms in the air"
+        "</small></button></li>\n",
+        std::max(0.0, takeoff - run_up), landing + follow_through, takeoff, engine, takeoff,
+        1e3 * (landing - takeoff));
+  }
+  return fmt::format("<h3>{}: {} {}</h3>\n<ol>\n{}</ol>\n", engine, drops,
+                     drops == 1 ? "drop" : "drops", items);
+}
+
+/// A link to the video in full size; empty without one.
+std::string full_size_html(const FilmedRun& run, const fs::path& directory) {
+  const recordings::RecordingInfo& info = run.recording.info;
+  const std::string name = experiments::video_name(info.simulator, info.scenario);
+  std::error_code error;
+  const std::uintmax_t bytes = fs::file_size(directory / "videos" / name, error);
+  if (error) return {};
+  return fmt::format(" <a href=\"videos/{0}\">{0}</a> ({1})", escaped(name), size_text(bytes));
+}
+
+/// The small video inside the report, and links to the files in full size beside it. Empty without
+/// the video.
+std::string film_html(const ReportSubject& subject, const std::vector<FilmedRun>& runs) {
+  const ReportFilm film = report_film(subject.directory);
+  if (runs.empty() || !is_there(film.video) || !is_there(film.picture)) return {};
+  double end = 0.0;
+  for (const FilmedRun& run : runs) {
+    end = std::max(end, static_cast<double>(run.recording.steps()) * run.recording.period());
+  }
+  std::vector<std::string> engines, full_size;
+  std::string drops;
+  for (const FilmedRun& run : runs) {
+    engines.push_back(simulators::simulator_title(run.recording.info.simulator));
+    drops += drops_html(run, std::min(end, longest_report_film));
+    full_size.push_back(full_size_html(run, subject.directory));
+  }
+  std::erase(full_size, "");
+  const std::string description = escaped(fmt::format(
+      "The {} run in {}{}{}, {}. Below: the estimators' contact probabilities over the true "
+      "contact (green: dark where both wheels are in contact, light where one is), and torques. "
+      "Thick lines are the left wheel.",
+      runs.front().recording.info.scenario, fmt::join(engines, " and "),
+      runs.size() > 1 ? ", side by side" : "",
+      end > longest_report_film ? fmt::format(", its first {:.0f} seconds", longest_report_film)
+                                : "",
+      experiments::noise_text(subject.experiment.video.noise)));
+  return fmt::format(
+      "<div class=\"film\">\n<figure><video controls muted playsinline preload=\"auto\" "
+      "aria-label=\"{0}\" poster=\"{1}\" src=\"{2}\"></video>\n"
+      "<figcaption>{0}{3}{4}{5}</figcaption></figure>\n"
+      "<div class=\"drops\">\n<p class=\"note\">Choose a drop to play it:</p>\n{6}</div>\n</div>\n",
+      description, data_uri("image/jpeg", film.picture), data_uri("video/mp4", film.video),
+      full_size.empty() ? "" : " In full size, beside this file:", fmt::join(full_size, ","),
+      full_size.empty() ? "" : ".", drops);
+}
+
+ReportSection replay_section(const std::vector<FilmedRun>& filmed) {
+  ReportSection section{"replay", "Replay"};
+  if (filmed.empty()) return section;
+  std::vector<VideoSource> sources;
+  for (const FilmedRun& run : filmed) sources.push_back(run.source());
+  section.html = replay_html(sources, filmed.front().labels);
+  return section;
+}
+
 }  // namespace
 
-fs::path write_report(const ReportSubject& subject, const std::vector<ReportSection>& of_runs,
-                      const std::vector<ReportSection>& of_studies) {
-  fs::path path = subject.directory / "report.html";
-  std::vector<ReportSection> sections = of_runs;
-  sections.push_back(estimators_section(subject));
-  sections.push_back(results_section(subject));
-  sections.insert(sections.end(), of_studies.begin(), of_studies.end());
+fs::path make_report(const ReportSubject& subject, const std::vector<FilmedRun>& filmed,
+                     const std::vector<StudyPictures>& studies, const ReportParts& parts) {
+  std::string films = parts.film ? film_html(subject, filmed) : "";
+  std::vector<ReportSection> of_studies;
+  for (const StudyPictures& study : studies) {
+    if (!study.is_requested(subject.experiment)) continue;
+    if (study.section) of_studies.push_back(study.section(subject));
+    if (parts.film && study.film_html) films += study.film_html(subject);
+  }
+  std::vector<ReportSection> all = {{"film", "Film", films}};
+  if (parts.replay) all.push_back(replay_section(filmed));
+  all.push_back(estimators_section(subject));
+  all.push_back(results_section(subject));
+  all.insert(all.end(), of_studies.begin(), of_studies.end());
   for (ReportSection (*const section)(const ReportSubject&) :
        {heatmap_section, paper_section, figures_section, more_tables_section, reproduce_section}) {
-    sections.push_back(section(subject));
+    all.push_back(section(subject));
   }
-  write_page(subject, path, header_html(subject), std::move(sections));
+  fs::path path = subject.directory / "report.html";
+  write_page(subject, path, header_html(subject), std::move(all));
   return path;
 }
 

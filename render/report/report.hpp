@@ -1,21 +1,28 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
-#include "render/report/html.hpp"
+#include "render/report/filmed_run.hpp"
+#include "render/report/study_pictures.hpp"
 #include "render/report/subject.hpp"
 
 namespace touchdown::render {
 
-/// Writes `report.html` into an experiment's run directory: one file that opens without a network.
-/// It contains the contents of the directory's `manifest.json`, `config.yaml`, `tables/` and
-/// `figures/`, the sections `of_runs` (films) and `of_studies`. Missing parts are left out. Returns
-/// the file. Errors: `InputError` when one of these files is broken; `Error` when the report cannot
-/// be written.
-std::filesystem::path write_report(const ReportSubject& subject,
-                                   const std::vector<ReportSection>& of_runs,
-                                   const std::vector<ReportSection>& of_studies);
+/// What a report shows of runs and films.
+struct ReportParts {
+  bool film = true;    ///< films that are in the run directory
+  bool replay = true;  ///< a replay that the reader can turn
+};
+
+/// Writes `report.html` into a run directory, and the pages of its studies: one file that opens
+/// without a network. It contains the directory's `manifest.json`, `config.yaml`, `tables/` and
+/// `figures/`; film and replay show the filmed runs. Missing parts are left out. Returns the
+/// report's path. Errors: `InputError` when one of these files is broken; `Error` when the report
+/// cannot be written.
+std::filesystem::path make_report(const ReportSubject& subject,
+                                  const std::vector<FilmedRun>& filmed,
+                                  const std::vector<StudyPictures>& studies,
+                                  const ReportParts& parts = {});
 
 }  // namespace touchdown::render

@@ -3,17 +3,30 @@
 (() => {
   const all = (selector, root = document) => [...root.querySelectorAll(selector)];
 
-  // Heatmaps: pointing, tapping or the arrow keys choose a cell, and the readout shows its numbers.
+  // Heatmaps: pointing, tapping or the arrow keys choose a cell, and the readout shows its numbers. The drawing
+  // is a picture, so cells are boxes over it, in percent of its size.
   for (const section of all(".heatmaps")) {
     const readout = section.querySelector(".readout");
-    const choose = (cell) => {
-      for (const other of all(".cell.chosen", section)) other.classList.remove("chosen");
-      cell.classList.add("chosen");
-      readout.textContent = cell.dataset.readout;
-    };
-    for (const map of all("svg.map", section)) {
-      const cells = all(".cell", map);
-      const columns = Number(map.dataset.columns);
+    for (const map of all(".map", section)) {
+      const { columns, panels } = JSON.parse(map.querySelector("script").textContent);
+      const cells = panels.flatMap(({ place: [left, top, width, height], cells: texts }) =>
+        texts.map((text, i) => {
+          const rows = texts.length / columns;
+          const cell = document.createElement("span");
+          cell.className = "cell";
+          cell.dataset.readout = text;
+          cell.style.left = `${100 * (left + width * (i % columns) / columns)}%`;
+          cell.style.top = `${100 * (top + height * (rows - 1 - Math.floor(i / columns)) / rows)}%`;
+          cell.style.width = `${100 * width / columns}%`;
+          cell.style.height = `${100 * height / rows}%`;
+          return cell;
+        }));
+      map.append(...cells);
+      const choose = (cell) => {
+        for (const other of all(".cell.chosen", section)) other.classList.remove("chosen");
+        cell.classList.add("chosen");
+        readout.textContent = cell.dataset.readout;
+      };
       const pointed = (event) => {
         const cell = event.target.closest(".cell");
         if (cell) choose(cell);
@@ -26,15 +39,10 @@
         event.preventDefault();
         const now = cells.findIndex((cell) => cell.classList.contains("chosen"));
         const next = cells[now < 0 ? 0 : now + steps[event.key]];
-        if (next) choose(next);
+        if (!next) return;
+        choose(next);
+        next.scrollIntoView({ block: "nearest", inline: "nearest" });
       });
-    }
-    const show = (estimator) => {
-      for (const map of all("[data-estimator]", section)) map.hidden = map.dataset.estimator !== estimator;
-    };
-    for (const radio of all(".choice input", section)) {
-      radio.addEventListener("change", () => show(radio.value));
-      if (radio.checked) show(radio.value);
     }
   }
 

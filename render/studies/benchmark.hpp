@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <string>
 #include <vector>
-
 #include "core/interval.hpp"
 #include "render/gnuplot/figure.hpp"
 #include "render/report/subject.hpp"
+#include "render/report/study_pictures.hpp"
 
 namespace touchdown::render {
 

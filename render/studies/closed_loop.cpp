@@ -11,7 +11,7 @@
 #include "experiments/studies/experiment_file.hpp"
 #include "render/film/video.hpp"
 #include "render/palette.hpp"
-#include "render/pictures/filmed_run.hpp"
+#include "render/report/filmed_run.hpp"
 #include "render/report/html.hpp"
 #include "render/studies/registry.hpp"
 #include "simulators/registry.hpp"

@@ -1,6 +1,7 @@
 #include "experiments/studies/moments.hpp"
-#include "render/curves/moments_figure.hpp"
 #include "render/studies/registry.hpp"
+#include "render/studies/moments.hpp"
+#include "render/figures/moments_figure.hpp"
 
 namespace touchdown::render {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "render/pictures/study_pictures.hpp"
+#include "render/report/study_pictures.hpp"
 
 namespace touchdown::render {
 

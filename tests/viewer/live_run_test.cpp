@@ -5,8 +5,7 @@
 #include "recordings/log/recording_file.hpp"
 #include "scenarios/engine.hpp"
 #include "tests/scratch_folder.hpp"
-#include "viewer/live/real_time.hpp"
-#include "viewer/live/run.hpp"
+#include "viewer/live_run.hpp"
 
 namespace touchdown::viewer {
 namespace {

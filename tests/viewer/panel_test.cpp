@@ -1,4 +1,4 @@
-#include "viewer/screen/panel.hpp"
+#include "viewer/panel.hpp"
 
 #include <gtest/gtest.h>
 

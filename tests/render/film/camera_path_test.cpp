@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "render/film/pose.hpp"
+#include "render/film/scene_view.hpp"
 
 namespace touchdown::render {
 namespace {

@@ -6,9 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "render/curves/score_figure.hpp"
-#include "render/maps/density_figure.hpp"
-#include "render/maps/heatmap_figure.hpp"
+#include "render/figures/figures.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {

@@ -12,7 +12,6 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "render/film/painter.hpp"
-#include "render/workers/workers.hpp"
 #include "tests/render/staged_run.hpp"
 #include "tests/scratch_folder.hpp"
 

@@ -1,14 +1,17 @@
 #include "render/report/report.hpp"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "experiments/results/summary_file.hpp"
-#include "render/maps/error_scale.hpp"
+#include "render/figures/error_scale.hpp"
+#include "render/figures/figures.hpp"
 #include "render/report/html.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -56,7 +59,9 @@ class Report : public ::testing::Test {
       "versions": {"touchdown": "0.1.0", "commit": "v0.1.0-3-gabc<"}, "seeds": {"experiment": 1}})");
     experiments::write_summary({}, folder_.path());
   }
-  std::string page() const { return read_file(write_report(read_subject(folder_.path()), {}, {})); }
+  std::string page(const std::vector<StudyPictures>& studies = {}) const {
+    return read_file(make_report(read_subject(folder_.path()), {}, studies));
+  }
 
   const ScratchFolder folder_;
 };
@@ -94,17 +99,57 @@ TEST_F(Report, ShowsFiguresWithTheTextsOfTheirScripts) {
                             HasSubstr("src=\"data:image/svg+xml;base64,")));
 }
 
-TEST_F(Report, ShowsEveryCellsNumbersAndStrikesOutCellsThatDoNotBeatAlwaysContact) {
+/// What the page lays over a drawn map.
+nlohmann::json overlay_in(const std::string& html) {
+  const std::string opening = "<script type=\"application/json\">";
+  const std::size_t at = html.find(opening) + opening.size();
+  return nlohmann::json::parse(html.substr(at, html.find("</script>", at) - at));
+}
+
+TEST_F(Report, LaysEveryCellsNumbersOverItsPlaceInTheDrawnMap) {
   experiments::write_summary(success, folder_.path());
+  const std::string caption = "Two runs.";
+  Heatmap map{.title = "Error rate",
+              .x_label = "accelerometer",
+              .y_label = "torque",
+              .x = {0, 5},
+              .y = {0, 1},
+              .panels = {{.title = "robust", .value = {{30, 0.3}, {0.3, 0.3}}}},
+              .caption = caption,
+              .levels = {}};
+  map.panels[0].low = map.panels[0].high = map.panels[0].value;
+  std::filesystem::create_directory(folder_ / "figures");
+  const Figure figure = draw_heatmap(map, folder_ / "figures/error_mujoco");
   const std::string html = page();
-  EXPECT_THAT(html, HasSubstr("torque noise 1 N·m, accelerometer noise 5 m/s²: accuracy "
-                              "0.860 [0.850, 0.875]; always contact 0.870"));
-  std::size_t beaten = 0;
-  for (std::size_t at = html.find("class=\"beaten\""); at != std::string::npos;
-       at = html.find("class=\"beaten\"", at + 1)) {
-    ++beaten;
-  }
-  EXPECT_EQ(beaten, 2U);  // the last row of each of the two estimators
+  const nlohmann::json overlay = overlay_in(html);
+  EXPECT_EQ(overlay["columns"], 2);
+  ASSERT_EQ(overlay["panels"].size(), 1U);
+  const nlohmann::json& panel = overlay["panels"][0];
+  EXPECT_EQ(panel["cells"][3],
+            "MuJoCo, Bayes filter (robust): torque noise 1 N·m, accelerometer noise 5 m/s²: "
+            "accuracy 0.860 [0.850, 0.875]; always contact 0.870; error rate 14.0 %");
+  // The lower left cell is the dark one: its corners inside the place are dark, others are not.
+  const cv::Mat image = cv::imread(figure.png.string());
+  const double left = panel["place"][0], top = panel["place"][1], width = panel["place"][2],
+               height = panel["place"][3];
+  const auto is_dark = [&](double x, double y) {
+    const auto& pixel = image.at<cv::Vec3b>(static_cast<int>((top + y * height) * image.rows),
+                                            static_cast<int>((left + x * width) * image.cols));
+    return pixel[1] < 60;
+  };
+  EXPECT_TRUE(is_dark(0.02, 0.52));
+  EXPECT_TRUE(is_dark(0.48, 0.98));
+  EXPECT_FALSE(is_dark(0.02, 0.47));
+  EXPECT_FALSE(is_dark(0.52, 0.98));
+  EXPECT_FALSE(is_dark(-0.02, 0.6));
+  EXPECT_FALSE(is_dark(0.3, 1.02));
+}
+
+TEST_F(Report, ShowsAMapOfAnotherSizeAmongTheFigures) {
+  experiments::write_summary(success, folder_.path());
+  folder_.write("figures/error_mujoco.svg", "<svg viewBox=\"0 0 300 100\"></svg>");
+  EXPECT_THAT(page(), AllOf(Not(HasSubstr("id=\"noise\"")), HasSubstr("id=\"figures\""),
+                            HasSubstr("href=\"figures/error_mujoco.svg\"")));
 }
 
 TEST_F(Report, ListsEstimatorsResultsAndCommit) {
@@ -168,11 +213,14 @@ TEST_F(Report, JoinsIntervalsAndMarksMissingNumbers) {
 }
 
 TEST_F(Report, HasTheSectionsOfStudiesThatAreNotEmpty) {
-  const auto path =
-      write_report(read_subject(folder_.path()), {},
-                   {{"mine", "My study", "<p>found</p>"}, {"none", "Empty study", ""}});
-  EXPECT_THAT(read_file(path), AllOf(HasSubstr("href=\"#mine\""), HasSubstr("<p>found</p>"),
-                                     Not(HasSubstr("Empty study"))));
+  const auto study = [](const ReportSection& section) {
+    return StudyPictures{.is_requested = [](const experiments::Experiment&) { return true; },
+                         .section = [section](const ReportSubject&) { return section; }};
+  };
+  const std::string html =
+      page({study({"mine", "My study", "<p>found</p>"}), study({"none", "Empty study", ""})});
+  EXPECT_THAT(html, AllOf(HasSubstr("href=\"#mine\""), HasSubstr("<p>found</p>"),
+                          Not(HasSubstr("Empty study"))));
 }
 
 TEST_F(Report, RefusesOtherDirectories) {

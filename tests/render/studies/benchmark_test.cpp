@@ -10,7 +10,8 @@
 
 #include "core/files.hpp"
 #include "experiments/results/summary_file.hpp"
-#include "render/pictures/filmed_report.hpp"
+#include "render/report/report.hpp"
+#include "render/studies/registry.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {

@@ -1,0 +1,54 @@
+#include "render/figures/chosen_run.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/progress.hpp"
+#include "experiments/drops/drops.hpp"
+#include "experiments/results/captions.hpp"
+#include "recordings/log/recording_file.hpp"
+
+namespace touchdown::render {
+
+const experiments::Rollout& chosen_run(const experiments::ExperimentResult& result,
+                                       const std::string& simulator, int run, const char* key) {
+  const experiments::Rollout* found = experiments::test_run(result.runs, simulator, run);
+  if (found == nullptr || experiments::is_failure(found->report.outcome)) {
+    throw InputError(fmt::format("{}.run: run {} in {} is not scored", key, run, simulator));
+  }
+  return *found;
+}
+
+recordings::Recording chosen_recording(const experiments::ExperimentResult& result,
+                                       const std::string& simulator, int run, const char* key) {
+  const std::string& file = chosen_run(result, simulator, run, key).plan.file;
+  return recordings::read_recording(result.directory.file("recordings", file));
+}
+
+std::size_t fitted_runs(const experiments::ExperimentResult& result, const std::string& simulator) {
+  std::size_t runs = 0;
+  for (const experiments::Rollout& run : result.runs) {
+    runs += run.plan.role == experiments::RunRole::fit && run.plan.simulator == simulator ? 1U : 0U;
+  }
+  return runs;
+}
+
+std::string drop_text(const experiments::Experiment& experiment,
+                      const experiments::DropChoice& choice) {
+  const std::string when = choice.at ? fmt::format("around {:.6g} s", *choice.at)
+                                     : fmt::format("drop {} of {} (from 0)", choice.drop,
+                                                   experiments::to_text(choice.wheels));
+  return fmt::format("Test run {}, {}, experiment seed {}, noise seed {}; {}{}.", choice.run, when,
+                     experiment.seed, choice.seed, experiments::labels_text(experiment),
+                     experiments::setup_caption(experiment));
+}
+
+void draw_if_possible(const std::function<void()>& draw) {
+  try {
+    draw();
+  } catch (const InputError& error) {
+    print_message(fmt::format("touchdown: not drawn: {}\n", error.what()));
+  }
+}
+
+}  // namespace touchdown::render

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "experiments/results/result.hpp"
+#include "recordings/recording.hpp"
+
+namespace touchdown::render {
+
+/// The test run that the section `key` chooses, in one engine. Errors: `InputError` when it is not
+/// scored.
+const experiments::Rollout& chosen_run(const experiments::ExperimentResult& result,
+                                       const std::string& simulator, int run, const char* key);
+
+/// Its recording. Errors: as above, and when the recording is missing or broken.
+recordings::Recording chosen_recording(const experiments::ExperimentResult& result,
+                                       const std::string& simulator, int run, const char* key);
+
+/// The number of whole runs that an engine's models were fitted to.
+std::size_t fitted_runs(const experiments::ExperimentResult& result, const std::string& simulator);
+
+/// Which drop a figure shows: run, time or number, seeds, labels and robot, for its caption.
+std::string drop_text(const experiments::Experiment& experiment,
+                      const experiments::DropChoice& choice);
+
+/// Draws a figure. If an engine's run lacks what it shows, prints the reason instead of throwing.
+void draw_if_possible(const std::function<void()>& draw);
+
+}  // namespace touchdown::render

@@ -1,0 +1,298 @@
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <span>
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "core/error.hpp"
+#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/results/captions.hpp"
+#include "render/figures/chosen_run.hpp"
+#include "render/figures/figures.hpp"
+#include "render/figures/iso_lines.hpp"
+#include "render/gnuplot/frame.hpp"
+#include "render/gnuplot/text.hpp"
+#include "render/stop.hpp"
+#include "simulators/registry.hpp"
+
+namespace touchdown::render {
+namespace {
+
+/// The shares of a density's probability within its contour lines.
+constexpr std::array<double, 3> enclosed_shares = {0.5, 0.9, 0.99};
+/// The contact probabilities with a contour line: undecided, and the filter's decision threshold.
+constexpr std::array<double, 2> probability_levels = {0.5, 0.8};
+/// Densities are clipped below at this share of their peak.
+constexpr double faintest_density = 1e-4;
+/// The axes cover the region with this share of both densities.
+constexpr double shown_share = 0.97;
+/// Along an axis with more points than this, only every n-th is drawn.
+constexpr int most_points = 200;
+
+/// Widens a range by a margin, within 0 and `count`.
+void add_margin(int& begin, int& length, int count) {
+  const int margin = std::max(2, length / 8);
+  const int end = std::min(count, begin + length + margin);
+  begin = std::max(0, begin - margin);
+  length = end - begin;
+}
+
+/// The drawn part of the grids (x: columns, along the knee's axis; y: rows, along the wheel's): the
+/// region with 97 % of both densities and a margin. A vanishing density is ignored.
+cv::Rect window_of(const LikelihoodGrids& grids) {
+  const DensityPeaks peaks = peaks_of(grids);
+  cv::Rect window;
+  for (const auto& [grid, peak] :
+       {std::pair(&grids.contact, peaks.contact), std::pair(&grids.no_contact, peaks.no_contact)}) {
+    if (!(peak > 0.0)) continue;
+    const cv::Mat density = cv::Mat(*grid).reshape(1, grids.wheel.count);
+    window |= cv::boundingRect(density >= density_level(*grid, shown_share));
+  }
+  if (window.empty()) return {0, 0, grids.knee.count, grids.wheel.count};
+  add_margin(window.x, window.width, grids.knee.count);
+  add_margin(window.y, window.height, grids.wheel.count);
+  return window;
+}
+
+/// A window of a grid as nested rows, for `iso_lines`.
+std::vector<std::vector<double>> rows_of(const std::vector<double>& grid, int row_length,
+                                         const cv::Rect& window) {
+  std::vector<std::vector<double>> rows;
+  for (int r = window.y; r < window.y + window.height; ++r) {
+    const auto begin = grid.begin() + r * row_length + window.x;
+    rows.emplace_back(begin, begin + window.width);
+  }
+  return rows;
+}
+
+/// The contour lines at these levels, in torques.
+std::string block_of_lines(const std::vector<double>& grid, std::span<const double> levels,
+                           const LikelihoodGrids& grids, const cv::Rect& window) {
+  const auto rows = rows_of(grid, grids.knee.count, window);
+  std::string text;
+  for (const double level : levels) {
+    for (const IsoLine& line : joined(iso_lines(rows, level))) {
+      for (const auto& [column, row] : line) {
+        fmt::format_to(std::back_inserter(text), "{:.5g}\t{:.5g}\n",
+                       grids.knee[window.x] + column * grids.knee.step(),
+                       grids.wheel[window.y] + row * grids.wheel.step());
+      }
+      text += '\n';
+    }
+  }
+  return (text.empty() ? "NaN\tNaN\n\n" : text) + '\n';
+}
+
+std::array<double, enclosed_shares.size()> levels_of(const std::vector<double>& grid) {
+  std::array<double, enclosed_shares.size()> levels{};
+  std::transform(enclosed_shares.begin(), enclosed_shares.end(), levels.begin(),
+                 [&](double share) { return density_level(grid, share); });
+  return levels;
+}
+
+double share_of_peak(double density, double peak) {
+  return peak > 0.0 ? std::max(density / peak, faintest_density) : faintest_density;
+}
+
+std::string points(const LikelihoodGrids& grids, const std::vector<double>& probability,
+                   const cv::Rect& window) {
+  const DensityPeaks peaks = peaks_of(grids);
+  const int row_step = 1 + (window.height - 1) / most_points;
+  const int column_step = 1 + (window.width - 1) / most_points;
+  std::string text = "#knee_nm\twheel_nm\tcontact\tno_contact\tp_contact\n";
+  for (int r = window.y; r < window.y + window.height; r += row_step) {
+    for (int c = window.x; c < window.x + window.width; c += column_step) {
+      const auto i = static_cast<std::size_t>(r * grids.knee.count + c);
+      fmt::format_to(std::back_inserter(text), "{:.5g}\t{:.5g}\t{:.4g}\t{:.4g}\t{:.4g}\n",
+                     grids.knee[c], grids.wheel[r], share_of_peak(grids.contact[i], peaks.contact),
+                     share_of_peak(grids.no_contact[i], peaks.no_contact), probability[i]);
+    }
+  }
+  return text + "\n\n";
+}
+
+/// Blocks of the data file (gnuplot's `index`).
+constexpr std::size_t blocks_per_row = 4;
+
+/// A density figure's data file. For each row, its blocks are the points (knee torque, wheel
+/// torque, both densities as shares of their peaks, P(contact)), then the contour lines of both
+/// densities and of the probability.
+std::string density_data(const DensityFigure& figure) {
+  std::string text;
+  for (const DensityRow& row : figure.rows) {
+    const LikelihoodGrids& grids = row.grids;
+    const cv::Rect window = window_of(grids);
+    const std::vector<double> probability = contact_probability(grids);
+    text += points(grids, probability, window);
+    text += block_of_lines(grids.contact, levels_of(grids.contact), grids, window);
+    text += block_of_lines(grids.no_contact, levels_of(grids.no_contact), grids, window);
+    text += block_of_lines(probability, probability_levels, grids, window);
+  }
+  return text;
+}
+
+constexpr double density_width = 268.0, density_height = 216.0, density_left = 76.0,
+                 density_gap_x = 62.0;
+constexpr double density_gap_y = 104.0, density_bar = 12.0, density_top = 46.0;
+
+/// One column of the figure.
+struct DensityColumn {
+  const char* title;
+  const char* palette;
+  const char* scale;  ///< of its colours
+  int value;          ///< column of the data file
+  const char* bar_label;
+};
+constexpr const char* density_scale =
+    "set logscale cb\nset cbrange [1e-4:1]\n"
+    "set cbtics ('10⁻⁴' 1e-4, '10⁻³' 1e-3, '10⁻²' 1e-2, '0.1' 0.1, '1' 1)\n";
+constexpr DensityColumn density_columns[] = {
+    {"in contact", "(0 '#ffffff', 1 '#b9d7ea', 2 '#5aa5d1', 3 '#0072b2', 4 '#00304d')",
+     density_scale, 3, "density, share of its peak"},
+    {"in the air", "(0 '#ffffff', 1 '#f6d3b8', 2 '#ec9656', 3 '#d55e00', 4 '#5c2800')",
+     density_scale, 4, "density, share of its peak"},
+    {"P(contact), flat prior", "(0 '#d55e00', 1 '#f3c4a0', 2 '#f7f7f7', 3 '#9fcae6', 4 '#0072b2')",
+     "unset logscale cb\nset cbrange [0:1]\nset cbtics (0, 0.2, 0.5, 0.8, 1)\n", 5,
+     "probability of contact"}};
+
+/// The panel's points and lines, or a note in place of a vanishing density.
+std::string plot(const DensityRow& row, const std::string& file, std::size_t block, int value) {
+  const DensityPeaks peaks = peaks_of(row.grids);
+  const bool empty =
+      (value == 3 && peaks.contact == 0.0) || (value == 4 && peaks.no_contact == 0.0);
+  if (empty) {
+    return fmt::format(
+        "set label {} at graph 0.5, graph 0.55 center textcolor rgb '#40464e'\nplot NaN\n",
+        gnuplot_text("all its torques lie\noutside the model's axes"));
+  }
+  return fmt::format(
+      "plot {0} index {1} using 1:2:{2} with image, \\\n"
+      "     {0} index {3} using 1:2 with lines lc rgb '#101418' lw {4} dt 1\n",
+      file, block, value, block + static_cast<std::size_t>(value) - 2, value == 5 ? 1.1 : 0.8);
+}
+
+std::string described(const DensityFigure& figure) {
+  std::string text =
+      "Densities of knee and wheel torques with a wheel in contact and in the air, and the "
+      "resulting probability of contact.";
+  for (const DensityRow& row : figure.rows) {
+    const DensityPeaks peaks = peaks_of(row.grids);
+    text += fmt::format(" {}: the peaks are {:.3g} and {:.3g} per square newton metre.", row.title,
+                        peaks.contact, peaks.no_contact);
+  }
+  return text;
+}
+
+std::optional<DensityFigure> density_figure(const experiments::ExperimentResult& result,
+                                            const std::string& simulator) {
+  const experiments::Experiment& experiment = result.experiment;
+  const auto models = result.models.find(simulator);
+  if (models == result.models.end()) return std::nullopt;
+  DensityFigure figure;
+  std::vector<MeasurementConfig> drawn;
+  for (const std::string& estimator : experiment.estimators) {
+    const auto model = models->second.find(estimator);
+    if (model == models->second.end() || !model->second.grid) continue;
+    const experiments::EstimatorEntry& entry = experiments::estimator_entry(experiment, estimator);
+    const auto same = std::find(drawn.begin(), drawn.end(), entry.config->measurement);
+    if (same != drawn.end()) {
+      figure.rows[static_cast<std::size_t>(same - drawn.begin())].title += ", " + entry.title;
+      continue;
+    }
+    drawn.push_back(entry.config->measurement);
+    figure.rows.push_back({entry.title, model->second.grid->grids()});
+  }
+  if (figure.rows.empty()) return std::nullopt;
+  figure.title = fmt::format("Torques in contact and in the air: {}, {}", experiment.name,
+                             simulators::simulator_title(simulator));
+  figure.caption = fmt::format(
+      "Kernel densities fitted to {} without noise, both legs, seed {}; {}{}. Lines enclose 50, 90 "
+      "and 99 % of a density; on the right they mark P = 0.5 and the decision threshold, 0.8. Axes "
+      "cover 97 % of both densities.",
+      experiments::plural(fitted_runs(result, simulator), "run"), experiment.seed,
+      experiments::labels_text(experiment), experiments::setup_caption(experiment));
+  return figure;
+}
+
+}  // namespace
+
+double density_level(const std::vector<double>& grid, double share) {
+  std::vector<double> sorted = grid;
+  std::sort(sorted.begin(), sorted.end(), std::greater<>());
+  const double all = std::accumulate(sorted.begin(), sorted.end(), 0.0);
+  if (!(all > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  double sum = 0.0;
+  for (const double value : sorted) {
+    sum += value;
+    if (sum >= share * all) return value;
+  }
+  return sorted.back();
+}
+
+DensityPeaks peaks_of(const LikelihoodGrids& grids) {
+  constexpr double vanishing = 1e-12;
+  DensityPeaks peaks{*std::max_element(grids.contact.begin(), grids.contact.end()),
+                     *std::max_element(grids.no_contact.begin(), grids.no_contact.end())};
+  const double highest = std::max(peaks.contact, peaks.no_contact);
+  if (peaks.contact < vanishing * highest) peaks.contact = 0.0;
+  if (peaks.no_contact < vanishing * highest) peaks.no_contact = 0.0;
+  return peaks;
+}
+
+DensityAxes axes_of(const LikelihoodGrids& grids) {
+  const cv::Rect window = window_of(grids);
+  return {grids.knee[window.x], grids.knee[window.x + window.width - 1], grids.wheel[window.y],
+          grids.wheel[window.y + window.height - 1]};
+}
+
+Figure draw_density_figure(const DensityFigure& figure, const std::filesystem::path& stem) {
+  if (figure.rows.empty()) throw InputError("a density figure without models");
+  const auto rows = static_cast<double>(figure.rows.size());
+  const double body = density_top + rows * density_height + (rows - 1.0) * density_gap_y;
+  const FigureFrame frame(figure.title, figure.caption,
+                          density_left + 3.0 * density_width + 2.0 * density_gap_x + 30.0,
+                          body + 126.0);
+  const std::string file = gnuplot_file(stem.filename().string() + ".dat");
+  std::string commands =
+      "unset key\nset border 15\nset tics out\nunset grid\n"
+      "set xlabel 'knee torque (N·m)' offset 0,0.3\nset xtics autofreq\n";
+  for (std::size_t r = 0; r < figure.rows.size(); ++r) {
+    const double top = density_top + static_cast<double>(r) * (density_height + density_gap_y);
+    const DensityAxes axes = axes_of(figure.rows[r].grids);
+    for (std::size_t c = 0; c < std::size(density_columns); ++c) {
+      const DensityColumn& column = density_columns[c];
+      const double left = density_left + static_cast<double>(c) * (density_width + density_gap_x);
+      commands += frame.panel(left, top, density_width, density_height);
+      if (c == 0) {
+        commands += frame.label(figure.rows[r].title, left, top - 34.0, "left font ',11'");
+      }
+      commands += r + 1 == figure.rows.size()
+                      ? frame.colour_bar(left, body + 62.0, density_width, density_bar) +
+                            fmt::format("set cblabel '{}' offset 0,0.5\n", column.bar_label)
+                      : "unset colorbox\n";
+      commands += fmt::format(
+          "set title '{}' offset 0,-0.7\nset palette defined {}\n{}"
+          "set xrange [{:.5g}:{:.5g}]\nset yrange [{:.5g}:{:.5g}]\nset ylabel '{}' offset 1,0\n",
+          column.title, column.palette, column.scale, axes.knee_low, axes.knee_high, axes.wheel_low,
+          axes.wheel_high, c == 0 ? "wheel torque (N·m)" : "");
+      commands +=
+          plot(figure.rows[r], file, r * blocks_per_row, column.value) + FigureFrame::end_panel();
+    }
+  }
+  return frame.draw(stem, commands, density_data(figure), described(figure));
+}
+
+void draw_densities(const experiments::ExperimentResult& result, const std::atomic<bool>* stop) {
+  for (const std::string& simulator : result.experiment.simulators) {
+    stop_if_asked(stop);
+    if (const auto densities = density_figure(result, simulator)) {
+      draw_density_figure(*densities, result.directory.file("figures", "densities_" + simulator));
+    }
+  }
+}
+
+}  // namespace touchdown::render

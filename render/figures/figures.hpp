@@ -1,0 +1,205 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/interval.hpp"
+#include "estimator/bayes/measurement_model.hpp"
+#include "estimator/evidence/curves.hpp"
+#include "experiments/drops/detail.hpp"
+#include "experiments/drops/posterior.hpp"
+#include "experiments/results/result.hpp"
+#include "render/figures/error_scale.hpp"
+#include "render/gnuplot/figure.hpp"
+#include "scoring/calibration.hpp"
+#include "scoring/transitions.hpp"
+
+namespace touchdown::render {
+
+/// Draws maps of the error rate into the run directory, for every engine: over the noise grid with
+/// one panel per estimator, and over knee and wheel torque noise if there is such a grid. `stop`,
+/// here and below, may be null and is looked at between figures.
+void draw_heatmaps(const experiments::ExperimentResult& result, const std::atomic<bool>* stop);
+
+/// Draws for every engine the measurement models that were fitted to its runs.
+void draw_densities(const experiments::ExperimentResult& result, const std::atomic<bool>* stop);
+
+/// Draws for every engine the evidence curves of its estimators.
+void draw_evidence(const experiments::ExperimentResult& result, const std::atomic<bool>* stop);
+
+/// Draws for every engine reliability diagrams and latencies at the highlighted noise settings,
+/// both wheels pooled.
+void draw_scores(const experiments::ExperimentResult& result, const std::atomic<bool>* stop);
+
+/// Draws the drop that the experiment's section `detail` selects, for every engine. An engine
+/// without such a drop gets no figure, and one line on the error stream states the reason; the
+/// experiment continues.
+void draw_drop_details(const experiments::ExperimentResult& result, const std::atomic<bool>* stop);
+
+/// Likewise the phase filter's posterior through the drop that the section `posterior` selects, for
+/// all engines in one figure.
+void draw_phase_posteriors(const experiments::ExperimentResult& result,
+                           const std::atomic<bool>* stop);
+
+// The drawers of these figures, for data of any origin. Files as `draw_figure`. Errors:
+// `InputError` without anything to draw, and where stated; `Error` as `draw_figure`.
+
+/// One map of error rates (%): `value[row][column]` for the figure's y[row] and x[column]; NaN
+/// where unknown. `low` and `high` are the ends of each cell's interval; `marked` cells are
+/// crossed. All three may be empty.
+struct HeatmapPanel {
+  std::string title;
+  std::vector<std::vector<double>> value;
+  std::vector<std::vector<double>> low = {}, high = {};
+  std::vector<std::vector<bool>> marked = {};
+};
+
+/// Maps over the same two quantities, side by side, on the common colour scale of error rates. Maps
+/// of up to 64 cells show each cell's number, and its interval where there is one. For finer maps
+/// only the data file contains the numbers.
+struct Heatmap {
+  std::string title;
+  std::string x_label, y_label;  ///< with units
+  std::vector<double> x, y;
+  std::vector<HeatmapPanel> panels;
+  std::string caption;  ///< the runs, the seeds, and what counts as contact
+  /// Lines between cells below and above (%).
+  std::vector<double> levels = {error_levels.begin(), error_levels.end()};
+};
+
+/// Maps with more cells than this show no numbers.
+inline constexpr std::size_t most_numbered_cells = 64;
+
+/// What the size of a heatmap and the places of its cells depend on.
+struct HeatmapShape {
+  std::size_t panels, columns, rows;
+  bool has_intervals;   ///< cells show them
+  std::string caption;  ///< its lines make the picture higher
+};
+
+/// The size of a heatmap's picture (px), and its panels without their labels: left, top, width and
+/// height as shares of the picture. Cells divide a panel evenly, the first row is the lowest.
+struct HeatmapPlaces {
+  int width, height;
+  std::vector<std::array<double, 4>> panels;
+};
+HeatmapPlaces heatmap_places(const HeatmapShape& shape);
+
+/// The estimators with a panel in the maps of `draw_heatmaps`, in this order.
+std::vector<std::string> mapped_estimators(const experiments::Experiment& experiment);
+
+/// Draws a heatmap. Errors: `InputError` when a panel's size is not y × x.
+Figure draw_heatmap(const Heatmap& heatmap, const std::filesystem::path& stem);
+
+/// A measurement model and the estimators that use it.
+struct DensityRow {
+  std::string title;  ///< the estimators
+  LikelihoodGrids grids;
+};
+
+/// The paper's Fig. 3: densities of torques in contact and in the air, and the contact probability
+/// that follows from a flat prior; one row per model.
+struct DensityFigure {
+  std::string title;
+  std::vector<DensityRow> rows;
+  std::string caption;
+};
+
+/// The level of a grid's highest-density region: values above it add up to `share` of the grid's
+/// sum. NaN for a grid of zeros.
+double density_level(const std::vector<double>& grid, double share);
+
+/// Both densities' peaks. A density that is negligible beside the other counts as zero, for example
+/// when all its torques lie outside the model's axes.
+struct DensityPeaks {
+  double contact = 0.0, no_contact = 0.0;
+};
+DensityPeaks peaks_of(const LikelihoodGrids& grids);
+
+/// Ends of the drawn axes (N·m).
+struct DensityAxes {
+  double knee_low, knee_high, wheel_low, wheel_high;
+};
+DensityAxes axes_of(const LikelihoodGrids& grids);
+
+Figure draw_density_figure(const DensityFigure& figure, const std::filesystem::path& stem);
+
+/// The curves of a fitted additive model: the evidence of each channel for or against contact, at
+/// each time scale, and that of the noise levels. Each has a panel; all panels span the same range
+/// of nats. Curves end where the training data end.
+struct EvidenceFigure {
+  std::string title;
+  EvidenceModel model;
+  std::string caption;
+};
+
+/// A tick of an axis that is compressed like a channel's input.
+struct CompressedTick {
+  double value = 0.0;
+  double place = 0.0;  ///< position on the compressed axis
+};
+
+/// Round values between both ends of a compressed axis: 0, and 1 or 3 times powers of ten of either
+/// sign. Rounder values take precedence, so that labels do not touch. A `softsign_scale` of 0 means
+/// a logarithmic axis.
+std::vector<CompressedTick> compressed_ticks(double low, double high, double softsign_scale);
+
+Figure draw_evidence_figure(const EvidenceFigure& figure, const std::filesystem::path& stem);
+
+/// The calibration and the latencies of one estimator.
+struct ScoreRow {
+  std::string name;
+  std::size_t line_type = 1;  ///< `line_type_of` the estimator
+  scoring::Calibration calibration;
+  std::vector<Interval> contact_frequency;  ///< by bin of the calibration
+  scoring::TransitionCounts takeoff, landing;
+};
+
+/// One noise setting.
+struct ScorePanel {
+  std::string title;
+  std::vector<ScoreRow> rows;  ///< the same estimators in every panel
+};
+
+/// A figure of scores, with panels for each noise setting.
+struct ScoreFigure {
+  std::string title;
+  std::vector<ScorePanel> panels;
+  std::string caption;
+};
+
+/// Draws a reliability diagram: for each estimator the share of steps in contact against the stated
+/// probability of contact, with the number of steps in every bin below.
+Figure draw_reliability_figure(const ScoreFigure& figure, const std::filesystem::path& stem);
+
+/// Draws the distributions of takeoff and landing latencies: a histogram per estimator, one pair of
+/// panels per noise setting. Early detections have negative latency.
+Figure draw_latency_figure(const ScoreFigure& figure, const std::filesystem::path& stem);
+
+/// Draws one drop with a column per noise setting: height, true and noisy torques, contact
+/// probabilities, spectrograms with power and median frequency, transition probabilities. A tint
+/// marks the true contact of the left wheel. `estimators` are all estimators of the experiment;
+/// they determine the colours. The data are `<stem>_<n>.dat` per setting
+/// and, as `spectrum_text`, `<stem>_spectrum_<n>.dat`, number 0 being noiseless.
+Figure draw_drop_detail(const experiments::DropDetail& detail,
+                        const std::vector<std::string>& estimators, const FigureText& text,
+                        const std::filesystem::path& stem);
+
+/// A spectrogram as a matrix for gnuplot, in dB of m²/s⁴: a row per eighth of an octave with the
+/// nearest frequency bin, and a column per `spectrum_stride`-th step.
+std::string spectrum_text(const experiments::SpectrumTrace& trace, double bin_width);
+
+/// Draws the phase filter's posterior through one drop, one column per engine: true contact of both
+/// wheels, the true phase, the likelihood of every phase from one step's signals, the
+/// log-likelihood error of each signal, the phase probabilities stacked in the order of `Phase`,
+/// and the resulting contact probability of each wheel. The data are
+/// `<stem>_<n>.dat`, as intervals `<stem>_truth_<n>.dat` and, as a matrix,
+/// `<stem>_likelihood_<n>.dat`.
+Figure draw_phase_posterior(const std::vector<experiments::DropPosterior>& drops,
+                            const FigureText& text, const std::filesystem::path& stem);
+
+}  // namespace touchdown::render

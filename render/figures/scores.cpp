@@ -1,0 +1,313 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/estimators/baselines.hpp"
+#include "experiments/results/captions.hpp"
+#include "render/figures/figures.hpp"
+#include "render/gnuplot/frame.hpp"
+#include "render/gnuplot/text.hpp"
+#include "render/palette.hpp"
+#include "render/stop.hpp"
+#include "simulators/registry.hpp"
+
+namespace touchdown::render {
+namespace {
+
+constexpr double side = 360.0, counts_height = 96.0, gap = 84.0, left_margin = 70.0, key = 240.0;
+constexpr double counts_top = side + 62.0;
+
+/// One block (gnuplot's `index`) per panel and curve: the stated probability, the share of contact
+/// with its interval, and the number of steps of each bin.
+std::string reliability_data(const ScoreFigure& figure) {
+  std::string text = "#bin_centre\tmean_probability\tcontact_frequency\tlow\thigh\tsteps\n";
+  for (const ScorePanel& panel : figure.panels) {
+    for (const ScoreRow& row : panel.rows) {
+      for (std::size_t b = 0; b < scoring::Calibration::bins; ++b) {
+        const scoring::Calibration::Bin& bin = row.calibration.bin[b];
+        const Interval& frequency = row.contact_frequency[b];
+        fmt::format_to(std::back_inserter(text), "{}\t{}\t{}\t{}\t{}\t{}\n",
+                       (static_cast<double>(b) + 0.5) / scoring::Calibration::bins,
+                       number(bin.mean_probability()), number(frequency.estimate),
+                       number(frequency.low), number(frequency.high),
+                       bin.points > 0 ? std::to_string(bin.points) : "NaN");
+      }
+      text += "\n\n";
+    }
+  }
+  return text;
+}
+
+/// The plot of all curves of a panel.
+std::string curves(const ScorePanel& panel, const std::string& file, std::size_t first_block,
+                   const char* columns, const char* with, bool named) {
+  std::string text;
+  for (std::size_t c = 0; c < panel.rows.size(); ++c) {
+    text += fmt::format(", \\\n     {} index {} using {} with {} lt {} title {}", file,
+                        first_block + c, columns, with, panel.rows[c].line_type,
+                        gnuplot_text(named ? panel.rows[c].name : ""));
+  }
+  return text;
+}
+
+std::string reliability_described(const ScoreFigure& figure) {
+  std::string text = "Share of steps in contact against the stated probability of contact.";
+  for (const ScorePanel& panel : figure.panels) {
+    text += fmt::format(" {}: Brier score", panel.title);
+    for (std::size_t c = 0; c < panel.rows.size(); ++c) {
+      text += fmt::format("{} {:.3f} ({})", c > 0 ? "," : "", panel.rows[c].calibration.brier(),
+                          panel.rows[c].name);
+    }
+    text += '.';
+  }
+  return text;
+}
+
+std::string title_of(const noise::NoiseCell& cell) {
+  if (cell.torque == 0.0 && cell.accelerometer == 0.0) return "no noise";
+  return fmt::format("noise: {} N·m, {} m/s²", cell.torque, cell.accelerometer);
+}
+
+/// The scores at the highlighted noise settings in this engine, without the constant answer and the
+/// oracle.
+std::vector<ScorePanel> score_panels(const experiments::ExperimentResult& result,
+                                     const std::string& simulator) {
+  std::vector<ScorePanel> panels;
+  for (const noise::NoiseCell& cell : result.experiment.highlights) {
+    ScorePanel panel{title_of(cell), {}};
+    for (const experiments::ScoreSummary& score : result.scores) {
+      const bool shown = score.condition.test_simulator == simulator && score.cell == cell &&
+                         score.view == scoring::scored_views().front() &&
+                         score.condition.estimator != experiments::always_contact_name &&
+                         score.condition.estimator != "oracle";
+      if (!shown) continue;
+      panel.rows.push_back(
+          {experiments::estimator_entry(result.experiment, score.condition.estimator).title,
+           line_type_of(result.experiment.estimators, score.condition.estimator),
+           score.total.calibration, score.contact_frequency, score.total.takeoff,
+           score.total.landing});
+    }
+    if (!panel.rows.empty()) panels.push_back(std::move(panel));
+  }
+  return panels;
+}
+
+}  // namespace
+
+Figure draw_reliability_figure(const ScoreFigure& figure, const std::filesystem::path& stem) {
+  if (figure.panels.empty() || figure.panels.front().rows.empty()) {
+    throw InputError("a reliability figure without curves");
+  }
+  const auto panels = static_cast<double>(figure.panels.size());
+  const FigureFrame frame(figure.title, figure.caption,
+                          left_margin + panels * side + (panels - 1.0) * gap + key,
+                          counts_top + counts_height + 58.0);
+  const std::string file = gnuplot_file(stem.filename().string() + ".dat");
+  std::string commands = "set xrange [0:1]\nset bars 0\n";
+  std::size_t block = 0;
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    const ScorePanel& panel = figure.panels[i];
+    const double left = left_margin + static_cast<double>(i) * (side + gap);
+    commands += frame.panel(left, 26.0, side, side);
+    commands += fmt::format(
+        "set title {} offset 0,-0.6\nset yrange [0:1]\nset ytics 0.2\nset xtics 0.2\n"
+        "set format y '%g'\nset format x '%g'\nunset logscale y\n"
+        "unset xlabel\nset ylabel {}\n"
+        "set arrow from 0,0 to 1,1 nohead back lc rgb '#9aa1a8' lw 1 dt 1\n",
+        gnuplot_text(panel.title), i == 0 ? "'share of steps in contact'" : "''");
+    commands += i == 0
+                    ? fmt::format("set key at screen {}, screen {} left top Left reverse\n",
+                                  1.0 - (key - 22.0) / frame.width(), 1.0 - 66.0 / frame.height())
+                    : "unset key\n";
+    commands += "plot 2 lc rgb '#ffffff'" +
+                curves(panel, file, block, "2:3:4:5", "yerrorbars lw 0.9 dt 1 pt 0", false) +
+                curves(panel, file, block, "2:3", "linespoints", i == 0) + '\n' +
+                FigureFrame::end_panel();
+    commands += frame.panel(left, counts_top, side, counts_height);
+    commands += fmt::format(
+        "unset title\nunset key\nset logscale y\nset yrange [1:*]\nset ytics autofreq 100\n"
+        "set format y '%.0s%c'\nset xlabel 'stated probability of contact'\nset ylabel {}\n",
+        i == 0 ? "'steps'" : "''");
+    commands += "plot 0.1 lc rgb '#ffffff'" +
+                curves(panel, file, block, "1:6", "linespoints ps 0.4", false) + '\n';
+    block += panel.rows.size();
+  }
+  return frame.draw(stem, commands, reliability_data(figure), reliability_described(figure));
+}
+
+namespace {
+
+constexpr double panel_width = 310.0, row_height = 42.0, names = 190.0, numbers = 150.0;
+constexpr double gap_y = 94.0, right_margin = 12.0;
+
+struct LatencyKind {
+  const char* name;
+  scoring::TransitionCounts ScoreRow::*counts;
+};
+constexpr std::array<LatencyKind, 2> kinds = {
+    {{"takeoff", &ScoreRow::takeoff}, {"landing", &ScoreRow::landing}}};
+
+/// A histogram's outline on `base`. A bin's height is its share of the fullest bin.
+std::string outline(const scoring::LatencyHistogram& histogram, double base) {
+  const auto& events = histogram.events;
+  const std::int32_t most = *std::max_element(events.begin(), events.end());
+  if (most == 0) return "NaN\tNaN\tNaN\n";
+  constexpr double highest = 0.82, half = 0.5e-3 * scoring::LatencyHistogram::width_us;
+  std::string text;
+  for (std::size_t b = 0; b < events.size(); ++b) {
+    const double x = scoring::LatencyHistogram::centre_ms(b);
+    const double y = base + highest * events[b] / most;
+    for (const double edge : {x - half, x + half}) {
+      fmt::format_to(std::back_inserter(text), "{}\t{}\t{}\n", edge, base, y);
+    }
+  }
+  return text;
+}
+
+/// A number with a typographic minus sign; zero has no sign.
+std::string signed_text(double value) {
+  std::string text = fmt::format("{:.1f}", std::abs(value));
+  return value < 0.0 && text != "0.0" ? "−" + text : text;
+}
+
+/// The data file: blocks (gnuplot's `index`) by panel, kind and estimator with the histogram's
+/// outline (latency in ms, base, top); then one block per panel and kind with a row per estimator:
+/// its mean, its base, and the label beside it.
+std::string latency_data(const ScoreFigure& figure) {
+  std::string text = "#latency_ms\tbase\theight\n";
+  std::string means;
+  for (const ScorePanel& panel : figure.panels) {
+    for (const LatencyKind& kind : kinds) {
+      for (std::size_t r = 0; r < panel.rows.size(); ++r) {
+        const scoring::TransitionCounts& counts = panel.rows[r].*kind.counts;
+        const auto base = static_cast<double>(panel.rows.size() - 1 - r);
+        text += outline(counts.latency, base) + "\n\n";
+        const double mean = 1e3 * counts.latency_mean();
+        const double deviation = 1e3 * counts.latency_deviation();
+        std::string label = counts.detected > 0 ? signed_text(mean) : "–";
+        if (std::isfinite(deviation)) label += fmt::format(" ± {:.1f} ms", deviation);
+        means += fmt::format("{}\t{}\t\"{}\\n{} of {} found\"\n", number(mean), base, label,
+                             counts.detected, counts.events);
+      }
+      means += "\n\n";
+    }
+  }
+  return text + "#mean_ms\tbase\ttext\n" + means;
+}
+
+/// The range of all histograms of one kind (ms).
+std::array<double, 2> range_of(const ScoreFigure& figure, const LatencyKind& kind) {
+  scoring::LatencyHistogram all;
+  for (const ScorePanel& panel : figure.panels) {
+    for (const ScoreRow& row : panel.rows) all += (row.*kind.counts).latency;
+  }
+  std::array<double, 2> range = {-30.0, 50.0};
+  for (std::size_t b = 0; b < all.events.size(); ++b) {
+    if (all.events[b] == 0) continue;
+    range[0] = std::min(range[0], scoring::LatencyHistogram::centre_ms(b) - 5.0);
+    range[1] = std::max(range[1], scoring::LatencyHistogram::centre_ms(b) + 5.0);
+  }
+  return range;
+}
+
+std::string latency_described(const ScoreFigure& figure) {
+  std::string text = "Mean latencies in milliseconds, takeoff / landing.";
+  for (const ScorePanel& panel : figure.panels) {
+    text += fmt::format(" {}:", panel.title);
+    for (std::size_t r = 0; r < panel.rows.size(); ++r) {
+      const ScoreRow& row = panel.rows[r];
+      text += fmt::format("{} {} {:.1f} / {:.1f}", r > 0 ? "," : "", row.name,
+                          1e3 * row.takeoff.latency_mean(), 1e3 * row.landing.latency_mean());
+    }
+    text += '.';
+  }
+  return text;
+}
+
+}  // namespace
+
+Figure draw_latency_figure(const ScoreFigure& figure, const std::filesystem::path& stem) {
+  if (figure.panels.empty() || figure.panels.front().rows.empty()) {
+    throw InputError("a latency figure without rows");
+  }
+  const std::size_t rows = figure.panels.front().rows.size();
+  const double height = row_height * static_cast<double>(rows);
+  const FigureFrame frame(figure.title, figure.caption,
+                          names + 2.0 * (panel_width + numbers) + right_margin,
+                          static_cast<double>(figure.panels.size()) * (height + gap_y));
+  const std::string file = gnuplot_file(stem.filename().string() + ".dat");
+  std::string commands = fmt::format(
+      "unset key\nset grid noytics\nset style fill solid 0.55\nset yrange [-0.15:{}]\nset border "
+      "1\n",
+      static_cast<double>(rows));
+  std::size_t block = 0, means = figure.panels.size() * kinds.size() * rows;
+  for (std::size_t p = 0; p < figure.panels.size(); ++p) {
+    std::string estimators;
+    for (std::size_t r = 0; r < rows; ++r) {
+      estimators +=
+          fmt::format("{}{} {}", r > 0 ? ", " : "", gnuplot_text(figure.panels[p].rows[r].name),
+                      static_cast<double>(rows - 1 - r) + 0.3);
+    }
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+      const auto [low, high] = range_of(figure, kinds[k]);
+      commands +=
+          frame.panel(names + static_cast<double>(k) * (panel_width + numbers),
+                      24.0 + static_cast<double>(p) * (height + gap_y), panel_width, height);
+      commands += fmt::format(
+          "set title {} offset 0,-0.6\nset xrange [{}:{}]\nset ytics scale 0 ({})\n"
+          "set xlabel '{} latency (ms)'\n"
+          "set arrow from 0,graph 0 to 0,graph 1 nohead back lc rgb '#6b747d' lw 1.2 dt 1\nplot ",
+          gnuplot_text(figure.panels[p].title), low, high, k == 0 ? estimators : "'' 0",
+          kinds[k].name);
+      for (std::size_t r = 0; r < rows; ++r) {
+        commands += fmt::format(
+            "{0} index {1} using 1:2:3 with filledcurves lt {2}, {0} index {1} using 1:3 with "
+            "lines lt {2} lw 1.2 dt 1, \\\n     ",
+            file, block++, figure.panels[p].rows[r].line_type);
+      }
+      commands += fmt::format(
+          "{0} index {1} using 1:2:(0):(0.9) with vectors nohead lw 1.8 dt 1 lc rgb '#101418', \\\n"
+          "     '' index {1} using ({2}):($2+0.4):3 with labels left offset 1.2,0 font ',9' "
+          "textcolor rgb '#22262b'\n",
+          file, means++, high);
+      commands += FigureFrame::end_panel();
+    }
+  }
+  return frame.draw(stem, commands, latency_data(figure), latency_described(figure));
+}
+
+void draw_scores(const experiments::ExperimentResult& result, const std::atomic<bool>* stop) {
+  const experiments::Experiment& experiment = result.experiment;
+  for (const std::string& simulator : experiment.simulators) {
+    const std::string where =
+        fmt::format("{}, {}", experiment.name, simulators::simulator_title(simulator));
+    const auto stem = [&](const char* name) {
+      stop_if_asked(stop);
+      return result.directory.file("figures", fmt::format("{}_{}", name, simulator));
+    };
+    const std::vector<ScorePanel> panels = score_panels(result, simulator);
+    if (panels.empty() || experiments::test_runs(result, simulator).scored == 0) continue;
+    const std::string scored = experiments::scored_text(result, simulator);
+    draw_reliability_figure(
+        {"Calibration of contact probabilities: " + where, panels,
+         fmt::format("{}. Every step of both wheels counts. Bars: {}. On the diagonal, the stated "
+                     "probability equals the share of steps in contact. Below: steps per bin.",
+                     scored, experiments::intervals_text(experiment))},
+        stem("reliability"));
+    draw_latency_figure(
+        {"Latency of takeoffs and landings: " + where, panels,
+         fmt::format(
+             "{}. Events of both wheels, flights of at least {:.0f} ms; early detections "
+             "have negative latency. Bins of 5 ms; every histogram has its own scale. The "
+             "line is the mean; ± is the standard deviation over the events that were found.",
+             scored, 1e3 * experiment.scoring.minimum_flight)},
+        stem("latency"));
+  }
+}
+
+}  // namespace touchdown::render

@@ -1,0 +1,297 @@
+#include "render/film/strip.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include "render/palette.hpp"
+
+namespace touchdown::render {
+
+namespace {
+
+void add_wheels(StripRow& row, const std::string& label, const Colour& colour,
+                const std::array<std::vector<float>, models::wheel_count>& values) {
+  if (!values[1].empty()) row.curves.push_back({label, colour, values[1], false});
+  if (!values[0].empty()) row.curves.push_back({label, colour, values[0], true});
+}
+
+StripRow empty_row(const std::string& title, const VideoSource& source,
+                   const std::vector<std::uint8_t>& contact = {}) {
+  return {.title = title,
+          .curves = {},
+          .wheels_in_contact = contact,
+          .period = source.recording.period()};
+}
+
+StripRow contact_row(const VideoSource& source, const std::vector<std::uint8_t>& contact,
+                     const std::string& title) {
+  StripRow row = empty_row(title, source, contact);
+  for (std::size_t i = source.beliefs.size(); i-- > 0;) {  // the first one on top
+    const BeliefTrack& belief = source.beliefs[i];
+    add_wheels(row, belief.name, rgb(belief.colour), belief.p_contact);
+  }
+  return row;
+}
+
+StripRow transition_row(const VideoSource& source, const std::vector<std::uint8_t>& contact) {
+  StripRow row = empty_row("takeoff / landing", source, contact);
+  for (const BeliefTrack& belief : source.beliefs) {
+    if (belief.p_takeoff[0].empty() && belief.p_landing[0].empty()) continue;
+    add_wheels(row, "takeoff", rgb(0xd55e00), belief.p_takeoff);
+    add_wheels(row, "landing", rgb(0x7b3fb0), belief.p_landing);
+    break;
+  }
+  return row;
+}
+
+std::vector<float> torque(const recordings::Recording& recording, models::Servo servo) {
+  std::vector<float> values;
+  values.reserve(recording.steps());
+  for (const models::Observation& observation : recording.observation) {
+    values.push_back(static_cast<float>(observation.servo[models::index(servo)].torque));
+  }
+  return values;
+}
+
+/// Sets a range that is symmetric about zero and fits usual torques (N·m). Peaks at landings are
+/// clipped: they would flatten everything else.
+void fit_range(StripRow& row) {
+  std::vector<float> sizes;
+  for (const StripCurve& curve : row.curves) {
+    for (const float value : curve.values) {
+      if (std::isfinite(value)) sizes.push_back(std::abs(value));
+    }
+  }
+  float range = 1.0f;
+  if (!sizes.empty()) {
+    const auto at = sizes.begin() + static_cast<std::ptrdiff_t>((sizes.size() - 1) * 95 / 100);
+    std::nth_element(sizes.begin(), at, sizes.end());
+    range = std::max(1.0f, 2.0f * *at);
+  }
+  row.low = -range;
+  row.high = range;
+}
+
+constexpr int wide = 1000;         ///< from this width on, names fit beside the plots
+constexpr int smallest_names = 7;  ///< height of letters (px)
+
+}  // namespace
+
+std::vector<StripRow> strip_rows(const std::vector<VideoSource>& sources,
+                                 const scoring::LabelConfig& labels) {
+  std::vector<StripRow> rows;
+  if (sources.size() == 1) {
+    const VideoSource& source = sources.front();
+    const auto contact = wheels_in_contact(source.recording, labels);
+    rows.push_back(contact_row(source, contact, "contact probability"));
+    rows.push_back(transition_row(source, contact));
+    StripRow torques = empty_row("torque (N·m)", source);
+    torques.curves.push_back(
+        {"wheel", rgb(0x009e73), torque(source.recording, models::Servo::left_wheel)});
+    torques.curves.push_back(
+        {"knee", rgb(0xb0304f), torque(source.recording, models::Servo::left_knee)});
+    fit_range(torques);
+    rows.push_back(std::move(torques));
+    return rows;
+  }
+  for (const VideoSource& source : sources) {
+    rows.push_back(contact_row(source, wheels_in_contact(source.recording, labels),
+                               sources.size() > 2 ? "P(contact)"  // the curve has the name
+                                                  : "P(contact), " + label_of(source)));
+  }
+  if (sources.size() > 2) return rows;
+  StripRow knees = empty_row("knee torque (N·m)", sources.front());
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const recordings::Recording& recording = sources[i].recording;
+    std::vector<float> values = torque(recording, models::Servo::left_knee);
+    if (recording.period() != knees.period) {  // resample to the first recording's rows
+      std::vector<float> resampled;
+      for (std::size_t k = 0;; ++k) {
+        const auto from =
+            static_cast<std::size_t>(static_cast<double>(k) * knees.period / recording.period());
+        if (from >= values.size()) break;
+        resampled.push_back(values[from]);
+      }
+      values = std::move(resampled);
+    }
+    knees.curves.push_back({label_of(sources[i]), rgb(line_colour(i + 1)), std::move(values)});
+  }
+  fit_range(knees);
+  rows.push_back(std::move(knees));
+  return rows;
+}
+
+SignalStrip::SignalStrip(std::vector<StripRow> rows, int width, int height,
+                         const StripWindow& window)
+    : rows_(std::move(rows)),
+      window_(window),
+      width_(width),
+      height_(height),
+      narrow_(width < wide),
+      letters_(narrow_ ? std::clamp(height * 11 / 150, 8, 13) : std::max(9, height * 12 / 220)),
+      names_(letters_ - 1),
+      left_(narrow_ ? 3 * letters_ : std::max(width * 176 / 1280, 60)),
+      right_(narrow_ ? width - letters_ : width - width * 24 / 1280) {
+  if (!place_rows_alike()) {
+    while (!place_rows_by_legend() && names_ > smallest_names) --names_;
+  }
+  background_ = cv::Mat(height_, width_, CV_8UC3, strip_paper);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    draw_ticks(i);
+    draw_names(i);
+  }
+  const int plot_width = right_ - left_;
+  const int now = static_cast<int>(std::lround(window_.present * plot_width));
+  fog_ = cv::Mat(height_, plot_width - now, CV_8UC3, strip_paper);
+  plots_ = std::make_unique<StripPlots>(rows_, areas_, plot_width, height_, window_.seconds,
+                                        window_.tiles);
+}
+
+bool SignalStrip::is_in_legend_before(std::size_t i, const StripCurve& curve) const {
+  return std::any_of(
+      rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(i), [&](const StripRow& row) {
+        return std::any_of(row.curves.begin(), row.curves.end(), [&](const StripCurve& before) {
+          return before.label == curve.label && before.colour == curve.colour;
+        });
+      });
+}
+
+std::vector<SignalStrip::Name> SignalStrip::names_of(std::size_t i) const {
+  const int left = narrow_ ? left_ : width_ * 12 / 1280;
+  const int right = narrow_ ? right_ : left_ - letters_ * 2;
+  int x = narrow_ ? left_ + pen_.width(rows_[i].title, letters_) + letters_ : left;
+  int line = narrow_ ? 0 : 1;
+  std::vector<Name> names;
+  // The first curve of the legend is drawn last.
+  for (auto curve = rows_[i].curves.rbegin(); curve != rows_[i].curves.rend(); ++curve) {
+    if (!curve->emphasis || curve->label.empty() || is_in_legend_before(i, *curve)) continue;
+    if (x > left && x + legend_width(*curve) > right) {
+      x = left;
+      ++line;
+    }
+    names.push_back({&*curve, x, line});
+    x += legend_width(*curve) + (narrow_ ? letters_ / 2 : 0);
+  }
+  return names;
+}
+
+int SignalStrip::lines_of(std::size_t i) const {
+  const std::vector<Name> names = names_of(i);
+  return names.empty() ? 0 : names.back().line;
+}
+
+/// Rows of the same height, unless a legend is longer.
+bool SignalStrip::place_rows_alike() {
+  const int gap = std::max(4, height_ / 20);
+  const int count = std::max<int>(1, static_cast<int>(rows_.size()));
+  const int row_height = (height_ - gap * (count + 1)) / count;
+  line_ = std::min(letters_ * 7 / 4, row_height / 2);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const int lines = lines_of(i);
+    if (narrow_ ? lines > 0 : 2 + lines * line_ + letters_ > row_height + 4) return false;
+  }
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const int top = gap + static_cast<int>(i) * (row_height + gap);
+    areas_.push_back({top + std::min(header_of(i), row_height / 2), top + row_height});
+  }
+  return true;
+}
+
+/// Rows as high as their legends, with the remaining height shared evenly. False if the strip is
+/// too low; its rows are then cut off.
+bool SignalStrip::place_rows_by_legend() {
+  line_ = names_ + std::max(2, names_ / 4);
+  const int gap = std::max(4, height_ / 20);
+  const int count = static_cast<int>(rows_.size());
+  std::vector<int> heights;
+  int rest = height_ - gap * (count + 1);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    heights.push_back(narrow_ ? header_of(i) + 2 * letters_
+                              : std::max(2 * letters_, 2 + lines_of(i) * line_ + names_));
+    rest -= heights.back();
+  }
+  areas_.clear();
+  int top = gap;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const int bottom = std::min(height_ - 2, top + heights[i] + std::max(0, rest) / count);
+    areas_.push_back({std::min(top + header_of(i), bottom - 2), bottom});
+    top = bottom + gap;
+  }
+  return rest >= 0;
+}
+
+/// The height of title and legend above a plot (px).
+int SignalStrip::header_of(std::size_t i) const {
+  return narrow_ ? letters_ + letters_ / 2 + lines_of(i) * line_ : 0;
+}
+
+void SignalStrip::draw_ticks(std::size_t i) {
+  const int letters = narrow_ ? letters_ - 1 : letters_ - 2;
+  for (const double share : {0.0, 1.0}) {
+    const float value = rows_[i].low + static_cast<float>(share) * (rows_[i].high - rows_[i].low);
+    const std::string tick = fmt::format("{:.2g}", value);
+    const auto at = static_cast<int>(plot_y(rows_[i], areas_[i], value));
+    pen_.write(background_, tick, left_ - 5 - pen_.width(tick, letters),
+               at - (share > 0.0 ? letters_ / 4 : letters_ * 3 / 4), letters, rgb(0x5c636e));
+  }
+}
+
+int SignalStrip::legend_width(const StripCurve& curve) const {
+  return letters_ * 5 / 4 + 4 + pen_.width(curve.label, names_) + letters_ / 2;
+}
+
+void SignalStrip::draw_legend(const StripCurve& curve, int x, int top) {
+  const int dash = letters_ * 5 / 4;
+  const int middle = top + letters_ / 2 + 1;
+  cv::line(background_, {x, middle}, {x + dash, middle}, curve.colour, 3, cv::LINE_AA);
+  pen_.write(background_, curve.label, x + dash + 4, top, names_, curve.colour);
+}
+
+/// Title and legend, beside the plot or above it.
+void SignalStrip::draw_names(std::size_t i) {
+  const int left = narrow_ ? left_ : width_ * 12 / 1280;
+  const int top = narrow_ ? areas_[i].top - header_of(i) : areas_[i].top + 2;
+  pen_.write(background_, rows_[i].title, left, top, letters_, strip_ink);
+  for (const Name& name : names_of(i)) draw_legend(*name.curve, name.x, top + name.line * line_);
+}
+
+StripRow& SignalStrip::growing_row(std::size_t i, double time) {
+  plots_->redraw_from(time);
+  return rows_[i];
+}
+
+void SignalStrip::draw(cv::Mat image, double time) {
+  background_.copyTo(image);
+  cv::Mat plots = image.colRange(left_, right_);
+  plots_->copy_window(time - window_.present * window_.seconds, plots);
+  if (narrow_) {  // names stand on the plots' paper, above them
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const int bottom = areas_[i].top;
+      const int top = std::max(0, bottom - header_of(i));
+      background_.rowRange(top, bottom).copyTo(image.rowRange(top, bottom));
+    }
+  }
+  const int now = plots.cols - fog_.cols;
+  for (const PlotArea& area : areas_) {
+    cv::Mat future = plots(cv::Rect(now, area.top, fog_.cols, area.bottom - area.top));
+    cv::addWeighted(future, 0.4, fog_.rowRange(area.top, area.bottom), 0.6, 0.0, future);
+  }
+  cv::line(plots, {now, areas_.front().top - 2}, {now, areas_.back().bottom + 2}, strip_ink, 1);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    for (const StripCurve& curve : rows_[i].curves) {
+      const double k = time / rows_[i].period;
+      if (!curve.emphasis || k < 0 || k >= static_cast<double>(curve.values.size())) continue;
+      const float value = curve.values[static_cast<std::size_t>(k)];
+      if (!std::isfinite(value)) continue;
+      const auto y =
+          static_cast<int>(std::lround(plot_y(rows_[i], areas_[i], value) * (1 << subpixel_bits)));
+      cv::circle(plots, {now << subpixel_bits, y}, 4 << subpixel_bits, curve.colour, cv::FILLED,
+                 cv::LINE_AA, subpixel_bits);
+    }
+  }
+}
+
+}  // namespace touchdown::render

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "render/film/plots.hpp"
+#include "render/film/request.hpp"
+
+namespace touchdown::render {
+
+/// The plots of the strip: all of them for one run, P(contact) and knee torques for two runs, and
+/// P(contact) alone for more.
+std::vector<StripRow> strip_rows(const std::vector<VideoSource>& sources,
+                                 const scoring::LabelConfig& labels);
+
+/// The time that a strip shows.
+struct StripWindow {
+  double seconds = 4.0;
+  double present = 0.75;  ///< position of the present in the window
+  int tiles = 1;          ///< images per window; rows that grow draw only the last ones again
+};
+
+/// Moving plots below the view: a window of time with the present at its place and the future
+/// faded. Titles and legends are left of the plots, or above them in a narrow strip. Every curve is
+/// in a legend once: a row with a long legend is higher than others, and its names are smaller if
+/// need be.
+class SignalStrip {
+ public:
+  /// A strip of `width`·`height` pixels.
+  SignalStrip(std::vector<StripRow> rows, int width, int height, const StripWindow& window = {});
+
+  const std::vector<StripRow>& rows() const { return rows_; }
+  /// The row, to add values that are later than `time` (s).
+  StripRow& growing_row(std::size_t i, double time);
+
+  /// Draws the strip at `time` (s) into `image`, which must have width·height pixels (8UC3).
+  void draw(cv::Mat image, double time);
+
+ private:
+  /// A name of a legend: its curve, its left edge and its line below or beside the title.
+  struct Name {
+    const StripCurve* curve;
+    int x, line;
+  };
+  std::vector<Name> names_of(std::size_t i) const;
+  int lines_of(std::size_t i) const;
+  bool is_in_legend_before(std::size_t i, const StripCurve& curve) const;
+  bool place_rows_alike();
+  bool place_rows_by_legend();
+  int header_of(std::size_t i) const;
+  void draw_ticks(std::size_t i);
+  void draw_names(std::size_t i);
+  void draw_legend(const StripCurve& curve, int x, int top);
+  int legend_width(const StripCurve& curve) const;
+
+  std::vector<StripRow> rows_;
+  StripWindow window_;
+  int width_, height_;
+  bool narrow_;
+  int letters_;       ///< height of the text
+  int names_;         ///< height of the names in legends
+  int line_ = 0;      ///< distance of a legend's lines
+  int left_, right_;  ///< of the plots
+  std::vector<PlotArea> areas_;
+  TextPen pen_;
+  cv::Mat background_;
+  cv::Mat fog_;  ///< paper, as large as the future
+  std::unique_ptr<StripPlots> plots_;
+};
+
+}  // namespace touchdown::render

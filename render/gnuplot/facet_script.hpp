@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/tables/table.hpp"
+#include "experiments/figures/figure_spec.hpp"
+
+namespace touchdown::render {
+
+/// A drawn row of a table, with its places among the groups of the figure.
+struct FacetRow {
+  std::size_t index = 0;  ///< in the table
+  std::size_t panel = 0, series = 0, row = 0;
+  std::size_t mark = 0;  ///< the first with conditions that it passes
+  double x = 0.0;        ///< its place in the order of `x`; unused with `rows`
+};
+
+/// The rows of a table that a figure draws. Rows that a curve joins follow each other, by `x`.
+struct FacetData {
+  Table table;  ///< with all of its rows
+  std::vector<FacetRow> rows;
+
+  std::string text(const FacetRow& row, const std::string& column) const;
+  /// A row's value on an axis, as drawn; NaN without one.
+  double value(const FacetRow& row, const experiments::FigureAxis& axis) const;
+  /// Whether any row has a value on the axis.
+  bool has_values(const experiments::FigureAxis& axis) const;
+};
+
+FacetData facet_data(const experiments::FigureSpec& spec, const Table& table);
+
+/// The rows as the data file of a script: CSV, with `percent_encoded` cells.
+std::string data_file(const FacetData& data);
+
+/// The text with each character that gnuplot does not read back from a CSV cell as %XX, its byte in
+/// hexadecimal digits.
+std::string percent_encoded(const std::string& text);
+
+/// The gnuplot expression that holds for rows that pass all conditions; empty without
+/// conditions.
+std::string condition_of(const std::vector<experiments::CellFilter>& where);
+/// The same for the rows of one group.
+std::string condition_of(const experiments::FigureGroups& groups, std::size_t group);
+
+/// Defines the function `<name><place + 1>`: its argument in rows that fulfil the condition, NaN in
+/// others. Empty without a condition.
+std::string selection(const char* name, std::size_t place, const std::string& condition);
+
+/// The title of an axis with its unit in brackets.
+std::string label(const experiments::FigureAxis& axis);
+
+/// The colour and line of a series. The truth is dark, "always contact" grey.
+std::string series_style(const experiments::FigureSpec& spec, std::size_t series);
+
+/// The plotting style of a series in the legend.
+const char* key_shape(const experiments::FigureSpec& spec);
+
+/// The plot of one series in one panel.
+struct FacetPlot {
+  std::vector<std::string> selections = {};  ///< functions that select its rows
+  double aside = 0.0;                        ///< shift along the axis without the measure
+  std::string style;
+};
+
+/// An element of gnuplot's `plot`, without a title. `file` is a text constant.
+std::string plot_command(const experiments::FigureSpec& spec,
+                         const experiments::FigureAxis& measure, experiments::MarkShape shape,
+                         const std::string& file, const FacetPlot& plot);
+
+}  // namespace touchdown::render

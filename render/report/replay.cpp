@@ -1,0 +1,338 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+#include <fmt/format.h>
+
+#include "render/film/primitives.hpp"
+#include "render/film/scene_view.hpp"
+#include "render/report/html.hpp"
+#include "render/report/sections.hpp"
+
+namespace touchdown::render {
+
+namespace {
+
+/// A position p is `origin + unit · (i, j, k)`, with whole numbers of 16 bits. `unit` is in metres.
+struct PositionCode {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  double unit = 1e-5;
+};
+
+constexpr double largest = std::numeric_limits<std::int16_t>::max();
+
+/// The mesh with its vertices at the middles of a grid's cells.
+TriangleMesh on_grid(const TriangleMesh& mesh, const Eigen::Vector3d& corner, double cell) {
+  TriangleMesh result;
+  std::map<std::array<long, 3>, int> index_of;
+  std::vector<int> moved;
+  for (const Eigen::Vector3d& vertex : mesh.vertices) {
+    const Eigen::Vector3d at = ((vertex - corner) / cell).array().floor();
+    const std::array<long, 3> key = {std::lround(at.x()), std::lround(at.y()), std::lround(at.z())};
+    const auto [found, is_new] =
+        index_of.try_emplace(key, static_cast<int>(result.vertices.size()));
+    if (is_new) {
+      result.vertices.emplace_back(corner + cell * (at + Eigen::Vector3d::Constant(0.5)));
+    }
+    moved.push_back(found->second);
+  }
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    std::array<int, 3> triangle;
+    for (std::size_t k = 0; k < 3; ++k) {
+      triangle[k] = moved[static_cast<std::size_t>(mesh.indices[i + k])];
+    }
+    const auto [a, b, c] = triangle;
+    if (a == b || b == c || c == a) continue;
+    result.indices.insert(result.indices.end(), triangle.begin(), triangle.end());
+  }
+  return result;
+}
+
+/// Whole numbers of 16 bits, little-endian, as base64. Numbers beyond the range are clamped.
+std::string packed(const std::vector<double>& values, double unit) {
+  std::string bytes;
+  bytes.reserve(2 * values.size());
+  for (const double value : values) {
+    const double steps = std::isfinite(value) ? value / unit : 0.0;
+    const auto code = static_cast<std::uint16_t>(
+        static_cast<std::int16_t>(std::lround(std::clamp(steps, -largest, largest))));
+    bytes += static_cast<char>(code & 0xffU);
+    bytes += static_cast<char>(code >> 8U);
+  }
+  return base64(bytes);
+}
+
+/// Whole numbers of 8 bits.
+std::string packed(const std::vector<std::uint8_t>& values) {
+  return base64(std::string_view(reinterpret_cast<const char*>(values.data()), values.size()));
+}
+
+/// The finest code of these positions.
+PositionCode code_of(const std::vector<Eigen::Vector3d>& positions) {
+  if (positions.empty()) return {};
+  Eigen::Vector3d low = positions.front();
+  Eigen::Vector3d high = positions.front();
+  for (const Eigen::Vector3d& position : positions) {
+    low = low.cwiseMin(position);
+    high = high.cwiseMax(position);
+  }
+  PositionCode code{.origin = 0.5 * (low + high)};
+  code.unit = std::max(code.unit, 0.5 * (high - low).maxCoeff() / largest);
+  return code;
+}
+
+using Json = nlohmann::ordered_json;
+
+/// Meshes of a scene have together about this many triangles at most.
+constexpr std::size_t most_mesh_triangles = 40'000;
+
+double rounded(double value) { return std::round(value * 1e5) / 1e5; }
+
+Json numbers(const Eigen::Vector3d& v) { return {rounded(v.x()), rounded(v.y()), rounded(v.z())}; }
+
+Json mesh_json(const mjModel& model, int mesh, std::size_t most_triangles) {
+  TriangleMesh all;
+  const std::span<const float> vertices = mesh_vertices(model, mesh);
+  for (std::size_t i = 0; i + 2 < vertices.size(); i += 3) {
+    all.vertices.emplace_back(vertices[i], vertices[i + 1], vertices[i + 2]);
+  }
+  const std::span<const int> triangles = mesh_triangles(model, mesh);
+  all.indices.assign(triangles.begin(), triangles.end());
+  const TriangleMesh shown = reduced(all, most_triangles);
+  const PositionCode code = code_of(shown.vertices);
+  std::vector<double> offsets;
+  for (const Eigen::Vector3d& vertex : shown.vertices) {
+    const Eigen::Vector3d offset = vertex - code.origin;
+    offsets.insert(offsets.end(), offset.begin(), offset.end());
+  }
+  return {{"origin", numbers(code.origin)},
+          {"unit", code.unit},
+          {"vertices", packed(offsets, code.unit)},
+          {"triangles", shown.indices}};
+}
+
+/// The bodies that have something to draw. The terrain is always the first.
+std::vector<int> drawn_bodies(const mjModel& model) {
+  std::vector<int> bodies = {0};
+  for (int body = 1; body < model.nbody; ++body) {
+    if (!primitives_of(model, body).empty()) bodies.push_back(body);
+  }
+  return bodies;
+}
+
+Json scene_json(const models::RobotModel& robot) {
+  const mjModel& model = *robot.mj;
+  Json bodies = Json::array();
+  Json meshes = Json::array();
+  const std::size_t most_triangles =
+      most_mesh_triangles / static_cast<std::size_t>(std::max(1, static_cast<int>(model.nmesh)));
+  for (const int body : drawn_bodies(model)) {
+    Json shapes = Json::array();
+    for (const Primitive& primitive : primitives_of(model, body)) {
+      const Eigen::Quaterniond& q = primitive.orientation;
+      Json shape = {static_cast<int>(primitive.shape)};
+      for (const double number : primitive.position) shape.push_back(rounded(number));
+      for (const double number : {q.w(), q.x(), q.y(), q.z()}) shape.push_back(rounded(number));
+      for (const double number : primitive.size) shape.push_back(rounded(number));
+      for (std::size_t i = 0; i < 3; ++i) {
+        shape.push_back(std::lround(255.0F * primitive.colour[i]));
+      }
+      if (primitive.mesh >= 0) {
+        shape.push_back(meshes.size());
+        meshes.push_back(mesh_json(model, primitive.mesh, most_triangles));
+      }
+      shapes.push_back(std::move(shape));
+    }
+    bodies.push_back(std::move(shapes));
+  }
+  return {{"bodies", std::move(bodies)}, {"meshes", std::move(meshes)}};
+}
+
+/// The rows of the recording at `rate` per second.
+std::vector<std::size_t> rows_at(const recordings::Recording& recording, double rate) {
+  const double last = recording.period() * static_cast<double>(recording.steps() - 1);
+  const auto count = static_cast<std::size_t>(std::min(last, longest_replay) * rate + 1e-9) + 1;
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double row = std::round(static_cast<double>(i) / rate / recording.period());
+    rows.push_back(std::min(static_cast<std::size_t>(row), recording.steps() - 1));
+  }
+  return rows;
+}
+
+void add_poses(const VideoSource& source, Json& run) {
+  const models::RobotModel& robot = source.robot;
+  const Poses poses(robot, source.recording);
+  const models::MjDataPtr data(mj_makeData(robot.mj.get()));
+  const std::vector<int> bodies = drawn_bodies(*robot.mj);
+  const std::vector<std::size_t> rows = rows_at(source.recording, replay_pose_rate);
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<double> orientations;
+  for (const std::size_t row : rows) {
+    poses.apply(row, *data);
+    for (std::size_t i = 1; i < bodies.size(); ++i) {
+      positions.push_back(body_position(*data, bodies[i]));
+      const Eigen::Quaterniond q = body_orientation(*data, bodies[i]);
+      for (const double number : {q.w(), q.x(), q.y(), q.z()}) orientations.push_back(number);
+    }
+  }
+  const PositionCode code = code_of(positions);
+  std::vector<double> offsets;
+  for (const Eigen::Vector3d& position : positions) {
+    const Eigen::Vector3d offset = position - code.origin;
+    offsets.insert(offsets.end(), offset.begin(), offset.end());
+  }
+  const auto place_of = [&](int body) {
+    return std::find(bodies.begin(), bodies.end(), body) - bodies.begin();
+  };
+  run["pose_rate"] = replay_pose_rate;
+  run["origin"] = numbers(code.origin);
+  run["unit"] = code.unit;
+  run["positions"] = packed(offsets, code.unit);
+  run["orientations"] = packed(orientations, 1.0 / 32767.0);
+  run["base"] = place_of(robot.base_body);
+  run["wheels"] = {place_of(robot.mj->geom_bodyid[robot.tyre_geom[0]]),
+                   place_of(robot.mj->geom_bodyid[robot.tyre_geom[1]])};
+}
+
+void add_beliefs(const VideoSource& source, const scoring::LabelConfig& labels, Json& run) {
+  const std::vector<std::size_t> rows = rows_at(source.recording, replay_belief_rate);
+  const auto contact = scoring::contact_labels(source.recording, labels);
+  std::vector<std::uint8_t> truth;
+  for (const std::size_t row : rows) {
+    truth.push_back(
+        static_cast<std::uint8_t>((contact[0][row] != 0 ? 1 : 0) + (contact[1][row] != 0 ? 2 : 0)));
+  }
+  run["belief_rate"] = replay_belief_rate;
+  run["truth"] = packed(truth);
+  run["estimators"] = Json::array();
+  for (const BeliefTrack& track : source.beliefs) {
+    if (track.p_contact[0].empty() || track.p_contact[1].empty()) continue;
+    std::vector<std::uint8_t> codes;
+    for (const std::size_t row : rows) {
+      for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+        const float p = track.p_contact[wheel][row];
+        const long share = std::isfinite(p) ? std::lround(127.0F * std::clamp(p, 0.0F, 1.0F)) : 0;
+        const auto& decisions = track.contact[wheel];
+        const int decision = (decisions.empty() ? p > 0.5F : decisions[row] != 0) ? 1 : 0;
+        codes.push_back(static_cast<std::uint8_t>(2 * share + decision));
+      }
+    }
+    run["estimators"].push_back({{"name", track.name},
+                                 {"colour", fmt::format("#{:06x}", track.colour)},
+                                 {"beliefs", packed(codes)}});
+  }
+}
+
+Json camera_json() {
+  const SceneCamera camera;
+  return {{"azimuth", camera.azimuth},
+          {"elevation", camera.elevation},
+          {"distance", camera.distance},
+          {"look_at", numbers(camera.look_at)}};
+}
+
+std::string engines_html(const std::vector<VideoSource>& runs) {
+  if (runs.size() < 2) return {};
+  std::string html = "<fieldset class=\"picks engines\"><legend>Engine</legend>\n";
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    html += fmt::format(
+        "<label><input type=\"radio\" name=\"replay-engine\" value=\"{}\"{}> {}</label>\n", i,
+        i == 0 ? " checked" : "", escaped(label_of(runs[i])));
+  }
+  return html + "</fieldset>\n";
+}
+
+/// The length of what is left out, in words.
+std::string cap_text(const std::vector<VideoSource>& runs) {
+  double end = 0.0;
+  for (const VideoSource& run : runs) {
+    end = std::max(end, run.recording.period() * static_cast<double>(run.recording.steps()));
+  }
+  return end > longest_replay + 1.0
+             ? fmt::format(" Only the first {:.0f} of {:.0f} seconds are here.", longest_replay,
+                           end)
+             : "";
+}
+
+constexpr const char* controls = R"(<div class="stage">
+<canvas class="view" tabindex="0" role="application" aria-label="The robot on its terrain. Arrow keys turn the view, plus and minus move it, Home resets it, Space plays."></canvas>
+<p class="state" aria-hidden="true"></p>
+</div>
+<div class="transport">
+<button type="button" class="play" aria-pressed="false">Play</button>
+<label class="speed">Speed <select><option value="0.1">0.1×</option><option value="0.25">0.25×</option><option value="0.5">0.5×</option><option value="1" selected>1×</option><option value="2">2×</option></select></label>
+<button type="button" class="reset">Reset view</button>
+<button type="button" data-jump="flight" data-step="-1" aria-label="Previous flight">‹ Flight</button>
+<button type="button" data-jump="flight" data-step="1" aria-label="Next flight">Flight ›</button>
+<button type="button" data-jump="error" data-step="-1" aria-label="Previous error of the first estimator shown">‹ Error</button>
+<button type="button" data-jump="error" data-step="1" aria-label="Next error of the first estimator shown">Error ›</button>
+</div>
+<canvas class="overview" aria-hidden="true"></canvas>
+<input type="range" class="time" min="0" step="0.01" value="0" aria-label="Time">
+<canvas class="curves" aria-hidden="true"></canvas>
+<fieldset class="picks estimators-shown"><legend>P(contact): left wheel, right wheel</legend></fieldset>
+)";
+
+}  // namespace
+
+TriangleMesh reduced(const TriangleMesh& mesh, std::size_t most_triangles) {
+  TriangleMesh result = mesh;
+  if (mesh.vertices.empty()) return result;
+  Eigen::Vector3d low = mesh.vertices.front();
+  Eigen::Vector3d high = low;
+  for (const Eigen::Vector3d& vertex : mesh.vertices) {
+    low = low.cwiseMin(vertex);
+    high = high.cwiseMax(vertex);
+  }
+  double cells = 256.0;
+  while (result.indices.size() > 3 * most_triangles && cells > 1.0) {
+    result = on_grid(mesh, low, (high - low).maxCoeff() / cells);
+    cells /= 1.25;
+  }
+  return result;
+}
+
+Json replay_data(const std::vector<VideoSource>& runs, const scoring::LabelConfig& labels) {
+  Json data = {{"camera", camera_json()}, {"scenes", Json::array()}, {"runs", Json::array()}};
+  Json& scenes = data["scenes"];
+  for (const VideoSource& source : runs) {
+    Json scene = scene_json(source.robot);
+    const auto known = std::find(scenes.begin(), scenes.end(), scene);
+    Json run = {{"name", label_of(source)}, {"scene", known - scenes.begin()}};
+    if (known == scenes.end()) scenes.push_back(std::move(scene));
+    add_poses(source, run);
+    add_beliefs(source, labels, run);
+    run["flights"] = Json::array();
+    for (const scoring::Flight& flight : visible_flights(source.recording, labels)) {
+      run["flights"].push_back(
+          {rounded(static_cast<double>(flight.takeoff) * source.recording.period()),
+           rounded(static_cast<double>(flight.landing) * source.recording.period())});
+    }
+    data["runs"].push_back(std::move(run));
+  }
+  return data;
+}
+
+std::string replay_html(const std::vector<VideoSource>& runs, const scoring::LabelConfig& labels) {
+  return fmt::format(
+      "<div class=\"replay\" hidden>\n{}{}"
+      "<p class=\"note\">Drag to turn, scroll (after a click) or pinch to zoom. Wheels are green "
+      "in true contact and orange in the air. Below, the whole run: true contact (green: dark of "
+      "both wheels, light of one) with the errors of the first estimator shown in red. The curves "
+      "show the seconds around the present, at {:.0f} Hz.{}</p>\n"
+      "<script type=\"application/json\">{}</script>\n</div>\n"
+      "<noscript><p class=\"note\">The replay needs JavaScript.</p></noscript>\n",
+      engines_html(runs), controls, replay_belief_rate, cap_text(runs),
+      inline_json(replay_data(runs, labels)));
+}
+
+}  // namespace touchdown::render
