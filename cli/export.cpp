@@ -1,3 +1,5 @@
+#include "experiments/submissions/export.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <memory>
@@ -18,10 +20,9 @@
 #include "recordings/log/recording_file.hpp"
 #include "recordings/mapping/conversion.hpp"
 #include "recordings/mcap/log.hpp"
-#include "experiments/submissions/export.hpp"
-#include "render/mcap/scene.hpp"
-#include "render/pictures/filmed_run.hpp"
 #include "recordings/model_file.hpp"
+#include "render/report/filmed_run.hpp"
+#include "render/report/mcap.hpp"
 
 namespace touchdown::cli {
 

@@ -12,13 +12,13 @@
 #include "core/program.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"
+#include "experiments/plan/rollouts.hpp"
 #include "experiments/results/result_files.hpp"
 #include "experiments/results/text_tables.hpp"
-#include "experiments/plan/rollouts.hpp"
 #include "experiments/run_experiment.hpp"
 #include "experiments/studies/experiment_file.hpp"
-#include "render/pictures/filmed_report.hpp"
-#include "render/pictures/pictures.hpp"
+#include "render/report/pictures.hpp"
+#include "render/report/report.hpp"
 #include "render/studies/registry.hpp"
 
 namespace touchdown::cli {

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "render/film/scene_view.hpp"
-#include "scenarios/ending.hpp"
+#include "scenarios/scenario.hpp"
 #include "viewer/live_controls.hpp"
 #include "viewer/panel.hpp"
 #include "viewer/screen.hpp"

@@ -4,8 +4,8 @@
 
 #include "core/error.hpp"
 #include "core/progress.hpp"
-#include "experiments/drops/drops.hpp"
 #include "experiments/results/captions.hpp"
+#include "experiments/results/drops.hpp"
 #include "recordings/log/recording_file.hpp"
 
 namespace touchdown::render {

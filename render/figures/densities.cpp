@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
-#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/config/experiment.hpp"
 #include "experiments/results/captions.hpp"
 #include "render/figures/chosen_run.hpp"
 #include "render/figures/figures.hpp"

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "estimator/evidence/channels.hpp"
-#include "experiments/config/experiment_estimators.hpp"
-#include "experiments/estimators/decision.hpp"
+#include "experiments/config/experiment.hpp"
+#include "experiments/estimators/entries.hpp"
 #include "experiments/results/captions.hpp"
 #include "render/figures/chosen_run.hpp"
 #include "render/figures/figures.hpp"

@@ -10,12 +10,11 @@
 #include "core/interval.hpp"
 #include "estimator/bayes/measurement_model.hpp"
 #include "estimator/evidence/curves.hpp"
-#include "experiments/drops/detail.hpp"
-#include "experiments/drops/posterior.hpp"
+#include "experiments/results/drops.hpp"
 #include "experiments/results/result.hpp"
 #include "render/figures/error_scale.hpp"
 #include "render/gnuplot/figure.hpp"
-#include "scoring/calibration.hpp"
+#include "scoring/score.hpp"
 #include "scoring/transitions.hpp"
 
 namespace touchdown::render {

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "experiments/figures/groups.hpp"
+#include "experiments/figures/figure_spec.hpp"
 #include "render/gnuplot/text.hpp"
 #include "render/palette.hpp"
 

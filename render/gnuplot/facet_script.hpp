@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/tables/table.hpp"
+#include "core/table.hpp"
 #include "experiments/figures/figure_spec.hpp"
 
 namespace touchdown::render {

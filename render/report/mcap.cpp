@@ -19,7 +19,7 @@
 #include "recordings/mcap/writer.hpp"
 #include "render/film/primitives.hpp"
 #include "render/film/scene_view.hpp"
-#include "scenarios/ending.hpp"
+#include "scenarios/scenario.hpp"
 #include "scoring/labels.hpp"
 
 namespace touchdown::render {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/config/experiment_estimators.hpp"
+#include "experiments/config/experiment.hpp"
 #include "experiments/estimators/baselines.hpp"
 #include "experiments/results/captions.hpp"
 #include "render/figures/error_scale.hpp"

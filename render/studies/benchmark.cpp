@@ -12,7 +12,7 @@
 #include "experiments/plan/request.hpp"
 #include "experiments/studies/benchmark.hpp"
 #include "render/film/video.hpp"
-#include "render/pictures/filmed_run.hpp"
+#include "render/report/filmed_run.hpp"
 #include "render/report/tables.hpp"
 #include "render/studies/registry.hpp"
 #include "scenarios/engine.hpp"

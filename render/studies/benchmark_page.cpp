@@ -10,7 +10,6 @@
 #include "experiments/results/captions.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "render/report/html.hpp"
-#include "render/report/page.hpp"
 #include "render/studies/benchmark.hpp"
 #include "simulators/registry.hpp"
 

@@ -1,7 +1,7 @@
 #include "experiments/studies/moments.hpp"
-#include "render/studies/registry.hpp"
-#include "render/studies/moments.hpp"
+
 #include "render/figures/moments_figure.hpp"
+#include "render/studies/registry.hpp"
 
 namespace touchdown::render {
 
