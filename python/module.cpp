@@ -7,6 +7,7 @@
 #include "core/terminal_text.hpp"
 #include "python/estimators.hpp"
 #include "python/experiments.hpp"
+#include "python/models.hpp"
 #include "python/runs.hpp"
 
 PYBIND11_MODULE(_touchdown, module) {
@@ -30,6 +31,7 @@ PYBIND11_MODULE(_touchdown, module) {
   });
   module.attr("__version__") = TOUCHDOWN_VERSION;
   touchdown::python::add_runs(module);
+  touchdown::python::add_models(module);
   touchdown::python::add_estimators(module);
   touchdown::python::add_experiments(module);
 }

@@ -4,10 +4,13 @@
 #include <filesystem>
 #include <functional>
 #include <ostream>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "recordings/beliefs/contact_intervals.hpp"
+#include "recordings/log/row.hpp"
+#include "recordings/mapping/mapping.hpp"
 
 namespace touchdown::recordings {
 
@@ -28,6 +31,10 @@ struct ConvertedLog {
 
 /// One line for each thing that a user should know about the log of this name.
 std::vector<std::string> warnings_of(const ConvertedLog& converted, const std::string& log);
+
+/// One time step of another robot, in Upkie's conventions, from a row with the numbers of
+/// `LogMapping::columns`. `k` counts the rows, for logs without a clock.
+LogRow mapped_row(const LogMapping& mapping, std::uint64_t k, std::span<const double> row);
 
 /// Converts another robot's log, CSV, NumPy's arrays or a ROS 2 bag, to a robot's log in Upkie's
 /// layout, by a mapping file. `log` is the folder of the sources if the mapping has several. Each

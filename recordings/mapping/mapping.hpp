@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include "estimator/assembly/record.hpp"
 #include "models/robot.hpp"
 #include "recordings/mapping/log_sources.hpp"
 
@@ -106,15 +105,14 @@ struct LogMapping {
   std::optional<MappedSignal> wheel_velocity_target;
   std::optional<MappedLegTargets> leg_targets;
 
-  MappedSignal orientation;  ///< 4: from the IMU frame to its reference, w x y z
-  bool is_w_last = false;    ///< order x y z w instead
-  /// Whether the reference's z axis points up (ROS, ENU), not down (Upkie, NED).
-  bool reference_is_z_up = false;
-  MappedSignal angular_velocity;                    ///< 3, rad/s
+  MappedSignal orientation;       ///< 4: from the IMU frame to its reference, w x y z
+  bool is_w_last = false;         ///< order x y z w instead
+  MappedSignal angular_velocity;  ///< 3, rad/s
   std::optional<MappedSignal> linear_acceleration;  ///< 3, m/s², without gravity
   std::optional<MappedSignal> proper_acceleration;  ///< 3, m/s², gravity included
-  /// Rotation from the axes of the log's IMU to those of Upkie's (x back, y left, z down).
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  /// The frames of the IMU; which of the two accelerations is used. Numbers above have the units of
+  /// touchdown.
+  AssemblyConfig conventions;
 
   /// The source of the joints' rows, of a log with several: that of the first joint.
   std::size_t joint_source() const;
