@@ -21,7 +21,7 @@
 #include "experiments/submissions/belief_folder.hpp"
 #include "experiments/submissions/prediction.hpp"
 #include "experiments/tables/results.hpp"
-#include "recordings/beliefs/file.hpp"
+#include "recordings/log/beliefs.hpp"
 
 namespace touchdown::experiments {
 

@@ -17,7 +17,7 @@
 #include "python/recording_arrays.hpp"
 #include "recordings/log/byte_source.hpp"
 #include "recordings/log/writer.hpp"
-#include "recordings/mapping/mapped_log.hpp"
+#include "recordings/mapping/conversion.hpp"
 
 namespace touchdown::python {
 

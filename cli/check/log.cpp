@@ -11,7 +11,7 @@
 #include "experiments/logs/log_steps.hpp"
 #include "recordings/log/byte_source.hpp"
 #include "recordings/log/reader.hpp"
-#include "recordings/mapping/mapped_log.hpp"
+#include "recordings/mapping/conversion.hpp"
 
 namespace touchdown::cli {
 

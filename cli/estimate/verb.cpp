@@ -21,7 +21,7 @@
 #include "experiments/rollouts/rollouts.hpp"
 #include "recordings/log/annotator.hpp"
 #include "recordings/log/byte_source.hpp"
-#include "recordings/mapping/mapped_log.hpp"
+#include "recordings/mapping/conversion.hpp"
 #include "render/curves/log_figure.hpp"
 #include "scenarios/ending.hpp"
 

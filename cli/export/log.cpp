@@ -12,9 +12,9 @@
 #include "core/resources.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
+#include "recordings/log/mcap.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "recordings/mapping/conversion.hpp"
-#include "recordings/mcap/log.hpp"
 #include "render/mcap/scene.hpp"
 #include "render/pictures/filmed_run.hpp"
 

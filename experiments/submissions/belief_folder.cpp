@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/yaml.hpp"
-#include "recordings/beliefs/file.hpp"
+#include "recordings/log/beliefs.hpp"
 
 namespace touchdown::experiments {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "experiments/signals/run_signals.hpp"
-#include "recordings/beliefs/beliefs.hpp"
+#include "recordings/log/beliefs.hpp"
 #include "scoring/score.hpp"
 
 namespace touchdown::experiments {

@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <optional>
 #include <span>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "estimator/assembly/record.hpp"
 #include "recordings/bags/bag.hpp"
 #include "recordings/log/writer.hpp"
-#include "recordings/mapping/joined_log.hpp"
 #include "recordings/mapping/mapping_file.hpp"
-#include "recordings/mapping/row_hold.hpp"
 #include "recordings/mapping/source_log.hpp"
 #include "recordings/sample_times.hpp"
 
@@ -343,6 +343,18 @@ ConvertedLog convert_log(const std::filesystem::path& log, const std::filesystem
   ConvertedLog converted = converter.finish(log);
   converted.notes.insert(converted.notes.end(), notes.begin(), notes.end());
   return converted;
+}
+
+MappedLog::MappedLog(const std::filesystem::path& log, const std::filesystem::path& mapping,
+                     const std::function<void()>& check_stop)
+    : folder_(temporary_folder() / "touchdown_mapped_log") {
+  std::ofstream stream(path(), std::ios::binary);
+  const ConvertedLog converted = convert_log(log, mapping, stream, check_stop, false);
+  stream.close();
+  if (!stream) {
+    throw Error(fmt::format("{}: cannot be written: is the disk full?", path().string()));
+  }
+  warnings_ = warnings_of(converted, log.string());
 }
 
 }  // namespace touchdown::recordings

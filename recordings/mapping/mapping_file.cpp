@@ -7,9 +7,7 @@
 
 #include "core/fields.hpp"
 #include "core/resources.hpp"
-#include "recordings/mapping/joint_keys.hpp"
 #include "recordings/mapping/mapping_reader.hpp"
-#include "recordings/mapping/mounting.hpp"
 
 namespace touchdown::recordings {
 

@@ -6,8 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "recordings/mcap/log.hpp"
-#include "recordings/mcap/writer.hpp"
+#include "recordings/log/mcap.hpp"
 #include "render/film/pose.hpp"
 #include "render/mcap/messages.hpp"
 #include "scenarios/ending.hpp"

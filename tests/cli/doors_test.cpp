@@ -265,7 +265,9 @@ with open('steps.csv', 'w') as steps:
         b = estimator.update(row)
         numbers = (*b.p_contact, *map(int, b.contact), b.p_any_wheel, b.p_both_wheels)
         steps.write(','.join(map(repr, (0.0, *numbers))) + '\n')
-b = estimator.run({name: np.array([row[name] for row in rows]) for name in rows[0]})
+arrays = {name: np.array([row[name] for row in rows]) for name in rows[0]}
+np.savez('robot.npz', **arrays)
+b = estimator.run(arrays)
 whole = np.column_stack([np.zeros(len(rows)), b['p_contact'], b['contact'], b['p_any_wheel'], b['p_both_wheels']])
 np.savetxt('whole.csv', whole, delimiter=',', fmt='%.17g', header='time,left,right,contact_left,contact_right,any,both',
            comments='')
@@ -312,6 +314,7 @@ TEST(Doors, GiveTheSameBeliefsAboutARobotWithConventionsOfItsOwn) {
             0);
   EXPECT_EQ(beliefs_in(folder / "steps.csv"), expected);
   EXPECT_EQ(beliefs_in(folder / "whole.csv"), expected);
+  EXPECT_EQ(beliefs_of_program("robot.npz --mapping robot.yaml", folder), expected);
 }
 
 }  // namespace
