@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 
+#include "core/error.hpp"
 #include "estimator/numerics/number_text.hpp"
 
 namespace touchdown {
@@ -27,6 +28,29 @@ touchdown_belief in_c(const Belief& belief, RecordFaults faults) noexcept {
           static_cast<int>(belief.status),
           faults.bits,
           static_cast<int>(belief.unusable)};
+}
+
+/// The conventions of a C program, at the rate of its records.
+AssemblyConfig in_cpp(const touchdown_conventions& theirs, double sample_rate) noexcept {
+  AssemblyConfig config{.sample_rate = sample_rate};
+  for (std::size_t i = 0; i < config.joints.size(); ++i) {
+    const touchdown_joint_source& joint = theirs.joint[i];
+    config.joints.at(i) = {joint.index,          joint.sign,           joint.zero,
+                           joint.position_scale, joint.velocity_scale, joint.torque_scale};
+  }
+  config.units = {.time = theirs.time_unit,
+                  .position = theirs.position_unit,
+                  .velocity = theirs.velocity_unit,
+                  .torque = theirs.torque_unit,
+                  .angular_velocity = theirs.angular_velocity_unit,
+                  .linear_acceleration = theirs.linear_acceleration_unit,
+                  .kp = theirs.kp_unit,
+                  .kd = theirs.kd_unit};
+  config.acceleration = theirs.uses_proper_acceleration != 0 ? AccelerationSource::proper
+                                                             : AccelerationSource::without_gravity;
+  config.reference_is_z_up = theirs.reference_is_z_up != 0;
+  for (Eigen::Index row = 0; row < 3; ++row) config.axes.row(row) = vector(theirs.imu_axes[row]).transpose();
+  return config;
 }
 
 std::string described(const ModelMetadata& metadata) {
@@ -73,6 +97,33 @@ touchdown_record touchdown_empty_record(void) {
   return {
       n,  {joint, joint, joint, joint, joint, joint}, {n, n, n, n}, {n, n, n}, {n, n, n}, {n, n, n},
       0.0};
+}
+
+touchdown_conventions touchdown_upkie_conventions(void) {
+  touchdown_conventions upkie = {};
+  for (std::size_t i = 0; i < 6; ++i) upkie.joint[i] = {i, 1.0, 0.0, 1.0, 1.0, 1.0};
+  for (double* const unit :
+       {&upkie.time_unit, &upkie.position_unit, &upkie.velocity_unit, &upkie.torque_unit,
+        &upkie.angular_velocity_unit, &upkie.linear_acceleration_unit, &upkie.kp_unit,
+        &upkie.kd_unit, &upkie.imu_axes[0][0], &upkie.imu_axes[1][1], &upkie.imu_axes[2][2]}) {
+    *unit = 1.0;
+  }
+  return upkie;
+}
+
+int touchdown_set_conventions(touchdown_estimator* estimator,
+                              const touchdown_conventions* conventions, char* error,
+                              size_t error_size) {
+  const auto set = [&]() -> touchdown_estimator* {
+    if (estimator == nullptr || conventions == nullptr) {
+      throw InputError("touchdown_set_conventions: expected an estimator and conventions");
+    }
+    const double sample_rate = estimator->assembler.config().sample_rate;
+    estimator->assembler = SignalAssembler(in_cpp(*conventions, sample_rate));
+    estimator->estimator->reset();
+    return estimator;
+  };
+  return handle_or_error(set, error, error_size) == nullptr ? 0 : 1;
 }
 
 touchdown_belief touchdown_update(touchdown_estimator* estimator, const touchdown_record* record) {

@@ -24,32 +24,19 @@ JointSignals joint(const RobotRecord& record, const JointSource& source,
                    const RecordUnits& units) noexcept {
   if (source.index >= record.joints.size()) return {not_reported, not_reported, not_reported};
   const JointSignals& theirs = record.joints[source.index];
-  return {source.sign * (units.position * theirs.position - source.zero),
-          source.sign * (units.velocity * theirs.velocity),
-          source.sign * (units.torque * theirs.torque)};
+  return {source.sign * (source.position_scale * (units.position * theirs.position) - source.zero),
+          source.sign * (source.velocity_scale * (units.velocity * theirs.velocity)),
+          source.sign * (source.torque_scale * (units.torque * theirs.torque))};
 }
 
 JointTarget target(const RobotRecord& record, const JointSource& source,
                    const RecordUnits& units) noexcept {
   if (source.index >= record.targets.size()) return {};
   const JointTarget& theirs = record.targets[source.index];
-  return {source.sign * (units.position * theirs.position - source.zero),
-          source.sign * (units.velocity * theirs.velocity),
-          source.sign * (units.torque * theirs.feedforward_torque), units.kp * theirs.kp,
-          units.kd * theirs.kd};
-}
-
-/// The acceleration without gravity, in the IMU's frame.
-Eigen::Vector3d linear_acceleration(const RobotRecord& record,
-                                    const AssemblyConfig& config) noexcept {
-  const double unit = config.units.linear_acceleration;
-  if (config.acceleration == AccelerationSource::without_gravity) {
-    return unit * record.linear_acceleration;
-  }
-  const Eigen::Quaterniond orientation = quaternion(record.orientation);
-  if (!is_orientation(orientation)) return Eigen::Vector3d::Constant(not_reported);
-  const Eigen::Vector3d up(0.0, 0.0, config.reference_is_z_up ? gravity_at_rest : -gravity_at_rest);
-  return unit * record.proper_acceleration - orientation.conjugate() * up;
+  return {source.sign * (source.position_scale * (units.position * theirs.position) - source.zero),
+          source.sign * (source.velocity_scale * (units.velocity * theirs.velocity)),
+          source.sign * (source.torque_scale * (units.torque * theirs.feedforward_torque)),
+          units.kp * theirs.kp, units.kd * theirs.kd};
 }
 
 bool is_positive(double value) { return std::isfinite(value) && value > 0.0; }
@@ -66,6 +53,16 @@ void check_assembly_config(const AssemblyConfig& config) {
   for (const JointSource& joint : config.joints) {
     if (std::abs(joint.sign) != 1.0) throw InputError("assembly: a joint's sign must be 1 or -1");
     if (!std::isfinite(joint.zero)) throw InputError("assembly: a joint's zero must be finite");
+    for (const double scale : {joint.position_scale, joint.velocity_scale, joint.torque_scale}) {
+      if (!std::isfinite(scale) || scale == 0.0) {
+        throw InputError("assembly: a joint's scales must be finite and not 0");
+      }
+    }
+  }
+  constexpr double tolerance = 1e-3;  // of a matrix that is given with a few digits
+  const Eigen::Matrix3d square = config.axes * config.axes.transpose();
+  if (!square.isIdentity(tolerance) || !(config.axes.determinant() > 0.0)) {
+    throw InputError("assembly: axes must be a rotation");
   }
   if (!is_positive(config.sample_rate)) {
     throw InputError("assembly: the sample rate must be positive (Hz)");
@@ -86,7 +83,50 @@ double upward(const std::array<double, 4>& orientation, const Eigen::Vector3d& v
   return reference_is_z_up ? z : -z;
 }
 
+Eigen::Matrix3d signed_axes(const std::array<std::string_view, 3>& names) noexcept {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    std::string_view axis = names[static_cast<std::size_t>(i)];
+    const double sign = axis.starts_with('-') ? -1.0 : 1.0;
+    if (sign < 0.0) axis.remove_prefix(1);
+    const std::size_t j = axis.size() == 1 ? std::string_view("xyz").find(axis) : 3;
+    if (j < 3) axes(i, static_cast<Eigen::Index>(j)) = sign;
+  }
+  return axes.determinant() == 1.0 ? axes : Eigen::Matrix3d::Zero();
+}
+
+ImuSignals imu_of(const RobotRecord& record, const AssemblyConfig& config) noexcept {
+  Eigen::Quaterniond q = quaternion(record.orientation);
+  const bool is_mounted_otherwise = !config.axes.isIdentity(0.0);
+  if (is_mounted_otherwise) q = q * Eigen::Quaterniond(Eigen::Matrix3d(config.axes.transpose()));
+  // From z up to z down: half a turn about x.
+  if (config.reference_is_z_up) q = Eigen::Quaterniond(-q.x(), q.w(), -q.z(), q.y());
+  const auto converted = [&](double unit, const Eigen::Vector3d& theirs) -> Eigen::Vector3d {
+    const Eigen::Vector3d vector = unit * theirs;
+    if (!is_mounted_otherwise) return vector;  // so that one missing number stays one
+    return config.axes * vector;
+  };
+  const RecordUnits& units = config.units;
+  ImuSignals imu = {
+      .orientation = {q.w(), q.x(), q.y(), q.z()},
+      .angular_velocity = converted(units.angular_velocity, record.angular_velocity),
+      .linear_acceleration = converted(units.linear_acceleration, record.linear_acceleration),
+      .proper_acceleration = converted(units.linear_acceleration, record.proper_acceleration)};
+  if (config.acceleration == AccelerationSource::proper) {
+    const Eigen::Vector3d up(0.0, 0.0, -gravity_at_rest);
+    imu.linear_acceleration = is_orientation(q)
+                                  ? Eigen::Vector3d(imu.proper_acceleration - q.conjugate() * up)
+                                  : Eigen::Vector3d::Constant(not_reported);
+  }
+  return imu;
+}
+
 Signals signals_of(const RobotRecord& record, const AssemblyConfig& config) noexcept {
+  return signals_of(record, config, imu_of(record, config));
+}
+
+Signals signals_of(const RobotRecord& record, const AssemblyConfig& config,
+                   const ImuSignals& imu) noexcept {
   Signals signals;
   signals.time = config.units.time * record.time;
   for (std::size_t side = 0; side < 2; ++side) {
@@ -97,10 +137,9 @@ Signals signals_of(const RobotRecord& record, const AssemblyConfig& config) noex
                             target(record, config.joints[3 * side + 1], config.units),
                             target(record, config.joints[3 * side + 2], config.units)};
   }
-  signals.linear_acceleration = linear_acceleration(record, config);
-  signals.angular_velocity = config.units.angular_velocity * record.angular_velocity;
-  signals.vertical_acceleration =
-      upward(record.orientation, signals.linear_acceleration, config.reference_is_z_up);
+  signals.linear_acceleration = imu.linear_acceleration;
+  signals.angular_velocity = imu.angular_velocity;
+  signals.vertical_acceleration = upward(imu.orientation, imu.linear_acceleration);
   signals.ground_velocity_command = record.ground_velocity_command;
   return signals;
 }

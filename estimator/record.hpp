@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <string_view>
 
 #include <Eigen/Core>
 
@@ -38,11 +39,17 @@ struct RobotRecord {
   std::span<const JointTarget> targets = {};
 };
 
-/// How one of our joints follows from one of the record's: ours = sign · (unit · theirs − zero).
+/// How one of our joints follows from one of the record's: ours = sign · (scale · unit · theirs −
+/// zero).
 struct JointSource {
   std::size_t index = 0;  ///< among the record's joints
   double sign = 1.0;      ///< −1: their joint turns the other way than Upkie's
   double zero = 0.0;      ///< their position at which ours is zero (rad)
+  /// Factors beside the units: a gear ratio, or a torque constant (N·m/A). A negative one is for a
+  /// velocity or a torque that is counted the other way than the position.
+  double position_scale = 1.0;
+  double velocity_scale = 1.0;
+  double torque_scale = 1.0;
 };
 
 /// Which of a record's accelerations is used.
@@ -65,7 +72,20 @@ struct RecordUnits {
 
 /// How a robot's records become `Signals`. The defaults are Upkie's. Joints: left hip, knee, wheel,
 /// right hip, knee, wheel. Left hip and knee are positive forward, the right leg is their mirror
-/// image. Left wheel + and right wheel − drive forward. SI units. The IMU's reference has z down.
+/// image. Left wheel + and right wheel − drive forward. SI units. IMU: x back, y left, z down, and
+/// its reference has z down.
+///
+/// The assembly makes these assumptions about the IMU, and a robot that breaks one without a word
+/// gets wrong beliefs, because only the direction of gravity can be checked:
+/// 1. Orientation, angular velocity and both accelerations are in the same frame, that of the IMU,
+///    and `axes` tells how this frame is mounted on the base. With the default and an IMU whose x
+///    points forward, roll and yaw rates have the opposite sign.
+/// 2. The quaternion (w x y z) turns vectors of that frame to a reference whose z axis is vertical.
+///    The heading does not matter.
+/// 3. The acceleration without gravity is the proper one plus gravity along the same orientation.
+///
+/// The keys of a mapping file mean the same: `sign`, `zero`, `scale` and `unit` of joints, and
+/// `axes`, `rotation` and `reference` of the IMU.
 struct AssemblyConfig {
   double sample_rate = 1000.0;  ///< expected rate of the records (Hz)
   std::array<JointSource, 6> joints = {{{0}, {1}, {2}, {3}, {4}, {5}}};
@@ -73,6 +93,9 @@ struct AssemblyConfig {
   AccelerationSource acceleration = AccelerationSource::without_gravity;
   /// The reference's z axis points up (ENU, ROS) rather than down (NED, Upkie's).
   bool reference_is_z_up = false;
+  /// Rotation from the axes of the robot's IMU to those of Upkie's: row 0 is the direction that
+  /// points back, row 1 left and row 2 down, in the axes of the robot's IMU (`signed_axes`).
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   /// A servo that repeats position, velocity and torque to the bit for this long (s) is stale, and
   /// its torque counts as not reported. 0 = never, for simulators without noise.
   double stale_after = 0.25;
@@ -84,13 +107,33 @@ struct AssemblyConfig {
   double gravity_memory = 0.25;
 };
 
+/// The `AssemblyConfig::axes` of an IMU whose axes with these names point back, left and down: each
+/// is x, y or z, or with a minus its reverse. An IMU with x forward, y left and z up (REP 103) has
+/// {"-x", "y", "-z"}. Zeros for anything but a right-handed order of x, y and z.
+[[nodiscard]] Eigen::Matrix3d signed_axes(const std::array<std::string_view, 3>& names) noexcept;
+
 /// Throws InputError for a rate, unit or memory that is not positive, signs other than ±1, zeros
-/// that are not finite, negative times.
+/// and scales that are not finite, scales of 0, axes that are no rotation, negative times.
 void check_assembly_config(const AssemblyConfig& config);
+
+/// The measurements of an IMU in Upkie's frames: x back, y left, z down; SI units.
+struct ImuSignals {
+  /// w x y z, to a reference with z down. Not normalized.
+  std::array<double, 4> orientation;
+  Eigen::Vector3d angular_velocity;
+  Eigen::Vector3d linear_acceleration;  ///< by `AssemblyConfig::acceleration`
+  Eigen::Vector3d proper_acceleration;
+};
+
+/// The IMU of a record. NaN where it is not reported.
+[[nodiscard]] ImuSignals imu_of(const RobotRecord& record, const AssemblyConfig& config) noexcept;
 
 /// The signals of one record alone. A joint or an acceleration that is not reported is NaN. So is
 /// the vertical acceleration if the quaternion's length is not one (to a percent).
 [[nodiscard]] Signals signals_of(const RobotRecord& record, const AssemblyConfig& config) noexcept;
+/// The same with the record's IMU, if it is known already.
+[[nodiscard]] Signals signals_of(const RobotRecord& record, const AssemblyConfig& config,
+                                 const ImuSignals& imu) noexcept;
 
 /// The component along the world's upward vertical of a vector in the IMU's frame. NaN if the
 /// quaternion (w x y z) does not have length one.

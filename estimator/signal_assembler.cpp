@@ -73,11 +73,12 @@ std::uint64_t SignalAssembler::count(RecordFault fault) const noexcept {
 }
 
 const Signals& SignalAssembler::assemble(const RobotRecord& record) noexcept {
-  signals_ = signals_of(record, config_);
+  const ImuSignals imu = imu_of(record, config_);
+  signals_ = signals_of(record, config_, imu);
   faults_ = {};
   watch_clock();
   watch_joints();
-  watch_imu(record);
+  watch_imu(imu);
   started_ = true;
   for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += (faults_.bits >> i) & 1U;
   return signals_;
@@ -121,16 +122,14 @@ void SignalAssembler::watch_joints() noexcept {
   }
 }
 
-void SignalAssembler::watch_imu(const RobotRecord& record) noexcept {
+void SignalAssembler::watch_imu(const ImuSignals& imu) noexcept {
   if (signals_.linear_acceleration.hasNaN()) faults_.add(RecordFault::acceleration_missing);
   // Without the chip's own measurement, gravity is added back to the acceleration that the robot
   // took it out of by the same orientation.
-  const double reported =
-      config_.units.linear_acceleration *
-      upward(record.orientation, record.proper_acceleration, config_.reference_is_z_up);
+  const double reported = upward(imu.orientation, imu.proper_acceleration);
   const double proper =
       std::isfinite(reported) ? reported : signals_.vertical_acceleration + gravity_at_rest;
-  if (std::isnan(upward(record.orientation, Eigen::Vector3d::Zero()))) {
+  if (std::isnan(upward(imu.orientation, Eigen::Vector3d::Zero()))) {
     faults_.add(RecordFault::orientation_missing);
   }
   if (std::isfinite(proper)) upward_ += gravity_gain_ * (proper - upward_);

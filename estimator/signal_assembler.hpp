@@ -37,9 +37,9 @@ struct RecordFaults {
 };
 
 /// Turns a robot's records into the signals that estimators use, step by step. It converts the
-/// joints' order, signs and units and computes the vertical acceleration. It checks the clock, the
-/// servos, and the IMU's orientation against gravity. Unusable values become NaN, which estimators
-/// handle; `faults()` gives the reasons.
+/// joints' order, signs and units and the IMU's axes, and computes the vertical acceleration. It
+/// checks the clock, the servos, and the IMU's orientation against gravity. Unusable values become
+/// NaN, which estimators handle; `faults()` gives the reasons.
 ///
 /// `assemble` never throws, allocates or locks.
 class SignalAssembler {
@@ -48,6 +48,8 @@ class SignalAssembler {
   explicit SignalAssembler(const AssemblyConfig& config = {});
 
   void reset() noexcept;
+
+  [[nodiscard]] const AssemblyConfig& config() const noexcept { return config_; }
 
   const Signals& assemble(const RobotRecord& record) noexcept;
 
@@ -59,7 +61,7 @@ class SignalAssembler {
  private:
   void watch_clock() noexcept;
   void watch_joints() noexcept;
-  void watch_imu(const RobotRecord& record) noexcept;
+  void watch_imu(const ImuSignals& imu) noexcept;
 
   AssemblyConfig config_;
   double gravity_gain_;

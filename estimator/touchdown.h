@@ -27,7 +27,13 @@ typedef struct touchdown_joint {
   double torque;   /* N·m */
 } touchdown_joint;
 
-/* The measurements of one control step, in Upkie's signs and frames. NaN: not reported. */
+/* The measurements of one control step. NaN: not reported. Unless touchdown_set_conventions states
+ * other ones, they are in Upkie's signs, units and frames:
+ * - Left hip and knee are positive forward, the right leg is their mirror image. Left wheel + and
+ *   right wheel - drive forward.
+ * - The IMU has x back, y left and z down. Orientation, angular velocity and both accelerations are
+ *   in this one frame. An IMU whose x points forward gives roll and yaw rates of the opposite sign,
+ *   and nothing here can notice. */
 typedef struct touchdown_record {
   double time;                    /* s; only differences matter */
   touchdown_joint joint[6];       /* left hip, knee, wheel, right hip, knee, wheel */
@@ -47,6 +53,42 @@ typedef struct touchdown_target {
   double kp;                 /* N·m/rad */
   double kd;                 /* N·m·s/rad */
 } touchdown_target;
+
+/* How one of Upkie's joints follows from one of the record's:
+ * ours = sign (scale unit theirs - zero). */
+typedef struct touchdown_joint_source {
+  size_t index; /* in touchdown_record's `joint`; 6 or more: the robot does not have it */
+  double sign;  /* 1 or -1 */
+  double zero;  /* their position at which ours is zero (rad) */
+  /* Factors beside the units: a gear ratio, or a torque constant (N·m/A). A negative one is for a
+   * velocity or a torque that is counted the other way than the position. */
+  double position_scale;
+  double velocity_scale;
+  double torque_scale;
+} touchdown_joint_source;
+
+/* How a robot's records become Upkie's. The same as AssemblyConfig of the C++ library, and as the
+ * keys `sign`, `zero`, `scale`, `unit`, `reference` and `axes` of a mapping file. */
+typedef struct touchdown_conventions {
+  touchdown_joint_source joint[6]; /* left hip, knee, wheel, right hip, knee, wheel */
+  /* The size of each of the robot's units in ours. */
+  double time_unit;                /* s */
+  double position_unit;            /* rad */
+  double velocity_unit;            /* rad/s */
+  double torque_unit;              /* N·m */
+  double angular_velocity_unit;    /* of the IMU, rad/s */
+  double linear_acceleration_unit; /* of the IMU, m/s² */
+  double kp_unit;                  /* N·m/rad */
+  double kd_unit;                  /* N·m·s/rad */
+  /* 0: linear_acceleration is used. 1: proper_acceleration, from which the orientation removes
+   * gravity. */
+  int uses_proper_acceleration;
+  int reference_is_z_up; /* 1: the orientation is to a frame with z up (ROS, ENU), not down */
+  /* Rotation from the axes of the robot's IMU to those of Upkie's. Row 0 is the direction that
+   * points back, row 1 left and row 2 down, in the axes of the robot's IMU. An IMU with x forward,
+   * y left and z up (REP 103) has {{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}}. */
+  double imu_axes[3][3];
+} touchdown_conventions;
 
 enum touchdown_status {
   TOUCHDOWN_GOOD = 0,
@@ -89,6 +131,16 @@ touchdown_record touchdown_empty_record(void);
  * function is in the component `models`, all others are in `estimator`. */
 touchdown_estimator* touchdown_create(const char* model_path, const touchdown_use* use, char* error,
                                       size_t error_size);
+
+/* Upkie's conventions: those of an estimator that was just created, to change what differs. */
+touchdown_conventions touchdown_upkie_conventions(void);
+
+/* Sets the conventions of the records that follow, and resets the estimator. Returns 1. For NULL,
+ * units that are not positive, signs other than 1 and -1, or axes that are no rotation, returns 0,
+ * changes nothing, and writes one line to `error` as touchdown_create does. */
+int touchdown_set_conventions(touchdown_estimator* estimator,
+                              const touchdown_conventions* conventions, char* error,
+                              size_t error_size);
 
 /* Takes one record and returns the belief after it. Never fails, allocates or locks. Without an
  * estimator or a record (NULL), returns the flat prior with the status TOUCHDOWN_INVALID. */

@@ -71,6 +71,10 @@ class StepArray {
   explicit StepArray(Array array);
 
   std::size_t steps() const { return steps_; }
+  /// Numbers per step.
+  std::size_t items() const {
+    return array_.ndim() > 1 ? static_cast<std::size_t>(array_.shape(1)) : 1;
+  }
   double operator()(std::size_t step, std::size_t item = 0) const {
     return *reinterpret_cast<const double*>(row(step) + item * item_bytes_);
   }

@@ -14,8 +14,9 @@
 #include "python/signal_arrays.hpp"
 #include "recordings/log/byte_source.hpp"
 #include "recordings/log/writer.hpp"
-#include "recordings/mapping/mapped_log.hpp"
 #include "recordings/model_file.hpp"
+#include "python/mapped_loop.hpp"
+#include "python/models.hpp"
 #include "recordings/sample_times.hpp"
 #include "recordings/signals_from.hpp"
 
@@ -24,63 +25,6 @@ namespace touchdown::python {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A fitted model with its estimator, and a report of the fit.
-struct Model {
-  experiments::LogEstimator estimator;
-  experiments::LogFitReport report = {};
-
-  static Model load(const fs::path& path, const std::string& estimator) {
-    if (path.empty()) throw InputError("expected a model's file, found an empty path");
-    return {experiments::log_estimator({.name = estimator, .model = path})};
-  }
-  void save(const fs::path& path) const {
-    const py::gil_scoped_release unlocked;
-    recordings::save_model(estimator.model, path);
-  }
-};
-
-using DeclaredRun = std::pair<py::object, std::optional<bool>>;
-
-/// Fits to recordings in memory, or to logs by path.
-Model fit(const std::vector<DeclaredRun>& runs, const std::string& name, double skip,
-          const scoring::LabelConfig& labels, bool servo_load) {
-  std::vector<experiments::FitLog> logs;
-  for (const auto& [run, contact] : runs) {
-    if (py::hasattr(run, "info")) {
-      logs.push_back({fmt::format("recording {}", logs.size()), contact, records_of(run)});
-    } else {
-      logs.push_back({path_of(run), contact});
-    }
-  }
-  const experiments::EstimatorEntry& entry = experiments::estimator_entry(name);
-  if (!entry.fits()) throw InputError(fmt::format("estimator: '{}' is not fitted", name));
-  if (logs.empty()) throw InputError("fit: a recording is missing");
-  return long_call([&](const std::atomic<bool>& stop) {
-    Model model;
-    model.estimator.entry = entry;
-    model.estimator.model = experiments::fit_to_logs(
-        entry, logs, {.labels = labels, .skip = skip, .servo_load = servo_load, .stop = &stop},
-        model.report);
-    return model;
-  });
-}
-
-/// `request` has the name, the robot and whether transfer is allowed.
-experiments::LogEstimator with_model(experiments::LogEstimatorRequest request, const Model& model) {
-  const experiments::EstimatorEntry& fitted = model.estimator.entry;
-  const std::string name = request.name;
-  request.model = model.estimator.request.model;
-  if (name.empty() || name == fitted.name) {
-    return {fitted, model.estimator.model, std::move(request)};
-  }
-  const experiments::EstimatorEntry& entry = experiments::estimator_entry(name);
-  if (!share_model(entry, fitted)) {
-    throw InputError(
-        fmt::format("the model is one of '{}', which '{}' cannot use", fitted.name, name));
-  }
-  return {entry, model.estimator.model, std::move(request)};
-}
 
 /// The signals that an estimator uses.
 SignalNeeds needs_of(const experiments::EstimatorEntry& entry) {
@@ -96,12 +40,47 @@ SignalNeeds needs_of(const experiments::EstimatorEntry& entry) {
           .command = is_neural};
 }
 
+/// The axes of an IMU: three names, or the rows of a rotation. None: nothing.
+std::optional<Eigen::Matrix3d> axes_of(const py::object& given) {
+  if (given.is_none()) return std::nullopt;
+  const auto array = py::array_t<double>::ensure(given);
+  PyErr_Clear();  // names are no numbers
+  if (array && array.ndim() == 2 && array.shape(0) == 3 && array.shape(1) == 3) {
+    const auto numbers = array.unchecked<2>();
+    Eigen::Matrix3d axes;
+    for (Eigen::Index row = 0; row < 3; ++row) {
+      for (Eigen::Index column = 0; column < 3; ++column) axes(row, column) = numbers(row, column);
+    }
+    return axes;
+  }
+  std::vector<std::string> names;
+  if (!array && py::isinstance<py::sequence>(given)) {
+    for (const py::handle name : given) names.push_back(py::str(name));
+  }
+  const Eigen::Matrix3d axes =
+      names.size() == 3 ? signed_axes({names[0], names[1], names[2]}) : Eigen::Matrix3d::Zero();
+  if (axes.isZero()) {
+    throw InputError(
+        "axes: expected the IMU's axes that point back, left and down, such as [\"-x\", \"y\", "
+        "\"-z\"]: a right-handed order of x, y and z, each with or without a minus, or a rotation "
+        "with three rows");
+  }
+  return axes;
+}
+
 /// A running estimator. Only one thread at a time may use it, because `run` releases Python's lock.
 /// Errors: `InputError` if another thread uses it.
 class Estimator {
  public:
-  Estimator(experiments::LogEstimator source, double sample_rate)
-      : source_(std::move(source)), rate_(sample_rate), estimator_(source_.make(sample_rate)) {}
+  /// `axes` are those of the IMU, `mapping` a file that states all conventions of the signals.
+  Estimator(experiments::LogEstimator source, double sample_rate,
+            const std::optional<Eigen::Matrix3d>& axes, const std::optional<fs::path>& mapping)
+      : source_(std::move(source)), rate_(sample_rate), estimator_(source_.make(sample_rate)) {
+    if (axes && mapping) throw InputError("axes: the mapping states them (`imu.axes`)");
+    if (axes) imu_.axes = *axes;
+    check_assembly_config(imu_);
+    if (mapping) loop_.emplace(*mapping, sample_rate);
+  }
 
   const std::string& name() const { return source_.entry.name; }
   double sample_rate() const { return rate_; }
@@ -111,29 +90,68 @@ class Estimator {
     reset_state();
   }
 
-  Belief update(const Signals& signals) {
-    const ExclusiveUse use(busy_);
-    ++steps_;
-    return estimator_->update(signals);
-  }
-
   Belief update_from_spine(const py::dict& spine, double ground_velocity_command) {
-    const double time = static_cast<double>(steps_) / rate_;
-    return update(recordings::signals_from(observation_of(spine, time), ground_velocity_command));
+    if (loop_ || !imu_.axes.isIdentity()) {
+      throw InputError(
+          "update_from_spine: a spine has Upkie's conventions: expected an estimator "
+          "without axes and mapping");
+    }
+    const ExclusiveUse use(busy_);
+    const double time = static_cast<double>(steps_++) / rate_;
+    return estimator_->update(
+        recordings::signals_from(observation_of(spine, time), ground_velocity_command));
   }
 
   Belief update(const py::object& signals, bool gravity_included) {
-    return update(signals_of_step(signals, needs_of(source_.entry), gravity_in(gravity_included)));
+    const AssemblyConfig imu = with_gravity(gravity_included);
+    const ExclusiveUse use(busy_);
+    const Signals step =
+        loop_ ? loop_->next(signals) : signals_of_step(signals, needs_of(source_.entry), imu);
+    ++steps_;
+    return estimator_->update(step);
   }
 
   py::dict run(const py::object& arrays, bool gravity_included) {
-    const SignalArrays signals(arrays, needs_of(source_.entry), gravity_in(gravity_included));
-    require_rate(signals);
+    const AssemblyConfig imu = with_gravity(gravity_included);
+    if (loop_) {
+      const ExclusiveUse use(busy_);
+      const std::vector<Signals> signals = loop_->all(arrays);
+      std::vector<double> times;
+      for (const Signals& step : signals) times.push_back(step.time);
+      require_rate(recordings::typical_step(times));
+      return run_over(signals.size(), [&](std::size_t k) { return &signals[k]; });
+    }
+    const SignalArrays signals(arrays, needs_of(source_.entry), imu);
+    require_rate(signals.period());
     const ExclusiveUse use(busy_);
-    std::vector<Belief> beliefs(signals.steps());
     if (py::hasattr(arrays, "info")) {  // it names its robot
       estimator_ = source_.make(rate_, info_of(arrays.attr("info").cast<py::dict>()));
     }
+    Signals step;
+    return run_over(signals.steps(), [&](std::size_t k) {
+      if (!signals.has_record(k)) return static_cast<const Signals*>(nullptr);
+      step = signals.at(k);
+      return static_cast<const Signals*>(&step);
+    });
+  }
+
+ private:
+  /// The conventions of the IMU, for an acceleration that includes gravity or does not.
+  AssemblyConfig with_gravity(bool is_included) const {
+    if (is_included && loop_) {
+      throw InputError(
+          "gravity_included: the mapping states the acceleration "
+          "(`imu.proper_acceleration`)");
+    }
+    AssemblyConfig imu = imu_;
+    if (is_included) imu.acceleration = AccelerationSource::proper;
+    return imu;
+  }
+
+  /// `signals_at` returns null for steps without a record, where the last belief stays.
+  template <typename SignalsAt>
+  py::dict run_over(std::size_t count, const SignalsAt& signals_at) {
+    std::vector<Belief> beliefs(count);
     reset_state();
     long_call([&](const std::atomic<bool>& stop) {
       for (std::size_t k = 0; k < beliefs.size(); ++k) {
@@ -141,8 +159,8 @@ class Estimator {
           reset_state();
           throw Stopped("stopped; the estimator was reset");
         }
-        if (signals.has_record(k)) {
-          beliefs[k] = estimator_->update(signals.at(k));
+        if (const Signals* signals = signals_at(k)) {
+          beliefs[k] = estimator_->update(*signals);
         } else if (k > 0) {
           beliefs[k] = beliefs[k - 1];
         }
@@ -150,11 +168,6 @@ class Estimator {
     });
     steps_ = beliefs.size();
     return arrays_of(std::move(beliefs));
-  }
-
- private:
-  static GravityIn gravity_in(bool is_included) {
-    return is_included ? GravityIn::acceleration : GravityIn::nothing;
   }
 
   class ExclusiveUse {
@@ -172,12 +185,12 @@ class Estimator {
 
   void reset_state() {
     estimator_->reset();
+    if (loop_) loop_->reset();
     steps_ = 0;
   }
 
   /// Refuses runs at another sample rate. A clock may jitter.
-  void require_rate(const SignalArrays& signals) const {
-    const std::optional<double> period = signals.period();
+  void require_rate(const std::optional<double>& period) const {
     if (!period || (*period * rate_ > 0.8 && *period * rate_ < 1.25)) return;
     if (const std::string unit = recordings::unit_of_step(*period, 1.0 / rate_); !unit.empty()) {
       throw InputError(fmt::format("signals: time: expected seconds: steps of {:.6g} look like {}",
@@ -192,6 +205,8 @@ class Estimator {
   experiments::LogEstimator source_;
   double rate_;
   std::unique_ptr<ContactEstimator> estimator_;
+  AssemblyConfig imu_;              ///< the frames of the IMU, without a mapping
+  std::optional<MappedLoop> loop_;  ///< with one
   std::size_t steps_ = 0;
   std::atomic<bool> busy_ = false;
 };
@@ -230,33 +245,6 @@ void add_belief(py::module_& module) {
       });
 }
 
-void add_model(py::module_& module) {
-  using namespace py::literals;  // NOLINT(google-build-using-namespace)
-  py::class_<Model>(
-      module, "Model",
-      "A fitted model, as returned by `fit`. `estimator`: the name of its estimator; "
-      "`seconds`: total duration of the fitted runs (s); `warnings`: about these runs.")
-      .def_static("load", &Model::load, "path"_a, "estimator"_a = "",
-                  "Read a model that `save` or `touchdown fit` wrote. Some models serve several "
-                  "estimators: "
-                  "name one, or get the default.")
-      .def("save", &Model::save, "path"_a, "Write the model as `touchdown fit` does (.npz).")
-      .def_property_readonly("estimator",
-                             [](const Model& model) { return model.estimator.entry.name; })
-      .def_property_readonly("seconds", [](const Model& model) { return model.report.seconds; })
-      .def_property_readonly("warnings", [](const Model& model) { return model.report.warnings; })
-      .def("__repr__", [](const Model& model) {
-        return fmt::format("<Model of '{}'>", model.estimator.entry.name);
-      });
-  module.def(
-      "fit",
-      [](const std::vector<DeclaredRun>& runs, const std::string& estimator, double skip,
-         double force_threshold, double debounce, bool servo_load) {
-        return fit(runs, estimator, skip, {force_threshold, debounce}, servo_load);
-      },
-      "runs"_a, "estimator"_a, "skip"_a, "force_threshold"_a, "debounce"_a, "servo_load"_a);
-}
-
 void add_estimator(py::module_& module) {
   using namespace py::literals;  // NOLINT(google-build-using-namespace)
   py::class_<Estimator>(
@@ -267,21 +255,30 @@ void add_estimator(py::module_& module) {
       "and model, the shipped one\n"
       "sample_rate: steps per second of its signals (Hz)\n"
       "robot: name or file of the robot; a file gives the leg geometry\n"
-      "transfer: allow another rate or robot than the model was fitted for")
+      "transfer: allow another rate or robot than the model was fitted for\n"
+      "axes: how the IMU is mounted, if not as Upkie's (x back, y left, z down): the names of its "
+      "axes that point back, left and down ([\"-x\", \"y\", \"-z\"] for x forward, y left, z up), "
+      "or "
+      "three rows with these directions in its own axes\n"
+      "mapping: path of the mapping file that also converts this robot's logs. `update` and `run` "
+      "then take the robot's own numbers by the names in the file, with its order, signs, zeros, "
+      "units and axes")
       .def(py::init([](const std::string& name, const py::object& model, double sample_rate,
-                       const std::string& robot, bool transfer) {
+                       const std::string& robot, bool transfer, const py::object& axes,
+                       const std::optional<fs::path>& mapping) {
              experiments::LogEstimatorRequest request{
                  .name = name, .robot = experiments::robot_called(robot), .transfer = transfer};
              if (py::isinstance<Model>(model)) {
                return std::make_unique<Estimator>(
-                   with_model(std::move(request), model.cast<const Model&>()), sample_rate);
+                   with_model(std::move(request), model.cast<const Model&>()), sample_rate,
+                   axes_of(axes), mapping);
              }
              if (!model.is_none()) request.model = path_of(model);
              return std::make_unique<Estimator>(experiments::log_estimator(std::move(request)),
-                                                sample_rate);
+                                                sample_rate, axes_of(axes), mapping);
            }),
            "name"_a = "", "model"_a = py::none(), "sample_rate"_a = 1000.0, "robot"_a = "",
-           "transfer"_a = false)
+           "transfer"_a = false, "axes"_a = py::none(), "mapping"_a = py::none())
       .def_property_readonly("name", &Estimator::name)
       .def_property_readonly("sample_rate", &Estimator::sample_rate)
       .def("reset", &Estimator::reset, "Return to the initial belief: P(contact) is 0.5.")
@@ -342,7 +339,6 @@ py::list estimators() {
 
 void add_estimators(py::module_& module) {
   add_belief(module);
-  add_model(module);
   add_estimator(module);
   module.def("estimators", &estimators);
 }

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/terminal_text.hpp"
+#include "python/models.hpp"
 
 PYBIND11_MODULE(_touchdown, module) {
   namespace py = pybind11;
@@ -29,6 +30,7 @@ PYBIND11_MODULE(_touchdown, module) {
   });
   module.attr("__version__") = TOUCHDOWN_VERSION;
   touchdown::python::add_runs(module);
+  touchdown::python::add_models(module);
   touchdown::python::add_estimators(module);
   touchdown::python::add_experiments(module);
 }

@@ -4,7 +4,8 @@
 
 namespace touchdown::python {
 
-/// Adds estimators by name, step by step and over whole runs, and their fitted models.
+/// Adds estimators by name, step by step and over whole runs. Their models come before
+/// (python/models.hpp).
 void add_estimators(pybind11::module_& module);
 
 /// Adds functions that run experiments.

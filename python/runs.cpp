@@ -17,7 +17,7 @@
 #include "python/recording_arrays.hpp"
 #include "recordings/log/byte_source.hpp"
 #include "recordings/log/recording_file.hpp"
-#include "recordings/mapping/mapped_log.hpp"
+#include "recordings/mapping/conversion.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/generation/generate.hpp"
 #include "scenarios/scenario_file.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -83,24 +84,27 @@ std::optional<StepArray> numbers_of(const py::object& step, const char* name, st
 }
 
 /// Whether the vertical acceleration follows from acceleration and orientation.
-bool is_derived(const py::object& arrays, const SignalNeeds& needs, GravityIn gravity) {
+bool is_derived(const py::object& arrays, const SignalNeeds& needs, const AssemblyConfig& imu) {
   if (!needs.acceleration) return false;
-  if (gravity == GravityIn::acceleration) return true;
+  if (imu.acceleration == AccelerationSource::proper) return true;
   return !arrays.contains("vertical_acceleration") && arrays.contains("orientation");
 }
 
-/// Sets the accelerations from that of the IMU and its orientation (w x y z).
-void derive_accelerations(Signals& signals, const std::array<double, 4>& orientation,
-                          GravityIn gravity) {
-  const RobotRecord record{.orientation = orientation,
-                           .linear_acceleration = signals.linear_acceleration,
-                           .proper_acceleration = signals.linear_acceleration};
-  const bool is_proper = gravity == GravityIn::acceleration;
-  const Signals derived =
-      signals_of(record, {.acceleration = is_proper ? AccelerationSource::proper
-                                                    : AccelerationSource::without_gravity});
-  signals.linear_acceleration = derived.linear_acceleration;
-  signals.vertical_acceleration = derived.vertical_acceleration;
+/// Turns the vectors of the IMU into Upkie's axes, and sets the accelerations from the one of the
+/// IMU and its orientation (w x y z), if there is one.
+void convert_imu(Signals& signals, const std::optional<std::array<double, 4>>& orientation,
+                 const AssemblyConfig& config) {
+  RobotRecord record{.angular_velocity = signals.angular_velocity,
+                     .linear_acceleration = signals.linear_acceleration,
+                     .proper_acceleration = signals.linear_acceleration};
+  if (orientation) record.orientation = *orientation;
+  const ImuSignals imu = imu_of(record, config);
+  signals.angular_velocity = imu.angular_velocity;
+  // Gravity stays where no estimator needs the vertical acceleration.
+  signals.linear_acceleration = orientation ? imu.linear_acceleration : imu.proper_acceleration;
+  if (orientation) {
+    signals.vertical_acceleration = upward(imu.orientation, imu.linear_acceleration);
+  }
 }
 
 }  // namespace
@@ -111,9 +115,9 @@ std::optional<StepArray> SignalArrays::column(const char* name, std::size_t colu
   return map_.column(name, columns);
 }
 
-SignalArrays::SignalArrays(const py::object& arrays, const SignalNeeds& needs, GravityIn gravity)
-    : map_(arrays, "signals"), gravity_(gravity), time_(map_.column("time")) {
-  const bool derives = is_derived(arrays, needs, gravity);
+SignalArrays::SignalArrays(const py::object& arrays, const SignalNeeds& needs, AssemblyConfig imu)
+    : map_(arrays, "signals"), imu_(std::move(imu)), time_(map_.column("time")) {
+  const bool derives = is_derived(arrays, needs, imu_);
   position_ = column("position", joint_count, needs.position);
   velocity_ = column("velocity", joint_count, needs.velocity);
   torque_ = column("torque", joint_count, needs.torque);
@@ -157,10 +161,10 @@ Signals SignalArrays::at(std::size_t step) const {
     set_targets(signals, target_arrays[m].member,
                 [&](std::size_t i) { return (*target_[m])(step, i); });
   }
-  if (orientation_) {
-    const StepArray& q = *orientation_;
-    derive_accelerations(signals, {q(step, 0), q(step, 1), q(step, 2), q(step, 3)}, gravity_);
-  }
+  const auto q = [&](std::size_t i) { return (*orientation_)(step, i); };
+  convert_imu(signals,
+              orientation_ ? std::optional(std::array{q(0), q(1), q(2), q(3)}) : std::nullopt,
+              imu_);
   return signals;
 }
 
@@ -171,7 +175,8 @@ std::optional<double> SignalArrays::period() const {
   return recordings::typical_step(times);
 }
 
-Signals signals_of_step(const py::object& step, const SignalNeeds& needs, GravityIn gravity) {
+Signals signals_of_step(const py::object& step, const SignalNeeds& needs,
+                        const AssemblyConfig& imu) {
   Signals signals;
   signals.time = (*numbers_of(step, "time", 1, true))(0);
   const auto position = numbers_of(step, "position", joint_count, needs.position);
@@ -183,7 +188,7 @@ Signals signals_of_step(const py::object& step, const SignalNeeds& needs, Gravit
   set_joints(signals, [&](std::size_t i) {
     return JointSignals{number(position, i), number(velocity, i), number(torque, i)};
   });
-  const bool derives = is_derived(step, needs, gravity);
+  const bool derives = is_derived(step, needs, imu);
   const auto linear =
       numbers_of(step, "linear_acceleration", 3, needs.acceleration_vector || derives);
   const auto angular = numbers_of(step, "angular_velocity", 3, needs.angular_velocity);
@@ -191,8 +196,9 @@ Signals signals_of_step(const py::object& step, const SignalNeeds& needs, Gravit
   signals.angular_velocity = {number(angular, 0), number(angular, 1), number(angular, 2)};
   if (derives) {
     const StepArray q = *numbers_of(step, "orientation", 4, true);
-    derive_accelerations(signals, {q(0), q(1), q(2), q(3)}, gravity);
+    convert_imu(signals, std::array{q(0), q(1), q(2), q(3)}, imu);
   } else {
+    convert_imu(signals, std::nullopt, imu);
     signals.vertical_acceleration =
         number(numbers_of(step, "vertical_acceleration", 1, needs.acceleration), 0);
   }

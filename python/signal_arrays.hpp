@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "estimator/signals.hpp"
+#include "estimator/assembly/record.hpp"
 #include "python/arrays.hpp"
 
 namespace touchdown::python {
@@ -20,21 +20,19 @@ struct SignalNeeds {
   bool command = true;
 };
 
-/// How the acceleration along the vertical is found.
-enum class GravityIn : int {
-  nothing,       ///< `vertical_acceleration`, or else `linear_acceleration` along `orientation`
-  acceleration,  ///< `linear_acceleration` holds gravity, which `orientation` takes out
-};
-
 /// Signals of a run, read from arrays with the names of `touchdown export`: `time`, `position`,
 /// `velocity`, `torque` (six joints), `linear_acceleration`, `angular_velocity`,
 /// `vertical_acceleration`, `ground_velocity_command`, `orientation` (w x y z, to a frame with z
 /// down), and optionally `has_record` and the targets of six joints: `target_position`,
 /// `target_velocity`, `target_torque`, `target_kp`, `target_kd`.
+///
+/// The vertical acceleration is that of its array, or else follows from `linear_acceleration` and
+/// `orientation`, as it always does if that acceleration is `AccelerationSource::proper`: the
+/// orientation then takes out gravity. `AssemblyConfig::axes` rotates all vectors of the IMU.
 class SignalArrays {
  public:
   /// Errors: `InputError` for arrays that are needed and missing or have another shape.
-  SignalArrays(const py::object& arrays, const SignalNeeds& needs, GravityIn gravity);
+  SignalArrays(const py::object& arrays, const SignalNeeds& needs, AssemblyConfig imu);
 
   std::size_t steps() const { return map_.steps(); }
   bool has_record(std::size_t step) const { return !has_record_ || (*has_record_)(step) != 0.0; }
@@ -46,7 +44,7 @@ class SignalArrays {
   std::optional<StepArray> column(const char* name, std::size_t columns, bool is_needed);
 
   ArrayMap map_;
-  GravityIn gravity_;
+  AssemblyConfig imu_;
   StepArray time_;
   std::optional<StepArray> position_;
   std::optional<StepArray> velocity_;
@@ -62,7 +60,8 @@ class SignalArrays {
 };
 
 /// Signals of one step: numbers, and rows of six and of three. Errors: as above.
-Signals signals_of_step(const py::object& step, const SignalNeeds& needs, GravityIn gravity);
+Signals signals_of_step(const py::object& step, const SignalNeeds& needs,
+                        const AssemblyConfig& imu);
 
 /// Arrays that view the signals of a run, with the same names.
 py::dict arrays_of(std::vector<Signals> steps);

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "estimator/signal_assembler.hpp"
-#include "recordings/beliefs/contact_intervals.hpp"
+#include "recordings/log/contact_intervals.hpp"
 #include "recordings/log/reader.hpp"
 #include "recordings/plausibility/check.hpp"
 #include "recordings/signals_from.hpp"

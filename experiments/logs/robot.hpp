@@ -4,7 +4,7 @@
 #include <string>
 
 #include "estimator/force/leg_geometry.hpp"
-#include "recordings/plausibility/ranges.hpp"
+#include "recordings/plausibility/rules.hpp"
 #include "recordings/recording.hpp"
 
 namespace touchdown::experiments {

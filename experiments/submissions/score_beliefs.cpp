@@ -23,7 +23,7 @@
 #include "experiments/studies/benchmark.hpp"
 #include "experiments/studies/experiment_file.hpp"
 #include "experiments/submissions/exported_runs.hpp"
-#include "recordings/beliefs/file.hpp"
+#include "recordings/log/beliefs.hpp"
 
 namespace touchdown::experiments {
 

@@ -43,7 +43,9 @@ class Model:
 class Estimator:
     """An estimator by name, with its model if it is fitted."""
     def __init__(self, name: str = ..., model: Model | str | PathLike[str] | None = ...,
-                 sample_rate: float = ..., robot: str = ..., transfer: bool = ...) -> None: ...
+                 sample_rate: float = ..., robot: str = ..., transfer: bool = ...,
+                 axes: Sequence[str] | NDArray[float64] | None = ...,
+                 mapping: str | PathLike[str] | None = ...) -> None: ...
     @property
     def name(self) -> str: ...
     @property

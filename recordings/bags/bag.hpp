@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "recordings/bags/storage/mcap_reader.hpp"
-#include "recordings/bags/storage/message.hpp"
-#include "recordings/bags/storage/sqlite_reader.hpp"
-#include "recordings/bags/storage/temporary_file.hpp"
+#include "recordings/bags/files.hpp"
+#include "recordings/bags/mcap_reader.hpp"
+#include "recordings/bags/message.hpp"
+#include "recordings/bags/sqlite_reader.hpp"
 
 namespace touchdown::recordings {
 

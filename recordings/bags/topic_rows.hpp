@@ -3,14 +3,16 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "recordings/bags/message.hpp"
 #include "recordings/bags/sensor_messages.hpp"
-#include "recordings/bags/storage/message.hpp"
-#include "recordings/sources/ages.hpp"
+#include "recordings/bags/source_join.hpp"
+#include "recordings/held_number.hpp"
 
 namespace touchdown::recordings {
 
@@ -61,11 +63,7 @@ class TopicRows {
 
  private:
   /// The two latest values of a number: messages can come in another order than their stamps.
-  struct Held {
-    std::array<double, 2> value{};
-    std::array<double, 2> time{-std::numeric_limits<double>::infinity(),
-                               -std::numeric_limits<double>::infinity()};
-  };
+  using Held = std::array<HeldNumber, 2>;
   struct Joint {
     std::string name;
     std::array<std::size_t, 3> slot{};  ///< of position, velocity, effort in the row, or `no_slot`
@@ -92,5 +90,14 @@ class TopicRows {
   std::uint64_t malformed_ = 0;
   std::string first_malformed_;
 };
+
+/// The topics of these names in a bag. Errors: `InputError`, which lists the bag's topics with
+/// their types and numbers of messages, for a topic that is not there, has another type or
+/// encoding, or has no readable message.
+std::vector<SignalTopic> find_signal_topics(const std::filesystem::path& bag,
+                                            const std::vector<std::string>& names);
+
+/// The only topic of this type in a bag. Errors: `InputError` as above if it has none or several.
+std::string only_topic_of_type(const std::filesystem::path& bag, const std::string& type);
 
 }  // namespace touchdown::recordings

@@ -4,9 +4,13 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include <msgpack.hpp>
+
+#include "recordings/recording.hpp"
 
 namespace touchdown::recordings {
 
@@ -34,5 +38,18 @@ inline void pack_float64(msgpack::sbuffer& buffer, double value) {
   for (std::size_t i = 0; i < 8; ++i) bytes[i + 1] = static_cast<char>(bits >> (56U - 8U * i));
   buffer.write(bytes.data(), bytes.size());
 }
+
+/// Appends the origin of a run, `config: {touchdown: {…}}`, to a map that is being packed.
+void pack_info(LogPacker& packer, const RecordingInfo& info);
+
+/// Appends the name of a robot that recorded a log, `config: {robot: …}`.
+void pack_robot(LogPacker& packer, std::string_view robot);
+
+/// Reads the name of the robot from a record of a robot's log; empty if it has none.
+std::string unpack_robot(std::string_view record);
+
+/// Reads `config.touchdown` of a record; empty for a log that touchdown did not write.
+/// Errors: `InputError` for invalid values.
+std::optional<RecordingInfo> unpack_info(std::string_view record, std::string_view log_name);
 
 }  // namespace touchdown::recordings

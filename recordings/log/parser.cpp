@@ -1,10 +1,9 @@
-#include "recordings/log/parser.hpp"
-
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "recordings/log/packing.hpp"
+#include "recordings/log/reader.hpp"
 
 namespace touchdown::recordings {
 

@@ -10,10 +10,60 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "recordings/log/info.hpp"
+#include "recordings/log/packing.hpp"
 #include "recordings/sample_times.hpp"
 
 namespace touchdown::recordings {
+
+namespace {
+
+double time_of(const LogValues& values, const LogPresence& present) {
+  return values[present[log_slot::time] ? log_slot::time : log_slot::wall_time];
+}
+
+}  // namespace
+
+HeldServos::HeldServos() {
+  for (const LogKey& key : log_keys()) {
+    if (key.role != LogKey::Role::needed) continue;
+    for (std::size_t i = 0; i < key.size; ++i) needed_.set(key.slot + i);
+  }
+}
+
+bool HeldServos::complete(LogValues& values, LogPresence& present) {
+  if (!is_started_) return false;
+  if (!present[log_slot::time] && !present[log_slot::wall_time]) return false;
+  const LogPresence missing = needed_ & ~present;
+  std::size_t of_servos = 0;
+  for (std::size_t i = 0; i < count; ++i) of_servos += missing[log_slot::servo + i] ? 1 : 0;
+  if (of_servos != missing.count() || 2 * of_servos > count) return false;
+  const double now = time_of(values, present);
+  double oldest = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t slot = log_slot::servo + i;
+    if (!missing[slot]) {
+      held_[i] = {values[slot], now};
+      continue;
+    }
+    const std::optional<double> age = held_[i].age(now);
+    values[slot] = age ? held_[i].value : std::numeric_limits<double>::quiet_NaN();
+    present.set(slot);
+    oldest = age ? std::max(oldest, *age) : std::numeric_limits<double>::infinity();
+  }
+  if (oldest > longest_hold) {
+    ++lost_;
+  } else {
+    ++records_;
+    oldest_ = std::max(oldest_, oldest);
+  }
+  return true;
+}
+
+void HeldServos::remember(const LogValues& values, const LogPresence& present) {
+  is_started_ = true;
+  const double now = time_of(values, present);
+  for (std::size_t i = 0; i < count; ++i) held_[i] = {values[log_slot::servo + i], now};
+}
 
 namespace {
 

@@ -1,7 +1,7 @@
 #include "recordings/log/writer.hpp"
 
 #include "core/error.hpp"
-#include "recordings/log/info.hpp"
+#include "recordings/log/packing.hpp"
 
 namespace touchdown::recordings {
 

@@ -2,7 +2,6 @@
 
 #include <ostream>
 
-#include "recordings/log/keys.hpp"
 #include "recordings/log/packing.hpp"
 #include "recordings/log/row.hpp"
 #include "recordings/recording.hpp"

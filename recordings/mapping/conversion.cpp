@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <optional>
 #include <span>
 
@@ -10,11 +11,10 @@
 
 #include "core/error.hpp"
 #include "estimator/record.hpp"
+#include "core/files.hpp"
 #include "recordings/bags/bag.hpp"
 #include "recordings/log/writer.hpp"
-#include "recordings/mapping/joined_log.hpp"
 #include "recordings/mapping/mapping_file.hpp"
-#include "recordings/mapping/row_hold.hpp"
 #include "recordings/mapping/source_log.hpp"
 #include "recordings/sample_times.hpp"
 
@@ -26,30 +26,19 @@ Eigen::Vector3d vector_of(const MappedSignal& signal, std::span<const double> ro
   return {signal.value(row, 0), signal.value(row, 1), signal.value(row, 2)};
 }
 
-/// Orientation from Upkie's IMU frame to the reference with z down.
-Eigen::Quaterniond orientation_of(const LogMapping& mapping, std::span<const double> row) {
-  std::array<double, 4> q{};
+/// The IMU of a row, in Upkie's frames.
+ImuSignals imu_of(const LogMapping& mapping, std::span<const double> row) {
+  RobotRecord record{.angular_velocity = vector_of(mapping.angular_velocity, row)};
   for (std::size_t i = 0; i < 4; ++i) {
-    q[mapping.is_w_last ? (i + 1) % 4 : i] = mapping.orientation.value(row, i);
+    record.orientation.at(mapping.is_w_last ? (i + 1) % 4 : i) = mapping.orientation.value(row, i);
   }
-  Eigen::Quaterniond orientation(q[0], q[1], q[2], q[3]);
-  if (!mapping.axes.isIdentity(0.0)) {
-    orientation = orientation * Eigen::Quaterniond(Eigen::Matrix3d(mapping.axes.transpose()));
-  }
-  // z up to z down: half a turn about x.
-  const Eigen::Quaterniond o = orientation;
-  return mapping.reference_is_z_up ? Eigen::Quaterniond(-o.x(), o.w(), -o.z(), o.y()) : o;
-}
-
-/// Acceleration without gravity, in Upkie's IMU frame.
-Eigen::Vector3d linear_acceleration(const LogMapping& mapping, const Eigen::Quaterniond& q,
-                                    const Eigen::Vector3d& proper, std::span<const double> row) {
   if (mapping.linear_acceleration) {
-    return mapping.axes * vector_of(*mapping.linear_acceleration, row);
+    record.linear_acceleration = vector_of(*mapping.linear_acceleration, row);
   }
-  const RobotRecord record{.orientation = {q.w(), q.x(), q.y(), q.z()},
-                           .proper_acceleration = proper};
-  return signals_of(record, {.acceleration = AccelerationSource::proper}).linear_acceleration;
+  if (mapping.proper_acceleration) {
+    record.proper_acceleration = vector_of(*mapping.proper_acceleration, row);
+  }
+  return touchdown::imu_of(record, mapping.conventions);
 }
 
 void put(LogValues& values, std::size_t slot, const Eigen::Vector3d& vector) {
@@ -93,16 +82,12 @@ LogValues log_values(const LogMapping& mapping, std::uint64_t k, std::span<const
     values[slot + 1] = mapping.velocity.value(row, servo);
     values[slot + 2] = mapping.torque.value(row, servo);
   }
-  const Eigen::Quaterniond q = orientation_of(mapping, row);
-  values[log_slot::imu_orientation] = q.w();
-  put(values, log_slot::imu_orientation + 1, q.vec());
-  put(values, log_slot::angular_velocity, mapping.axes * vector_of(mapping.angular_velocity, row));
-  Eigen::Vector3d proper = Eigen::Vector3d::Zero();
-  if (mapping.proper_acceleration) {
-    proper = mapping.axes * vector_of(*mapping.proper_acceleration, row);
-    put(values, log_slot::raw_acceleration, proper);
-  }
-  put(values, log_slot::linear_acceleration, linear_acceleration(mapping, q, proper, row));
+  const ImuSignals imu = imu_of(mapping, row);
+  std::copy(imu.orientation.begin(), imu.orientation.end(),
+            values.begin() + log_slot::imu_orientation);
+  put(values, log_slot::angular_velocity, imu.angular_velocity);
+  put(values, log_slot::linear_acceleration, imu.linear_acceleration);
+  if (mapping.proper_acceleration) put(values, log_slot::raw_acceleration, imu.proper_acceleration);
   if (mapping.wheel_velocity_target) {
     for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
       values[velocity_target(models::wheel_servos[wheel])] =
@@ -326,6 +311,10 @@ std::vector<std::string> warnings_of(const ConvertedLog& converted, const std::s
   return warnings;
 }
 
+LogRow mapped_row(const LogMapping& mapping, std::uint64_t k, std::span<const double> row) {
+  return to_row(log_values(mapping, k, row), log_presence(mapping));
+}
+
 ConvertedLog convert_log(const std::filesystem::path& log, const std::filesystem::path& mapping,
                          std::ostream& stream, const std::function<void()>& check_stop,
                          bool with_labels) {
@@ -354,6 +343,18 @@ ConvertedLog convert_log(const std::filesystem::path& log, const std::filesystem
   ConvertedLog converted = converter.finish(log);
   converted.notes.insert(converted.notes.end(), notes.begin(), notes.end());
   return converted;
+}
+
+MappedLog::MappedLog(const std::filesystem::path& log, const std::filesystem::path& mapping,
+                     const std::function<void()>& check_stop)
+    : folder_(temporary_folder() / "touchdown_mapped_log") {
+  std::ofstream stream(path(), std::ios::binary);
+  const ConvertedLog converted = convert_log(log, mapping, stream, check_stop, false);
+  stream.close();
+  if (!stream) {
+    throw Error(fmt::format("{}: cannot be written: is the disk full?", path().string()));
+  }
+  warnings_ = warnings_of(converted, log.string());
 }
 
 }  // namespace touchdown::recordings

@@ -4,10 +4,14 @@
 #include <filesystem>
 #include <functional>
 #include <ostream>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "recordings/beliefs/contact_intervals.hpp"
+#include "core/files.hpp"
+#include "recordings/log/contact_intervals.hpp"
+#include "recordings/log/row.hpp"
+#include "recordings/mapping/mapping.hpp"
 
 namespace touchdown::recordings {
 
@@ -29,6 +33,10 @@ struct ConvertedLog {
 /// One line for each thing that a user should know about the log of this name.
 std::vector<std::string> warnings_of(const ConvertedLog& converted, const std::string& log);
 
+/// One time step of another robot, in Upkie's conventions, from a row with the numbers of
+/// `LogMapping::columns`. `k` counts the rows, for logs without a clock.
+LogRow mapped_row(const LogMapping& mapping, std::uint64_t k, std::span<const double> row);
+
 /// Converts another robot's log, CSV, NumPy's arrays or a ROS 2 bag, to a robot's log in Upkie's
 /// layout, by a mapping file. `log` is the folder of the sources if the mapping has several. Each
 /// row becomes one record with the measurements only. Missing values are held from an earlier row
@@ -39,5 +47,23 @@ std::vector<std::string> warnings_of(const ConvertedLog& converted, const std::s
 ConvertedLog convert_log(const std::filesystem::path& log, const std::filesystem::path& mapping,
                          std::ostream& stream, const std::function<void()>& check_stop = {},
                          bool with_labels = true);
+
+/// Another robot's log or ROS 2 bag as a log in Upkie's layout, for programs that read such logs.
+/// It is in a temporary folder, which is deleted with this object.
+class MappedLog {
+ public:
+  /// `check_stop` is called regularly, and may throw. Errors: those of `convert_log`; `Error` if
+  /// the disk is full.
+  MappedLog(const std::filesystem::path& log, const std::filesystem::path& mapping,
+            const std::function<void()>& check_stop = {});
+
+  std::filesystem::path path() const { return folder_.path() / "log.mpack"; }
+  /// One line for each thing that a user should know.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  PartFolder folder_;
+  std::vector<std::string> warnings_;
+};
 
 }  // namespace touchdown::recordings

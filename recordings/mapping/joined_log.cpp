@@ -1,5 +1,3 @@
-#include "recordings/mapping/joined_log.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,9 +8,9 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "recordings/bags/bag.hpp"
-#include "recordings/bags/find_topics.hpp"
+#include "recordings/bags/source_join.hpp"
 #include "recordings/bags/topic_rows.hpp"
-#include "recordings/sources/source_join.hpp"
+#include "recordings/mapping/source_log.hpp"
 
 namespace touchdown::recordings {
 
@@ -107,7 +105,6 @@ void check_joined(const SourceJoin& join, const std::vector<SourceNames>& names,
 struct FileRow {
   double arrival = 0.0;
   double time = 0.0;
-  std::uint64_t position = 0;
   std::vector<double> numbers;
 };
 
@@ -168,56 +165,35 @@ bool has_numbers(std::span<const double> row, const SourceClock& clock,
 
 /// The names of the file's columns.
 SourceNames read_names(const SourceNames& named) {
-  struct Done {};
   SourceNames result = named;
-  try {
-    read_source_log(named.file,
-                    {.wanted = [&](const SourceNames& names) -> std::vector<SourceColumn> {
-                       result.are_arrays = names.are_arrays;
-                       result.names = names.names;
-                       result.has_joint_names = names.has_joint_names;
-                       throw Done{};
-                     },
-                     .row = [](std::span<const double>, const SourceLocation&) {}});
-  } catch (const Done&) {  // NOLINT(bugprone-empty-catch): the names suffice
-  }
+  read_source_log(named.file,
+                  {.wanted = [&](const SourceNames& names) -> std::vector<SourceColumn> {
+                     result.are_arrays = names.are_arrays;
+                     result.names = names.names;
+                     result.has_joint_names = names.has_joint_names;
+                     return {};
+                   },
+                   .row = [](std::span<const double>, const SourceLocation&) {}});
   return result;
 }
 
 /// Reads the rows of one source of files, with their times.
-class FileRows {
- public:
-  FileRows(const SourceNames& named, const LogMapping& mapping, std::size_t source,
-           const ColumnOrder& order)
-      : file_(named.file),
-        columns_(columns_of(mapping, source)),
-        positions_(order.of(source)),
-        clock_(mapping.clocks[source]),
-        mapped_(mapping.columns.size()) {}
-
-  void read(const std::function<void(FileRow&&, const SourceLocation& place)>& use) {
-    Arrival arrival;
-    read_source_log(file_,
-                    {.wanted = [&](const SourceNames&) { return columns_; },
-                     .row =
-                         [&](std::span<const double> row, const SourceLocation& place) {
-                           for (std::size_t i = 0; i < row.size(); ++i) {
-                             mapped_[positions_[i]] = row[i];
-                           }
-                           const double time = clock_.at(mapped_);
-                           if (!std::isfinite(time)) return;
-                           if (!has_numbers(row, clock_, positions_)) return;
-                           use({arrival.next(time), time, 0, {row.begin(), row.end()}}, place);
-                         }});
-  }
-
- private:
-  std::string file_;
-  std::vector<SourceColumn> columns_;
-  const std::vector<std::size_t>& positions_;
-  const SourceClock& clock_;
-  std::vector<double> mapped_;
-};
+void read_rows(const SourceNames& named, const LogMapping& mapping, std::size_t source,
+               const ColumnOrder& order, const std::function<void(FileRow&&)>& use) {
+  const std::vector<std::size_t>& positions = order.of(source);
+  const SourceClock& clock = mapping.clocks[source];
+  std::vector<double> mapped(mapping.columns.size());
+  Arrival arrival;
+  read_source_log(named.file,
+                  {.wanted = [&](const SourceNames&) { return columns_of(mapping, source); },
+                   .row =
+                       [&](std::span<const double> row, const SourceLocation&) {
+                         for (std::size_t i = 0; i < row.size(); ++i) mapped[positions[i]] = row[i];
+                         const double time = clock.at(mapped);
+                         if (!std::isfinite(time) || !has_numbers(row, clock, positions)) return;
+                         use({arrival.next(time), time, {row.begin(), row.end()}});
+                       }});
+}
 
 std::vector<std::string> read_joined_files(const fs::path& log, const LogSources& sources,
                                            const JoinedLogSink& sink) {
@@ -242,9 +218,8 @@ std::vector<std::string> read_joined_files(const fs::path& log, const LogSources
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (i == clock) continue;
     HeldFile& file = held.emplace_back(HeldFile{i, {}, 0});
-    FileRows(names[i], mapping, i, order).read([&](FileRow&& row, const SourceLocation&) {
-      file.rows.push_back(std::move(row));
-    });
+    read_rows(names[i], mapping, i, order,
+              [&](FileRow&& row) { file.rows.push_back(std::move(row)); });
   }
   const auto add_until = [&](double arrival) {
     while (true) {
@@ -261,7 +236,7 @@ std::vector<std::string> read_joined_files(const fs::path& log, const LogSources
     }
   };
   std::uint64_t position = 0;
-  FileRows(names[clock], mapping, clock, order).read([&](FileRow&& row, const SourceLocation&) {
+  read_rows(names[clock], mapping, clock, order, [&](FileRow&& row) {
     add_until(row.arrival);
     join.add(clock, row.arrival, row.time, row.numbers, ++position);
   });

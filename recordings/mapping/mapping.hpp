@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -9,12 +10,29 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
+#include "core/fields.hpp"
+#include "estimator/assembly/record.hpp"
 #include "models/robot.hpp"
-#include "recordings/mapping/log_sources.hpp"
 
 namespace touchdown::recordings {
+
+/// Sources with clocks of their own that a mapping joins: files of one folder, or topics of a bag.
+struct LogSources {
+  std::vector<std::string> joints;  ///< empty: the log is one file
+  std::vector<std::string> imu;
+  std::vector<std::string> contact;  ///< empty: among the joints' columns
+  double stale_after = 0.05;         ///< older values are missing (s)
+
+  bool empty() const { return joints.empty(); }
+  /// Whether they are named like files, not like topics.
+  bool are_files() const;
+};
+
+/// The keys of `sources`.
+void describe(Fields& fields, LogSources& sources);
+
+/// Reads only `sources` of a mapping file. Errors: `InputError` with file:line:column.
+LogSources read_log_sources(const std::filesystem::path& mapping);
 
 /// One column of numbers of another robot's log: a named column of a CSV file, a whole `.npz` array
 /// with one axis, or one column of an array with two.
@@ -106,15 +124,14 @@ struct LogMapping {
   std::optional<MappedSignal> wheel_velocity_target;
   std::optional<MappedLegTargets> leg_targets;
 
-  MappedSignal orientation;  ///< 4: from the IMU frame to its reference, w x y z
-  bool is_w_last = false;    ///< order x y z w instead
-  /// Whether the reference's z axis points up (ROS, ENU), not down (Upkie, NED).
-  bool reference_is_z_up = false;
-  MappedSignal angular_velocity;                    ///< 3, rad/s
+  MappedSignal orientation;       ///< 4: from the IMU frame to its reference, w x y z
+  bool is_w_last = false;         ///< order x y z w instead
+  MappedSignal angular_velocity;  ///< 3, rad/s
   std::optional<MappedSignal> linear_acceleration;  ///< 3, m/s², without gravity
   std::optional<MappedSignal> proper_acceleration;  ///< 3, m/s², gravity included
-  /// Rotation from the axes of the log's IMU to those of Upkie's (x back, y left, z down).
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  /// The frames of the IMU; which of the two accelerations is used. Numbers above have the units of
+  /// touchdown.
+  AssemblyConfig conventions;
 
   /// The source of the joints' rows, of a log with several: that of the first joint.
   std::size_t joint_source() const;

@@ -7,9 +7,7 @@
 
 #include "core/fields.hpp"
 #include "core/resources.hpp"
-#include "recordings/mapping/joint_keys.hpp"
 #include "recordings/mapping/mapping_reader.hpp"
-#include "recordings/mapping/mounting.hpp"
 
 namespace touchdown::recordings {
 
@@ -138,7 +136,7 @@ void describe_orientation(Fields& fields, MappingReader& reader, LogMapping& map
     reader.take_default(fields, "orientation", kind, mapping.orientation);
   }
   mapping.is_w_last = order == 1;
-  mapping.reference_is_z_up = reference == 1;
+  mapping.conventions.reference_is_z_up = reference == 1;
 }
 
 /// Reads the rotation to Upkie's IMU axes: each is x, y or z of the log's IMU, or its reverse.
@@ -153,16 +151,8 @@ void describe_axes(Fields& fields, bool is_topic, Eigen::Matrix3d& axes) {
       "expected the log's axes that point back, left and down, such as [-x, y, -z]: a right-handed "
       "order of x, y and z, each with or without a minus";
   fields.check(names.size() == 3, "axes", expected);
-  axes.setZero();
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    std::string_view axis = names[static_cast<std::size_t>(i)];
-    const double sign = axis.starts_with('-') ? -1.0 : 1.0;
-    if (sign < 0.0) axis.remove_prefix(1);
-    const std::size_t j = axis.size() == 1 ? std::string_view("xyz").find(axis) : 3;
-    fields.check(j < 3, "axes", expected);
-    axes(i, static_cast<Eigen::Index>(j)) = sign;
-  }
-  fields.check(axes.determinant() == 1.0, "axes", expected);
+  axes = signed_axes({names[0], names[1], names[2]});
+  fields.check(!axes.isZero(), "axes", expected);
 }
 
 void describe_imu(Fields& fields, MappingReader& reader, LogMapping& mapping) {
@@ -193,9 +183,11 @@ void describe_imu(Fields& fields, MappingReader& reader, LogMapping& mapping) {
   const bool has_rotation = fields.present("rotation", false);
   fields.check(fields.documenting() || !has_rotation || !fields.present("axes", false), "rotation",
                "expected either 'rotation' or 'axes'");
-  describe_axes(fields, is_topic, mapping.axes);
+  describe_axes(fields, is_topic, mapping.conventions.axes);
   if (has_rotation) {
-    fields.within("rotation", [&](Fields& inner) { describe_mounting(inner, mapping.axes); })
+    fields
+        .within("rotation",
+                [&](Fields& inner) { describe_mounting(inner, mapping.conventions.axes); })
         .fallback("none")
         .doc(
             "Mounting of the log's IMU, from its axes to the robot's (forward, left, up), instead "
@@ -204,6 +196,9 @@ void describe_imu(Fields& fields, MappingReader& reader, LogMapping& mapping) {
   fields.check(mapping.linear_acceleration || mapping.proper_acceleration, "",
                "expected 'linear_acceleration', without gravity, or 'proper_acceleration', as the "
                "chip measures it");
+  mapping.conventions.acceleration = mapping.linear_acceleration
+                                         ? AccelerationSource::without_gravity
+                                         : AccelerationSource::proper;
 }
 
 /// Whether the name is that of an array with a column for each wheel.
@@ -228,7 +223,8 @@ void describe_contact(Fields& fields, MappingReader& reader, LogMapping& mapping
       .doc("Contact labels: a flag or a force, one for both wheels or left and right.");
 }
 
-void describe_mapping(Fields& fields, MappingReader& reader, LogMapping& mapping) {
+void describe_mapping(Fields& fields, MappingReader& reader, LogMapping& mapping,
+                      bool with_labels) {
   expect_keys(fields, {"robot", "sources", "period", "time", "joints", "imu", "contact"});
   fields("robot", mapping.robot)
       .fallback("none")
@@ -253,7 +249,7 @@ void describe_mapping(Fields& fields, MappingReader& reader, LogMapping& mapping
     describe_imu(none, reader, mapping);
   }
   reader.enter("contact");
-  describe_contact(fields, reader, mapping);
+  if (with_labels) describe_contact(fields, reader, mapping);
   if (!mapping.clocks.empty()) mapping.time = mapping.clocks[mapping.joint_source()];
 }
 
@@ -265,18 +261,18 @@ std::vector<Key> mapping_keys() {
   MappingReader reader(std::span(&arrays, 1), mapping);
   KeyCollection keys;
   Fields fields(keys);
-  describe_mapping(fields, reader, mapping);
+  describe_mapping(fields, reader, mapping, true);
   return keys.keys();
 }
 
-LogMapping read_log_mapping(const std::filesystem::path& path,
-                            std::span<const SourceNames> sources) {
+LogMapping read_log_mapping(const std::filesystem::path& path, std::span<const SourceNames> sources,
+                            bool with_labels) {
   require_file(path);
   const YamlDocument document = YamlDocument::load(path);
   LogMapping mapping;
   MappingReader reader(sources, mapping);
   Fields fields(document);
-  describe_mapping(fields, reader, mapping);
+  describe_mapping(fields, reader, mapping, with_labels);
   return mapping;
 }
 

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "core/fields.hpp"
 #include "recordings/mapping/mapping.hpp"
 
@@ -93,5 +95,13 @@ class MappingReader {
   std::optional<std::size_t> only_;  ///< the source that is entered, if it is a single one
   LogMapping& mapping_;
 };
+
+/// Reads the section `joints`: signals of hips, knees and wheels, and the commands of the servos.
+void describe_joints(Fields& fields, MappingReader& reader, LogMapping& mapping);
+
+/// Reads how an IMU is mounted: the rotation from its axes to the robot's (x forward, y left, z
+/// up), as a quaternion w x y z or as roll, pitch and yaw, as in a URDF (a rotation about x, then
+/// y, then z). Sets the rotation from the IMU's axes to those of Upkie's IMU (back, left, down).
+void describe_mounting(Fields& fields, Eigen::Matrix3d& axes);
 
 }  // namespace touchdown::recordings

@@ -4,16 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "recordings/plausibility/clock.hpp"
-#include "recordings/plausibility/constant_channels.hpp"
-#include "recordings/plausibility/driving.hpp"
-#include "recordings/plausibility/gravity.hpp"
-#include "recordings/plausibility/joint_motion.hpp"
-#include "recordings/plausibility/load.hpp"
-#include "recordings/plausibility/ranges.hpp"
-#include "recordings/plausibility/still.hpp"
-#include "recordings/plausibility/turning.hpp"
-#include "recordings/plausibility/window.hpp"
+#include "recordings/plausibility/rules.hpp"
 
 namespace touchdown::recordings {
 

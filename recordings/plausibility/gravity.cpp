@@ -1,10 +1,9 @@
-#include "recordings/plausibility/gravity.hpp"
-
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "estimator/record.hpp"
+#include "recordings/plausibility/rules.hpp"
 
 namespace touchdown::recordings {
 

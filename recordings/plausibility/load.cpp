@@ -1,5 +1,3 @@
-#include "recordings/plausibility/load.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -8,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "estimator/record.hpp"
+#include "recordings/plausibility/rules.hpp"
 
 namespace touchdown::recordings {
 

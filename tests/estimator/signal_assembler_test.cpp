@@ -86,6 +86,51 @@ TEST(SignalsOfARecord, FindTheVerticalInAnyAttitudeAndConvention) {
   }
 }
 
+/// A robot that rolls to its right while its IMU is mounted in other ways: the signals are those of
+/// Upkie's mounting.
+TEST(SignalsOfARecord, DoNotDependOnHowTheImuIsMounted) {
+  const Eigen::Quaterniond attitude =
+      Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX()) *
+      Eigen::Quaterniond(upright[0], upright[1], upright[2], upright[3]);
+  const Eigen::Vector3d rate(-0.7, 0.2, 0.1);  // x back: rolls to the right
+  const Eigen::Vector3d acceleration(1.0, 2.0, 3.0);
+  const Eigen::Matrix3d measured = (Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ()) *
+                                    Eigen::AngleAxisd(-0.2, Eigen::Vector3d::UnitY()))
+                                       .toRotationMatrix();
+  const double vertical = upward(wxyz(attitude), acceleration);
+  for (const Eigen::Matrix3d& axes :
+       {signed_axes({"-x", "y", "-z"}), signed_axes({"y", "x", "-z"}), measured}) {
+    Robot robot;
+    RobotRecord record = robot.record(0.0);
+    record.orientation = wxyz(attitude * Eigen::Quaterniond(axes));
+    record.angular_velocity = axes.transpose() * rate;
+    record.linear_acceleration = axes.transpose() * acceleration;
+    AssemblyConfig config;
+    config.axes = axes;
+    const Signals signals = signals_of(record, config);
+    EXPECT_TRUE(signals.angular_velocity.isApprox(rate, 1e-12)) << axes;
+    EXPECT_TRUE(signals.linear_acceleration.isApprox(acceleration, 1e-12)) << axes;
+    EXPECT_NEAR(signals.vertical_acceleration, vertical, 1e-12) << axes;
+  }
+}
+
+TEST(SignalsOfARecord, KeepTheNumbersOfAnImuThatLosesOne) {
+  Robot robot;
+  RobotRecord record = robot.record(0.0);
+  record.angular_velocity = {1.0, not_reported, 3.0};
+  const Signals signals = signals_of(record, {});
+  EXPECT_EQ(signals.angular_velocity.x(), 1.0);
+  EXPECT_TRUE(std::isnan(signals.angular_velocity.y()));
+}
+
+TEST(SignedAxes, AreARightHandedOrderOrNothing) {
+  EXPECT_TRUE(signed_axes({"x", "y", "z"}).isIdentity(0.0));
+  for (const auto& names : std::vector<std::array<std::string_view, 3>>{
+           {"-x", "y", "z"}, {"x", "x", "z"}, {"y", "x", "z"}, {"X", "y", "z"}, {"x", "y", ""}}) {
+    EXPECT_TRUE(signed_axes(names).isZero()) << names[0] << names[1] << names[2];
+  }
+}
+
 TEST(SignalsOfARecord, AreNanWhereNotReported) {
   Robot robot(3);
   const Signals signals = signals_of(robot.record(0.0), {});

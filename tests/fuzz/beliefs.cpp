@@ -1,10 +1,9 @@
+#include "recordings/log/beliefs.hpp"
+
 #include <functional>
 
 #include "core/error.hpp"
-#include "recordings/beliefs/contact_intervals.hpp"
-#include "recordings/beliefs/csv.hpp"
-#include "recordings/beliefs/mpack.hpp"
-#include "recordings/beliefs/npz.hpp"
+#include "recordings/log/contact_intervals.hpp"
 #include "tests/fuzz/entry.hpp"
 #include "tests/fuzz/memory_file.hpp"
 

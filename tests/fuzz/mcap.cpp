@@ -1,5 +1,5 @@
 #include "core/error.hpp"
-#include "recordings/bags/storage/mcap_reader.hpp"
+#include "recordings/bags/mcap_reader.hpp"
 #include "tests/fuzz/entry.hpp"
 #include "tests/fuzz/memory_file.hpp"
 

@@ -1,7 +1,7 @@
 #include <fstream>
 
 #include "core/error.hpp"
-#include "recordings/bags/storage/sqlite_reader.hpp"
+#include "recordings/bags/sqlite_reader.hpp"
 #include "tests/fuzz/entry.hpp"
 #include "tests/scratch_folder.hpp"
 

@@ -154,6 +154,34 @@ TEST_F(CInterface, RefusesASampleRateThatIsNone) {
   }
 }
 
+TEST_F(CInterface, RefusesConventionsThatAreNoneAndKeepsTheOnesBefore) {
+  touchdown_estimator* const estimator = touchdown_create(model().c_str(), nullptr, nullptr, 0);
+  ASSERT_NE(estimator, nullptr);
+  const auto refusal = [&](const auto& change) {
+    touchdown_conventions conventions = touchdown_upkie_conventions();
+    change(conventions);
+    std::array<char, 200> error{};
+    EXPECT_EQ(touchdown_set_conventions(estimator, &conventions, error.data(), error.size()), 0);
+    return std::string(error.data());
+  };
+  EXPECT_EQ(refusal([](auto& c) { c.imu_axes[0][0] = -1.0; }), "assembly: axes must be a rotation");
+  EXPECT_EQ(refusal([](auto& c) { c.imu_axes[2][2] = std::nan(""); }),
+            "assembly: axes must be a rotation");
+  EXPECT_EQ(refusal([](auto& c) { c.torque_unit = 0.0; }), "assembly: units must be positive");
+  EXPECT_EQ(refusal([](auto& c) { c.joint[5].sign = 0.0; }),
+            "assembly: a joint's sign must be 1 or -1");
+  EXPECT_EQ(refusal([](auto& c) { c.joint[1].torque_scale = 0.0; }),
+            "assembly: a joint's scales must be finite and not 0");
+  const touchdown_conventions upkie = touchdown_upkie_conventions();
+  EXPECT_EQ(touchdown_set_conventions(nullptr, &upkie, nullptr, 0), 0);
+  EXPECT_EQ(touchdown_set_conventions(estimator, nullptr, nullptr, 0), 0);
+  touchdown_record record = record_of(test::drops(1).front());
+  EXPECT_EQ(touchdown_update(estimator, &record).faults, 0U);
+  ASSERT_EQ(touchdown_set_conventions(estimator, &upkie, nullptr, 0), 1);  // as before
+  EXPECT_EQ(touchdown_update(estimator, &record).faults, 0U);
+  touchdown_destroy(estimator);
+}
+
 TEST_F(CInterface, TakesTheTargetsOfServos) {
   ModelArrays arrays = test::fitted_arrays("decision_network");
   arrays["servo_weight"] = {{servo_weights}, std::vector<double>(servo_weights, 0.05)};

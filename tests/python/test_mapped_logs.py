@@ -59,6 +59,56 @@ class OtherRobotsLogs(InFolder):
         self.compare("log.csv", "csv.yaml", 1e3 / 3, "free_fall")
         np.testing.assert_array_equal(of_csv["torque"], of_npz["torque"])
 
+    def test_of_a_loop_give_the_beliefs_of_its_log(self):
+        """The mapping file of a robot's .npz log serves its loop, by the same names."""
+        run = hop()
+        forward = np.array([-1.0, 1.0, -1.0])  # x forward, y left, z up
+        w, x, y, z = run["orientation"].T
+        log = {"t": run["time"], "servos": run["position"][:, ::-1], "speeds": run["velocity"][:, ::-1],
+               "torques": run["torque"][:, ::-1], "q": np.column_stack([-y, -z, w, x]),
+               "gyro": forward * run["angular_velocity"], "acc": forward * run["linear_acceleration"]}
+        np.savez("log.npz", **log)
+        joint = "{{from: {}, index: [5, 4, 3, 2, 1, 0]}}"
+        (self.folder / "npz.yaml").write_text(
+            "time: {from: t}\njoints:\n  position: " + joint.format("servos") + "\n  velocity: " + joint.format("speeds") +
+            "\n  torque: " + joint.format("torques") + "\nimu:\n  axes: [-x, y, -z]\n  orientation: {from: q}\n"
+            "  angular_velocity: {from: gyro}\n  linear_acceleration: {from: acc}\ncontact: {from: not_in_a_loop}\n", encoding="utf-8")
+        estimator = touchdown.Estimator(mapping="npz.yaml")
+        whole = estimator.run(log)
+        estimator.reset()
+        for k in range(500):
+            belief = estimator.update({name: values[k] for name, values in log.items()})
+            self.assertEqual(belief.p_contact, tuple(whole["p_contact"][k]))
+        (self.folder / "npz.yaml").write_text((self.folder / "npz.yaml").read_text().replace("contact:", "#"), encoding="utf-8")
+        with open(program("estimate", "log.npz", "--mapping", "npz.yaml", "-o", "b.csv") and "b.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        np.testing.assert_array_equal(whole["p_contact"][:, 0], [float(row["p_contact_left"]) for row in rows])
+
+        upright = dict(run, angular_velocity=log["gyro"], linear_acceleration=log["acc"],
+                       orientation=np.column_stack([-y, -z, w, x]))
+        del upright["vertical_acceleration"]
+        expected = touchdown.Estimator().run(run)
+        for axes in (["-x", "y", "-z"], np.diag(forward)):
+            found = touchdown.Estimator(axes=axes).run(upright)
+            np.testing.assert_allclose(found["p_contact"], expected["p_contact"], atol=1e-9)
+
+    def test_of_a_loop_refuse_what_the_mapping_does_not_fit(self):
+        (self.folder / "robot.yaml").write_text("time: {from: t}\njoints: {position: {from: q}}\n", encoding="utf-8")
+        for given, expected in (
+                (dict(axes=["-x", "y", "z"]), "axes: expected the IMU's axes that point back, left and down"),
+                (dict(axes=5), "axes: expected the IMU's axes"),
+                (dict(axes=np.diag([1.0, 1.0, -1.0])), "axes must be a rotation"),
+                (dict(axes=["x", "y", "z"], mapping="robot.yaml"), "axes: the mapping states them")):
+            with self.assertRaisesRegex(touchdown.InputError, expected):
+                touchdown.Estimator(**given)
+        estimator = touchdown.Estimator(mapping="robot.yaml")
+        with self.assertRaisesRegex(touchdown.InputError, "robot.yaml:2:.*joints.position.from: signals has no array 'q'"):
+            estimator.update({"t": 0.0, "p": np.zeros(6)})
+        with self.assertRaisesRegex(touchdown.InputError, "gravity_included: the mapping states the acceleration"):
+            estimator.update({}, gravity_included=True)
+        with self.assertRaisesRegex(touchdown.InputError, "a spine has Upkie's conventions"):
+            estimator.update_from_spine({})
+
     def test_are_checked(self):
         (self.folder / "robot.yaml").write_text(bags.MAPPING, encoding="utf-8")
         (self.folder / "signs.yaml").write_text(bags.MAPPING.replace("[1, 1, 1, -1, -1, -1]", "1"), encoding="utf-8")

@@ -16,7 +16,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "recordings/bags/find_topics.hpp"
+#include "recordings/bags/topic_rows.hpp"
 #include "tests/bag_writer.hpp"
 #include "tests/scratch_folder.hpp"
 

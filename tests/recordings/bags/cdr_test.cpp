@@ -1,5 +1,3 @@
-#include "recordings/bags/cdr.hpp"
-
 #include <cmath>
 #include <limits>
 #include <string>

@@ -1,4 +1,4 @@
-#include "recordings/bags/storage/mcap_reader.hpp"
+#include "recordings/bags/mcap_reader.hpp"
 
 #include <algorithm>
 #include <filesystem>

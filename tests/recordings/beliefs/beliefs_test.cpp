@@ -1,10 +1,11 @@
+#include "recordings/log/beliefs.hpp"
+
 #include <map>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "recordings/beliefs/file.hpp"
 #include "recordings/log/packing.hpp"
 #include "recordings/model_file.hpp"
 #include "tests/scratch_folder.hpp"

@@ -1,4 +1,4 @@
-#include "recordings/beliefs/contact_intervals.hpp"
+#include "recordings/log/contact_intervals.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

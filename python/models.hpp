@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <pybind11/pybind11.h>
+#include <string>
+
+#include "experiments/logs/estimator.hpp"
+#include "experiments/logs/fit.hpp"
+
+namespace touchdown::python {
+
+/// A fitted model with its estimator, and a report of the fit.
+struct Model {
+  experiments::LogEstimator estimator;
+  experiments::LogFitReport report = {};
+
+  static Model load(const std::filesystem::path& path, const std::string& estimator);
+  void save(const std::filesystem::path& path) const;
+};
+
+/// The model's estimator, or another one that can use the model. `request` has the name, the robot
+/// and whether transfer is allowed. Errors: `InputError` for an estimator that cannot.
+experiments::LogEstimator with_model(experiments::LogEstimatorRequest request, const Model& model);
+
+/// Errors: `InputError` for what Python accepts in a path and no system does, such as "a\0".
+std::filesystem::path path_of(const pybind11::object& object);
+
+/// Adds `Model`, `fit`, and `check`, which reads logs like `fit`.
+void add_models(pybind11::module_& module);
+
+}  // namespace touchdown::python
