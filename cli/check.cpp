@@ -15,13 +15,13 @@
 #include "core/error.hpp"
 #include "core/program.hpp"
 #include "core/resources.hpp"
+#include "core/table.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
 #include "recordings/log/byte_source.hpp"
 #include "recordings/log/reader.hpp"
-#include "recordings/mapping/mapped_log.hpp"
+#include "recordings/mapping/conversion.hpp"
 #include "scenarios/robot_check.hpp"
-#include "core/table.hpp"
 
 namespace touchdown::cli {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "estimator/assembly/signal_assembler.hpp"
+#include "estimator/signal_assembler.hpp"
 #include "python/arrays.hpp"
 #include "recordings/mapping/mapping.hpp"
 #include "recordings/signals_from.hpp"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "estimator/assembly/record.hpp"
+#include "estimator/record.hpp"
 #include "python/arrays.hpp"
 
 namespace touchdown::python {

@@ -13,7 +13,7 @@
 #include "experiments/estimators/entry.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
-#include "recordings/beliefs/contact_intervals.hpp"
+#include "recordings/log/contact_intervals.hpp"
 #include "scoring/labels.hpp"
 
 namespace touchdown::experiments {

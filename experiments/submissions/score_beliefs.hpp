@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "experiments/signals/run_signals.hpp"
-#include "recordings/beliefs/beliefs.hpp"
-#include "scoring/score.hpp"
 #include "experiments/experiment_context.hpp"
+#include "experiments/signals/run_signals.hpp"
+#include "recordings/log/beliefs.hpp"
+#include "scoring/score.hpp"
 
 namespace touchdown::experiments {
 

@@ -11,9 +11,9 @@
 #include "core/files.hpp"
 #include "core/resources.hpp"
 #include "core/yaml.hpp"
+#include "estimator/npz/npz.hpp"
 #include "recordings/log/numbers_csv.hpp"
 #include "recordings/log/packing.hpp"
-#include "recordings/models/npz.hpp"
 
 namespace touchdown::recordings {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/fields.hpp"
-#include "estimator/assembly/record.hpp"
+#include "estimator/record.hpp"
 #include "models/robot.hpp"
 
 namespace touchdown::recordings {

@@ -15,8 +15,7 @@
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
-#include "recordings/mcap/log.hpp"
-#include "recordings/mcap/writer.hpp"
+#include "recordings/log/mcap.hpp"
 #include "render/film/primitives.hpp"
 #include "render/film/scene_view.hpp"
 #include "scenarios/scenario.hpp"

@@ -11,10 +11,10 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
-#include "core/tables/table.hpp"
-#include "estimator/assembly/signal_assembler.hpp"
-#include "estimator/c_interface/touchdown.h"
-#include "onboard/load_estimator.hpp"
+#include "core/table.hpp"
+#include "estimator/npz/load_estimator.hpp"
+#include "estimator/signal_assembler.hpp"
+#include "estimator/touchdown.h"
 #include "program.hpp"
 #include "recordings/log/recording_file.hpp"
 #include "recordings/signals_from.hpp"
