@@ -19,7 +19,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 struct Ablation : ::testing::Test {
   Experiment experiment(const std::string& more) const {
@@ -82,13 +81,6 @@ TEST_F(Ablation, ComparesEachStepWithTheOneBeforeIt) {
   EXPECT_EQ(result.figures.back().rows.groups.size(), 3U);  // the first step has no gain
 }
 
-TEST_F(Ablation, ReadsItsConfigurationBack) {
-  const std::string text = reread_yaml(
-      experiment("estimators: [paper, paper_floor, hmm_without_memory]\nablation: {}\n"));
-  EXPECT_THAT(text, AllOf(HasSubstr("from: paper"), HasSubstr("to: hmm_without_memory")));
-  EXPECT_THAT(to_yaml(experiment("")), Not(HasSubstr("ablation")));
-}
-
 TEST_F(Ablation, IsNamedWhereAnOrdinaryExperimentHasOneOfItsEstimators) {
   for (const std::string name :
        {"paper_low_pass", "paper_grid", "paper_margin", "hmm_without_memory"}) {
@@ -99,18 +91,6 @@ TEST_F(Ablation, IsNamedWhereAnOrdinaryExperimentHasOneOfItsEstimators) {
   }
   EXPECT_THAT(complaint("estimators: [paper_lowpass]\n"), HasSubstr("paper_lowpass"));
   EXPECT_EQ(complaint("estimators: [paper, paper_margin]\nablation: {}\n"), "no complaint");
-}
-
-TEST_F(Ablation, ComplainsOnTheLine) {
-  const std::string estimators = "estimators: [paper, paper_grid, robust]\n";
-  EXPECT_THAT(complaint(estimators + "ablation: {from: phase}\n"),
-              AllOf(HasSubstr("steps.yaml:9:"), HasSubstr("ablation.from")));
-  EXPECT_THAT(complaint(estimators + "ablation: {from: robust, to: paper}\n"),
-              AllOf(HasSubstr("ablation.to"), HasSubstr("after the first one of the row")));
-  EXPECT_THAT(complaint(estimators + "ablation: {to: paper}\n"),
-              HasSubstr("after the first one of the row"));
-  EXPECT_THAT(complaint(estimators + "ablation: {form: paper}\n"),
-              HasSubstr("did you mean 'from'"));
 }
 
 std::vector<std::string> from_paper_to_robust() {

@@ -18,7 +18,6 @@ using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::Each;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using ::testing::ThrowsMessage;
 
 struct LearningCurve : ::testing::Test {
@@ -42,11 +41,6 @@ struct LearningCurve : ::testing::Test {
 
   Table table(const std::string& name = "run") const {
     return from_csv(read_file(folder / (name + "/tables/learning_curve.csv")));
-  }
-
-  std::string complaint(const std::string& section) const {
-    return complaint_of(
-        [&] { run(experiment("estimators: [robust]\nlearning_curve: " + section + "\n")); });
   }
 
   ScratchFolder folder;
@@ -181,26 +175,6 @@ TEST_F(LearningCurve, IsTheSameInShardsAndLeavesOtherTablesAndModelsAlone) {
   EXPECT_EQ(models("whole"), models("without"));
   EXPECT_THAT(own_files(folder / "whole"),
               Contains(std::filesystem::path("tables/learning_curve.csv")));
-}
-
-TEST_F(LearningCurve, IsInTheConfigurationOnlyIfSet) {
-  EXPECT_THAT(to_yaml(experiment("")), Not(HasSubstr("learning_curve")));
-  const std::string text = reread_yaml(experiment("learning_curve: {sizes: [1, 4], draws: 3}\n"));
-  EXPECT_THAT(text, HasSubstr("draws: 3"));
-}
-
-TEST_F(LearningCurve, ComplainsOnTheLine) {
-  EXPECT_THAT(complaint("{sizes: [2, 2]}"),
-              AllOf(HasSubstr("curve.yaml:10:"), HasSubstr("learning_curve.sizes"),
-                    HasSubstr("expected increasing numbers from 1 on")));
-  EXPECT_THAT(complaint("{sizes: [0, 2]}"), HasSubstr("expected increasing numbers from 1 on"));
-  EXPECT_THAT(complaint("{sizes: []}"), HasSubstr("expected at least one number"));
-  EXPECT_THAT(complaint("{sizes: [1.5]}"), HasSubstr("each item a whole number"));
-  EXPECT_THAT(complaint("{sizes: [1, 5]}"),
-              HasSubstr("expected at most the number of segments or fitted runs, 4"));
-  EXPECT_THAT(complaint("{}"), HasSubstr("sizes"));
-  EXPECT_THAT(complaint("{sizes: [1], draws: 0}"), HasSubstr("learning_curve.draws"));
-  EXPECT_THAT(complaint("{sises: [1]}"), HasSubstr("did you mean 'sizes'"));
 }
 
 TEST_F(LearningCurve, NeedsAnEstimatorThatIsFitted) {

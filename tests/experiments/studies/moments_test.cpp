@@ -204,22 +204,6 @@ TEST(Moments, AreTablesOfAnExperimentWithTheKey) {
        {"moments.csv", "torque_distributions.csv", "torque_densities.csv", "overlap.csv"}) {
     EXPECT_THAT(files, ::testing::Contains(std::filesystem::path("tables") / name));
   }
-  EXPECT_THAT(to_yaml(read("")), ::testing::Not(HasSubstr("moments")));
-  EXPECT_EQ(to_yaml(read("moments: true\n")),
-            to_yaml(experiment_from_yaml(
-                YamlDocument::parse(to_yaml(read("moments: true\n")), "again.yaml"))));
-}
-
-TEST(Moments, ComplainOnTheLine) {
-  const auto complaint = [&](const std::string& text) {
-    return complaint_of([&] {
-      (void)experiment_from_yaml(YamlDocument::parse(
-          "name: x\nfit: {scenarios: [a]}\ntest: {scenarios: [a]}\n" + text, "e.yaml"));
-    });
-  };
-  EXPECT_THAT(complaint("moments: often\n"),
-              AllOf(HasSubstr("e.yaml:4:"), HasSubstr("expected true or false")));
-  EXPECT_THAT(complaint("moment: true\n"), HasSubstr("did you mean 'moments'?"));
 }
 
 }  // namespace

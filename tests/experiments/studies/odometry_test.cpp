@@ -16,7 +16,6 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using ::testing::UnorderedElementsAre;
 
 Experiment with_odometry(const ScratchFolder& folder, const std::string& more) {
@@ -136,25 +135,6 @@ TEST(OdometryStudy, IsTheSameInShards) {
   expect_same_in_shards(
       folder, with_odometry(folder, odometry_section), 2,
       {"tables/odometry.csv", "trajectories/bullet_small_step_support_force.tum"});
-}
-
-TEST(OdometryStudy, IsInTheConfigurationOnlyIfSet) {
-  const ScratchFolder folder;
-  EXPECT_THAT(to_yaml(with_odometry(folder, "")), Not(HasSubstr("odometry")));
-  const std::string text = reread_yaml(with_odometry(folder, "odometry: {delay: [0.25, 0.5]}\n"));
-  EXPECT_THAT(text, HasSubstr("delay: [0.25, 0.5]"));
-}
-
-TEST(OdometryStudy, ComplainsOnTheLine) {
-  const ScratchFolder folder;
-  const auto complaint = [&](const std::string& text) {
-    return complaint_of([&] { (void)with_odometry(folder, text); });
-  };
-  EXPECT_THAT(complaint("odometry: {delay: [-0.1]}\n"),
-              AllOf(HasSubstr("small.yaml:8:"), HasSubstr("odometry.delay"),
-                    HasSubstr("expected times between 0 and 1 s")));
-  EXPECT_THAT(complaint("odometry: {delay: [0.1, 0.1]}\n"), HasSubstr("appears twice"));
-  EXPECT_THAT(complaint("odometry: {dela: [0.1]}\n"), HasSubstr("did you mean"));
 }
 
 }  // namespace

@@ -13,7 +13,6 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 Experiment with_operating_points(const ScratchFolder& folder, const std::string& more) {
   const std::string step = folder.write("small_step.yaml", small_step_scene).string();
@@ -125,31 +124,6 @@ TEST(OperatingPoints, AreTheSameInShards) {
   const ScratchFolder folder;
   expect_same_in_shards(folder, with_operating_points(folder, points_section), 2,
                         {"tables/operating_points.csv", "tables/operating_points_by_scene.csv"});
-}
-
-TEST(OperatingPoints, AreInTheConfigurationOnlyIfSet) {
-  const ScratchFolder folder;
-  EXPECT_THAT(to_yaml(with_operating_points(folder, "")), Not(HasSubstr("operating_points")));
-  const std::string text =
-      reread_yaml(with_operating_points(folder, "operating_points: {leave_below: [0.25, 0.5]}\n"));
-  EXPECT_THAT(text, HasSubstr("leave_below: [0.25, 0.5]"));
-}
-
-TEST(OperatingPoints, ComplainOnTheLine) {
-  const ScratchFolder folder;
-  const auto complaint = [&](const std::string& text) {
-    return complaint_of([&] { (void)with_operating_points(folder, text); });
-  };
-  EXPECT_THAT(complaint("operating_points: {leave_below: [0.5, 0.2]}\n"),
-              AllOf(HasSubstr("small.yaml:9:"), HasSubstr("operating_points.leave_below"),
-                    HasSubstr("expected increasing probabilities")));
-  EXPECT_THAT(complaint("operating_points: {return_above: [0.5, 1]}\n"),
-              HasSubstr("none of them 0 or 1"));
-  EXPECT_THAT(complaint("operating_points: {leave_below: []}\n"),
-              HasSubstr("expected at least one probability"));
-  EXPECT_THAT(complaint("operating_points: {leave_below: [0.9], return_above: [0.5]}\n"),
-              HasSubstr("at least the lowest leave_below"));
-  EXPECT_THAT(complaint("operating_points: {leave_bellow: [0.5]}\n"), HasSubstr("did you mean"));
 }
 
 }  // namespace
