@@ -227,14 +227,14 @@ TEST(Draws, HappenAsOftenAsTheirProbability) {
 }
 
 TEST(GreatestHeight, OfAConstantForceIsThatOfUniformAcceleration) {
-  const double mass = 5.0;
+  const double robot_mass = 5.0;
   const double up = 0.5;        // m/s²
   const double duration = 0.8;  // s
   policies::TimedForce force{.time = 1.0, .duration = duration};
-  force.force.z() = mass * (9.81 + up);
+  force.force.z() = robot_mass * (9.81 + up);
   const double velocity = up * duration;
   const double expected = 0.5 * up * duration * duration + velocity * velocity / (2.0 * 9.81);
-  EXPECT_NEAR(greatest_height({force}, mass, 10.0), expected, 2e-3);
+  EXPECT_NEAR(greatest_height({force}, robot_mass, 10.0), expected, 2e-3);
 }
 
 TEST(GreatestHeight, OfAForceBelowTheWeightIsZero) {
