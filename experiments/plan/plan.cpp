@@ -16,6 +16,7 @@
 #include "experiments/signals/reserved_seeds.hpp"
 #include "noise/sensor_noise.hpp"
 #include "scenarios/leg_geometry.hpp"
+#include "scenarios/engine.hpp"
 
 namespace touchdown::experiments {
 

@@ -17,6 +17,7 @@
 #include "experiments/plan/condition.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "scenarios/generation/generate.hpp"
+#include "noise/reported_signals.hpp"
 
 namespace touchdown::experiments {
 

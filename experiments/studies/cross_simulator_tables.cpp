@@ -14,6 +14,7 @@
 #include "experiments/results/value_figure.hpp"
 #include "experiments/studies/cross_simulator.hpp"
 #include "simulators/registry.hpp"
+#include "experiments/results/text_tables.hpp"
 
 namespace touchdown::experiments {
 

@@ -159,7 +159,7 @@ void write_trajectories(const Evaluation& evaluation, const RunDirectory& direct
   for (const Task& task : plan.tasks) {
     const PlannedRun& run = plan.runs[task.run];
     if (run.group != 0 || task.seed != 0) continue;
-    const std::optional<TaskCounts> counts = evaluation.saved.read(plan, task);
+    const std::optional<TaskCounts> counts = saved_counts(plan, task, evaluation.saved);
     if (!counts) throw Error(fmt::format("the results of {} are missing", task_name(plan, task)));
     std::string texts;
     for (const MeasuredBytes& found : counts->measured) {

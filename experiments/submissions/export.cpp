@@ -15,6 +15,7 @@
 #include "experiments/studies/experiment_file.hpp"
 #include "experiments/plan/rollouts.hpp"
 #include "experiments/run_directory/directory.hpp"
+#include "experiments/results/scores.hpp"
 
 namespace touchdown::experiments {
 

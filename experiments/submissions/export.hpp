@@ -10,6 +10,7 @@
 #include "experiments/plan/rollouts.hpp"
 #include "experiments/submissions/exported_runs.hpp"
 #include "estimator/npz/npz.hpp"
+#include "experiments/experiment_context.hpp"
 
 namespace touchdown::experiments {
 
