@@ -10,7 +10,7 @@
 #include "render/pictures/filmed_report.hpp"
 #include "render/pictures/films.hpp"
 #include "render/studies/benchmark.hpp"
-"render/studies/registry.hpp"
+#include "render/studies/registry.hpp"
 
 namespace touchdown::cli {
 

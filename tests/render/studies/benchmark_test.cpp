@@ -1,4 +1,3 @@
-
 #include "render/studies/benchmark.hpp"
 
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "core/files.hpp"
 #include "experiments/results/summary_file.hpp"
 #include "render/pictures/filmed_report.hpp"
+#include "render/studies/registry.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {
