@@ -1,4 +1,3 @@
-
 #include "render/studies/benchmark.hpp"
 
 #include <cmath>
