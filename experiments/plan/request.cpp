@@ -75,6 +75,9 @@ std::vector<NamedScenario> scenarios_of(const Experiment& experiment, const Read
 
 std::string scenario_file(std::size_t number) { return fmt::format("scenario_{:03}.yaml", number); }
 
+/// Whose results a directory holds: the request, and the build that computes it.
+std::string state_key(const RunRequest& request) { return key_of(request.id, build_fingerprint()); }
+
 }  // namespace
 
 std::vector<NamedSensors> read_sensors(Experiment& experiment) {
@@ -148,8 +151,6 @@ const NamedScenario& scenario_of(const RunRequest& request, const std::string& f
                                  std::string_view robot) {
   return *find_named(request.scenarios, file, robot);
 }
-
-std::string state_key(const RunRequest& request) { return key_of(request.id, build_fingerprint()); }
 
 void require_place(const RunRequest& request, const fs::path& directory, bool overwrite) {
   require_no_links(directory);

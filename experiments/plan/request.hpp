@@ -72,9 +72,6 @@ RunRequest request_of(const Experiment& experiment);
 const NamedScenario& scenario_of(const RunRequest& request, const std::string& file,
                                  std::string_view robot = {});
 
-/// The key of saved state: the request and the build.
-std::string state_key(const RunRequest& request);
-
 /// Errors: `InputError`, with the other request, when the directory holds another experiment and
 /// `overwrite` is false; also when it holds untracked files where a run would write.
 void require_place(const RunRequest& request, const std::filesystem::path& directory,

@@ -1,6 +1,7 @@
 #include "experiments/run_directory/own_files.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include <fmt/format.h>
@@ -15,6 +16,10 @@ namespace touchdown::experiments {
 namespace fs = std::filesystem;
 
 namespace {
+
+/// The files and folders of its directory that a run writes to.
+constexpr std::array run_files = {"config.yaml", "manifest.json", "report.html"};
+constexpr std::array run_folders = {"state", "recordings", "models", "tables", "figures", "videos"};
 
 constexpr std::string_view before_request = "experiment ";
 constexpr std::string_view before_build = " build ";
@@ -81,6 +86,22 @@ bool is_regular(const fs::path& path) {
   std::error_code ignored;
   return !fs::is_symlink(path.parent_path(), ignored) &&
          fs::symlink_status(path, ignored).type() == fs::file_type::regular;
+}
+
+/// The recorded files that exist, relative to the run directory, sorted. Links are left out.
+std::vector<fs::path> recorded_files(const fs::path& run_directory) {
+  std::vector<fs::path> names;
+  for (const fs::path& entry : entries_in(records_in(run_directory))) {
+    const std::string record = entry.filename().string();
+    const fs::path name = name_of(record);
+    // Half-written records begin with a dot. No record leads out of the run directory.
+    const bool is_inside = !record.starts_with('.') && !name.filename().string().starts_with('.');
+    if (is_inside && is_regular(entry) && is_regular(run_directory / name)) {
+      names.push_back(name);
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 using Names = std::vector<std::string>;
@@ -243,21 +264,6 @@ fs::path record_file(const fs::path& run_directory, const fs::path& name) {
   const fs::path record = records_in(run_directory) / record_of(name);
   if (!is_regular(record)) write_atomically(record, "");
   return run_directory / name;
-}
-
-std::vector<fs::path> recorded_files(const fs::path& run_directory) {
-  std::vector<fs::path> names;
-  for (const fs::path& entry : entries_in(records_in(run_directory))) {
-    const std::string record = entry.filename().string();
-    const fs::path name = name_of(record);
-    // Half-written records begin with a dot. No record leads out of the run directory.
-    const bool is_inside = !record.starts_with('.') && !name.filename().string().starts_with('.');
-    if (is_inside && is_regular(entry) && is_regular(run_directory / name)) {
-      names.push_back(name);
-    }
-  }
-  std::sort(names.begin(), names.end());
-  return names;
 }
 
 std::vector<fs::path> own_files(const fs::path& directory) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -9,11 +8,6 @@
 #include <vector>
 
 namespace touchdown::experiments {
-
-/// The files and folders of its directory that a run writes to.
-inline constexpr std::array run_files = {"config.yaml", "manifest.json", "report.html"};
-inline constexpr std::array run_folders = {"state",  "recordings", "models",
-                                           "tables", "figures",    "videos"};
 
 /// The experiment that a run directory belongs to.
 struct RunDirectoryOwner {
@@ -48,9 +42,6 @@ void require_no_untracked_files(const std::filesystem::path& directory);
 /// Returns its path. `name` is relative to the run directory, with at most one folder.
 std::filesystem::path record_file(const std::filesystem::path& run_directory,
                                   const std::filesystem::path& name);
-
-/// The recorded files that exist, relative to the run directory, sorted. Links are left out.
-std::vector<std::filesystem::path> recorded_files(const std::filesystem::path& run_directory);
 
 /// The files in a run directory that its runs made, without its key and its lock: recorded files,
 /// and state, figures and checkpoints by their names. `config.yaml` comes last, because it names
