@@ -10,8 +10,8 @@
 #include "core/error.hpp"
 #include "core/rows.hpp"
 #include "experiments/results/captions.hpp"
-#include "experiments/results/scores.hpp"
 #include "experiments/results/odometry.hpp"
+#include "experiments/results/scores.hpp"
 #include "scoring/exact_share.hpp"
 #include "simulators/registry.hpp"
 
