@@ -1,9 +1,9 @@
+#include "core/csv.hpp"
+
 #include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "core/csv.hpp"
 
 namespace touchdown {
 namespace {
