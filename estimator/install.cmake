@@ -23,7 +23,7 @@ set(detail
   bayes/noisy_measurement bayes/recursion
   decision/feature_extractor decision/leg_features decision/logit_decision decision/repetition force/axle_motion
   force/wheel_loads neural/forward numerics/axis numerics/exponential numerics/noise_estimate
-  numerics/sliding_dft numerics/summary phase/prepared_model phase/tables)
+  numerics/sliding_dft numerics/summary phase/prepared_model)
 set(include_dir ${CMAKE_INSTALL_INCLUDEDIR}/touchdown)
 target_include_directories(touchdown_estimator PUBLIC
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>

@@ -14,7 +14,6 @@ namespace {
 /// own, so that no multiplication waits for another.
 constexpr int outputs_in_block = 12;
 constexpr Eigen::Index narrow_lanes = 8;
-constexpr Eigen::Index wide_lanes = 16;
 
 std::shared_ptr<const NeuralNetwork> checked(std::shared_ptr<const NeuralNetwork> network,
                                              Eigen::Index batch) {
@@ -76,7 +75,7 @@ template <typename Lanes>
 }
 
 #ifdef TOUCHDOWN_HAS_WIDE_VECTORS
-using WideVector [[gnu::vector_size(4 * wide_lanes)]] = float;
+using WideVector [[gnu::vector_size(4 * 16)]] = float;
 
 [[gnu::target("arch=x86-64-v4")]] void multiply_wide(const Product& product) noexcept {
   multiply_by<WideVector>(product);

@@ -1,4 +1,4 @@
-#include "estimator/phase/tables.hpp"
+#include "estimator/phase/prepared_model.hpp"
 
 #include <cmath>
 
