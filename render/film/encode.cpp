@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-#include <libavutil/opt.h>
 #include <memory>
 #include <png.h>
 #include <string>
@@ -12,12 +9,17 @@
 #include <turbojpeg.h>
 #include <unistd.h>
 
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/opt.h>
+}
+
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
 
-extern "C" {}
 // OpenCV's own `imencode` uses the same two libraries. Its library loads a hundred others, which
 // more than doubles the start of every command.
 
