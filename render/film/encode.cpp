@@ -20,9 +20,6 @@ extern "C" {
 #include "core/error.hpp"
 #include "core/files.hpp"
 
-// OpenCV's own `imencode` uses the same two libraries. Its library loads a hundred others, which
-// more than doubles the start of every command.
-
 namespace touchdown::render {
 
 namespace {
@@ -31,6 +28,8 @@ namespace {
   throw Error(fmt::format("{}: cannot compress the picture: {}", path.string(), reason));
 }
 
+// OpenCV's own `imencode` uses the same two libraries. Its library loads a hundred others, which
+// more than doubles the start of every command.
 std::string png(const cv::Mat& bgr, const std::filesystem::path& path) {
   png_image image = {};
   image.version = PNG_IMAGE_VERSION;
