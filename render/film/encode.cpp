@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-#include <libavutil/opt.h>
 #include <memory>
 #include <png.h>
 #include <string>
@@ -12,14 +9,16 @@
 #include <turbojpeg.h>
 #include <unistd.h>
 
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/opt.h>
+}
+
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-
-extern "C" {}
-// OpenCV's own `imencode` uses the same two libraries. Its library loads a hundred others, which
-// more than doubles the start of every command.
 
 namespace touchdown::render {
 
@@ -29,6 +28,8 @@ namespace {
   throw Error(fmt::format("{}: cannot compress the picture: {}", path.string(), reason));
 }
 
+// OpenCV's own `imencode` uses the same two libraries. Its library loads a hundred others, which
+// more than doubles the start of every command.
 std::string png(const cv::Mat& bgr, const std::filesystem::path& path) {
   png_image image = {};
   image.version = PNG_IMAGE_VERSION;
