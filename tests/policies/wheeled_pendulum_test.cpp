@@ -181,8 +181,8 @@ TEST(Lqr, OfAFastSampledDoubleIntegratorIsTheContinuousOne) {
 TEST(Lqr, IsWhereRiccatisRecursionEnds) {
   const MatrixXd q = bryson(Eigen::Vector4d(1.0, 0.1, 1.0, 1.0));
   const MatrixXd r = bryson(Eigen::VectorXd::Constant(1, 1.5));
-  for (const double period : {1e-3, 5e-3}) {
-    const LinearSystem system = sampled(pendulum(), period);
+  for (const double sampling : {1e-3, 5e-3}) {
+    const LinearSystem system = sampled(pendulum(), sampling);
     const MatrixXd k = lqr(system, q, r);
     EXPECT_TRUE(k.isApprox(by_value_iteration(system, q, r, 40'000), 1e-6)) << k;
     const Eigen::VectorXcd modes = MatrixXd(system.a - system.b * k).eigenvalues();
