@@ -9,8 +9,8 @@
 
 #include "cli/verb.hpp"
 #include "core/error.hpp"
-#include "core/program.hpp"
 #include "core/files.hpp"
+#include "core/program.hpp"
 #include "experiments/run_directory/lock.hpp"
 #include "experiments/run_directory/own_files.hpp"
 

@@ -19,9 +19,9 @@
 #include "experiments/plan/rollouts.hpp"
 #include "recordings/log/annotator.hpp"
 #include "recordings/log/byte_source.hpp"
-#include "scenarios/scenario.hpp"
-#include "render/figures/log_figure.hpp"
 #include "recordings/mapping/conversion.hpp"
+#include "render/figures/log_figure.hpp"
+#include "scenarios/scenario.hpp"
 
 namespace touchdown::cli {
 

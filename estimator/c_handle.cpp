@@ -49,7 +49,8 @@ AssemblyConfig in_cpp(const touchdown_conventions& theirs, double sample_rate) n
   config.acceleration = theirs.uses_proper_acceleration != 0 ? AccelerationSource::proper
                                                              : AccelerationSource::without_gravity;
   config.reference_is_z_up = theirs.reference_is_z_up != 0;
-  for (Eigen::Index row = 0; row < 3; ++row) config.axes.row(row) = vector(theirs.imu_axes[row]).transpose();
+  for (Eigen::Index row = 0; row < 3; ++row)
+    config.axes.row(row) = vector(theirs.imu_axes[row]).transpose();
   return config;
 }
 

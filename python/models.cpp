@@ -4,7 +4,6 @@
 #include <optional>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -12,12 +11,10 @@
 
 #include "core/error.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "experiments/logs/log_steps.hpp"
+#include "python/arrays.hpp"
 #include "python/long_call.hpp"
 #include "python/recording_arrays.hpp"
-#include "recordings/log/byte_source.hpp"
-#include "recordings/log/writer.hpp"
-#include "recordings/mapping/conversion.hpp"
+#include "recordings/model_file.hpp"
 
 namespace touchdown::python {
 
@@ -25,19 +22,6 @@ namespace py = pybind11;
 namespace fs = std::filesystem;
 
 namespace {
-
-std::shared_ptr<const std::string> records_of(const py::object& recording) {
-  const recordings::Recording whole =
-      recording_of(recording, recording.attr("info").cast<py::dict>());
-  std::ostringstream stream;
-  recordings::LogWriter writer(stream, whole.info, recordings::truth_of(whole));
-  for (std::size_t k = 0; k < whole.steps(); ++k) {
-    writer.write(whole.observation[k], whole.action[k],
-                 whole.truth.empty() ? nullptr : &whole.truth[k]);
-  }
-  writer.finish();
-  return std::make_shared<const std::string>(stream.str());
-}
 
 using DeclaredRun = std::pair<py::object, std::optional<bool>>;
 
@@ -62,39 +46,6 @@ Model fit(const std::vector<DeclaredRun>& runs, const std::string& name, double 
         entry, logs, {.labels = labels, .skip = skip, .servo_load = servo_load, .stop = &stop},
         model.report);
     return model;
-  });
-}
-
-/// What is implausible about a recording in memory, or about a log by path, which a mapping file
-/// may convert.
-std::vector<std::string> check(const py::object& log, const std::string& robot,
-                               const std::optional<fs::path>& mapping) {
-  const bool in_memory = py::hasattr(log, "info");
-  if (in_memory && mapping) throw InputError("check: mapping is for logs by path");
-  const auto records = in_memory ? records_of(log) : nullptr;
-  const fs::path path = in_memory ? fs::path("recording") : path_of(log);
-  return long_call([&](const std::atomic<bool>& stop) {
-    std::optional<recordings::MappedLog> mapped;
-    if (mapping) {
-      mapped.emplace(path, *mapping, [&] {
-        if (stop) throw Stopped("stopped");
-      });
-    }
-    recordings::LogReader reader(
-        in_memory ? recordings::memory_source(records, &stop)
-                  : recordings::file_source(mapped ? mapped->path() : path, &stop),
-        path.string());
-    experiments::LogSteps steps(
-        reader, nullptr,
-        experiments::checked_robot(experiments::robot_of_file(robot), reader.info()));
-    while (steps.next() != nullptr) {
-    }
-    std::vector<std::string> lines;
-    if (mapped) lines = mapped->warnings();
-    lines.insert(lines.end(), reader.warnings().begin(), reader.warnings().end());
-    const std::vector<std::string> findings = steps.findings();
-    lines.insert(lines.end(), findings.begin(), findings.end());
-    return lines;
   });
 }
 
@@ -134,7 +85,7 @@ Model Model::load(const fs::path& path, const std::string& estimator) {
 
 void Model::save(const fs::path& path) const {
   const py::gil_scoped_release unlocked;
-  experiments::write_fitted_model(estimator.model, path);
+  recordings::save_model(estimator.model, path);
 }
 
 experiments::LogEstimator with_model(experiments::LogEstimatorRequest request, const Model& model) {
@@ -152,17 +103,6 @@ experiments::LogEstimator with_model(experiments::LogEstimatorRequest request, c
   return {entry, model.estimator.model, std::move(request)};
 }
 
-fs::path path_of(const py::object& object) {
-  try {
-    return object.cast<fs::path>();
-  } catch (const py::cast_error&) {
-    throw InputError(fmt::format("{}: expected a path", py::repr(object).cast<std::string>()));
-  }
-}
-
-void add_models(py::module_& module) {
-  add_model_class(module);
-  module.def("check", &check, py::arg("log"), py::arg("robot"), py::arg("mapping"));
-}
+void add_models(py::module_& module) { add_model_class(module); }
 
 }  // namespace touchdown::python

@@ -22,10 +22,7 @@ struct Model {
 /// and whether transfer is allowed. Errors: `InputError` for an estimator that cannot.
 experiments::LogEstimator with_model(experiments::LogEstimatorRequest request, const Model& model);
 
-/// Errors: `InputError` for what Python accepts in a path and no system does, such as "a\0".
-std::filesystem::path path_of(const pybind11::object& object);
-
-/// Adds `Model`, `fit`, and `check`, which reads logs like `fit`.
+/// Adds `Model` and `fit`.
 void add_models(pybind11::module_& module);
 
 }  // namespace touchdown::python

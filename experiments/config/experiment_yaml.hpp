@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/key.hpp"
 #include "core/fields.hpp"
+#include "core/key.hpp"
 #include "core/yaml.hpp"
 #include "experiments/config/experiment.hpp"
 

@@ -96,8 +96,7 @@ std::optional<BatchedEstimator> bayes_batch(const EstimatorEntry& entry,
 std::optional<BatchedEstimator> measurement_only_batch(const EstimatorEntry& entry,
                                                        const EstimatorSetup& setup, Levels levels) {
   const auto batch = measurement_batch<BatchedMeasurement>(entry, setup, levels);
-  return BatchedEstimator{update_of(batch),
-                          [batch](Side side) { return batch->p_contact(side); },
+  return BatchedEstimator{update_of(batch), [batch](Side side) { return batch->p_contact(side); },
                           entry.config->threshold};
 }
 

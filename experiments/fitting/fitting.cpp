@@ -11,8 +11,8 @@
 
 #include "core/error.hpp"
 #include "core/progress.hpp"
-#include "experiments/config/experiment.hpp"
 #include "core/random.hpp"
+#include "experiments/config/experiment.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 
 namespace touchdown::experiments {

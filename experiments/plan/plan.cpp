@@ -15,8 +15,8 @@
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 #include "noise/sensor_noise.hpp"
-#include "scenarios/leg_geometry.hpp"
 #include "scenarios/engine.hpp"
+#include "scenarios/leg_geometry.hpp"
 
 namespace touchdown::experiments {
 

@@ -16,8 +16,8 @@
 #include "experiments/config/experiment_yaml.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "scenarios/generation/generate.hpp"
 #include "noise/reported_signals.hpp"
+#include "scenarios/generation/generate.hpp"
 
 namespace touchdown::experiments {
 

@@ -16,9 +16,9 @@
 #include "core/progress.hpp"
 #include "experiments/plan/request.hpp"
 #include "recordings/log/recording_file.hpp"
-#include "scenarios/scenario.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/leg_geometry.hpp"
+#include "scenarios/scenario.hpp"
 
 namespace touchdown::experiments {
 

@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <cstdio>
+
 #include <fmt/format.h>
-#include "experiments/estimators/registry.hpp"
+
 #include "estimator/odometry/filter.hpp"
+#include "experiments/estimators/registry.hpp"
 
 namespace touchdown::experiments {
 

@@ -7,8 +7,8 @@
 #include "experiments/evaluation/summary.hpp"
 #include "experiments/figures/figure_spec.hpp"
 #include "experiments/fitting/fitting.hpp"
-#include "experiments/results/scores.hpp"
 #include "experiments/plan/rollouts.hpp"
+#include "experiments/results/scores.hpp"
 
 namespace touchdown::experiments {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "experiments/evaluation/summary.hpp"
-#include "experiments/results/scores.hpp"
 #include "experiments/plan/rollouts.hpp"
+#include "experiments/results/scores.hpp"
 
 namespace touchdown::experiments {
 

@@ -65,7 +65,7 @@ class RunDirectory {
   /// The same for measured rows, which `results.csv` repeats.
   template <typename Row>
   const Table& write_table(std::string_view name, const Columns<Row>& columns,
-                   const std::vector<Row>& rows) const {
+                           const std::vector<Row>& rows) const {
     Table table = columns.table(rows);
     table.columns = columns.infos();
     return write_table(name, std::move(table));

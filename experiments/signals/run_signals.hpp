@@ -10,10 +10,10 @@
 
 #include "estimator/contact_estimator.hpp"
 #include "estimator/force/leg_geometry.hpp"
+#include "estimator/odometry/wheeled_leg.hpp"
 #include "estimator/signals.hpp"
 #include "models/robot_model.hpp"
 #include "noise/sensor_noise.hpp"
-#include "estimator/odometry/wheeled_leg.hpp"
 #include "recordings/recording.hpp"
 #include "scoring/bootstrap.hpp"
 #include "scoring/labels.hpp"

@@ -10,8 +10,8 @@
 #include "core/files.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/config/experiment_yaml.hpp"
-#include "scoring/histogram.hpp"
 #include "experiments/studies/registry.hpp"
+#include "scoring/histogram.hpp"
 
 namespace touchdown::experiments {
 
@@ -217,18 +217,16 @@ Columns<OverlapRow> overlap_columns() {
 /// without one, no file is written.
 void write_overlap(const Evaluation& evaluation, const RunDirectory& directory) {
   const Experiment& experiment = evaluation.request.experiment;
-  const auto estimator = std::find_if(
-      experiment.estimators.begin(), experiment.estimators.end(), [&](const std::string& name) {
-        return estimator_entry(experiment, name).config.has_value();
-      });
+  const auto estimator = std::find_if(experiment.estimators.begin(), experiment.estimators.end(),
+                                      [&](const std::string& name) {
+                                        return estimator_entry(experiment, name).config.has_value();
+                                      });
   if (estimator == experiment.estimators.end()) return;
   const auto setups = benchmark_setups(evaluation.request, evaluation.plan);
   std::vector<OverlapRow> rows;
   for (const std::string& simulator : experiment.simulators) {
     const auto model = [&](const BenchmarkSetup& setup) -> const MeasurementModel& {
-      return *evaluation.models.at(simulator + setup.robot_and_sensors.fit)
-                  .at(*estimator)
-                  .grid;
+      return *evaluation.models.at(simulator + setup.robot_and_sensors.fit).at(*estimator).grid;
     };
     for (const BenchmarkSetup& first : setups) {
       for (const BenchmarkSetup& second : setups) {

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "estimator/odometry/wheeled_leg.hpp"
 #include "experiments/estimators/fitted_model.hpp"
 #include "experiments/plan/rollouts.hpp"
 #include "experiments/studies/study.hpp"
 #include "noise/sensor_noise.hpp"
-#include "estimator/odometry/wheeled_leg.hpp"
 #include "recordings/recording.hpp"
 #include "scenarios/engine.hpp"
 #include "scoring/labels.hpp"

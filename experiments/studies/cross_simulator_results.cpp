@@ -9,8 +9,8 @@
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/baselines.hpp"
 #include "experiments/studies/cross_simulator.hpp"
-#include "scoring/histogram.hpp"
 #include "scoring/bootstrap.hpp"
+#include "scoring/histogram.hpp"
 
 namespace touchdown::experiments {
 
@@ -200,8 +200,7 @@ std::vector<Transfer> transfers(const std::vector<ConditionCounts>& counts,
       const std::vector<scoring::Classification>& samples = samples_of(counts, condition, c);
       const std::vector<Interval> scores = scoring::bootstrap<scoring::Classification>(
           samples, {success, &scoring::Classification::no_contact_recall}, config);
-      result.push_back({condition, cell,
-                        estimator_entry(experiment, condition.estimator).fits(),
+      result.push_back({condition, cell, estimator_entry(experiment, condition.estimator).fits(),
                         scores[0], scores[1], difference(samples_of(counts, own, c), samples),
                         difference(samples, samples_of(counts, always, c))});
     }

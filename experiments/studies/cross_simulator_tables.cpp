@@ -8,13 +8,13 @@
 #include "core/rows.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/baselines.hpp"
+#include "experiments/estimators/registry.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/results/scores.hpp"
-#include "experiments/estimators/registry.hpp"
+#include "experiments/results/text_tables.hpp"
 #include "experiments/results/value_figure.hpp"
 #include "experiments/studies/cross_simulator.hpp"
 #include "simulators/registry.hpp"
-#include "experiments/results/text_tables.hpp"
 
 namespace touchdown::experiments {
 

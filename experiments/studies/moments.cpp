@@ -1,5 +1,4 @@
 #include "experiments/studies/moments.hpp"
-#include "scoring/histogram.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,6 +11,7 @@
 
 #include "experiments/plan/request.hpp"
 #include "experiments/studies/registry.hpp"
+#include "scoring/histogram.hpp"
 
 namespace touchdown::experiments {
 

@@ -12,10 +12,10 @@
 #include "core/resources.hpp"
 #include "core/table.hpp"
 #include "experiments/config/yaml_kind.hpp"
-#include "experiments/studies/experiment_file.hpp"
 #include "experiments/plan/rollouts.hpp"
-#include "experiments/run_directory/directory.hpp"
 #include "experiments/results/scores.hpp"
+#include "experiments/run_directory/directory.hpp"
+#include "experiments/studies/experiment_file.hpp"
 
 namespace touchdown::experiments {
 

@@ -6,11 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/signals/run_signals.hpp"
-#include "experiments/plan/rollouts.hpp"
-#include "experiments/submissions/exported_runs.hpp"
 #include "estimator/npz/npz.hpp"
 #include "experiments/experiment_context.hpp"
+#include "experiments/plan/rollouts.hpp"
+#include "experiments/signals/run_signals.hpp"
+#include "experiments/submissions/exported_runs.hpp"
 
 namespace touchdown::experiments {
 
@@ -55,7 +55,7 @@ ModelArrays exported_arrays(const RunSignals& run);
 
 /// The arrays of a run with noise.
 ModelArrays exported_arrays(const RunSignals& run, const NoiseRun& noise,
-                                      const noise::SensorNoise& levels);
+                            const noise::SensorNoise& levels);
 
 /// Upper bound of the size of a run's arrays on disk (bytes).
 double bytes_of_exported(double steps);

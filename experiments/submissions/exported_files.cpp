@@ -87,8 +87,7 @@ std::string noise_of(const Experiment& experiment) {
 
 /// An array with `columns` numbers per step, appended by `put`.
 template <typename Put>
-ModelArray array_of(const std::vector<Signals>& steps, std::size_t columns,
-                              const Put& put) {
+ModelArray array_of(const std::vector<Signals>& steps, std::size_t columns, const Put& put) {
   ModelArray array{{steps.size()}, {}};
   if (columns > 1) array.shape.push_back(columns);
   array.data.reserve(steps.size() * columns);
@@ -125,7 +124,7 @@ ModelArray numbers(const std::vector<Signals>& steps, double Signals::*member) {
 }
 
 ModelArrays arrays_of(const RunSignals& run,
-                                const std::function<Signals(std::size_t step)>& signals_at) {
+                      const std::function<Signals(std::size_t step)>& signals_at) {
   std::vector<Signals> steps;
   steps.reserve(run.steps());
   ModelArray recorded{{run.steps()}, {}};
@@ -185,7 +184,7 @@ ModelArrays exported_arrays(const RunSignals& run) {
 }
 
 ModelArrays exported_arrays(const RunSignals& run, const NoiseRun& noise,
-                                      const noise::SensorNoise& levels) {
+                            const noise::SensorNoise& levels) {
   return arrays_of(run, [&](std::size_t step) { return noisy(run, noise, levels, step); });
 }
 

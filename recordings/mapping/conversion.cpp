@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "estimator/record.hpp"
 #include "core/files.hpp"
+#include "estimator/record.hpp"
 #include "recordings/bags/bag.hpp"
 #include "recordings/log/writer.hpp"
 #include "recordings/mapping/mapping_file.hpp"

@@ -5,10 +5,11 @@
 #include <filesystem>
 #include <string>
 #include <vector>
+
 #include "core/interval.hpp"
 #include "render/gnuplot/figure.hpp"
-#include "render/report/subject.hpp"
 #include "render/report/study_pictures.hpp"
+#include "render/report/subject.hpp"
 
 namespace touchdown::render {
 

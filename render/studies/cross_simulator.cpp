@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "experiments/results/captions.hpp"
-#include "render/studies/registry.hpp"
-#include "render/figures/drop_overlay.hpp"
 #include "render/figures/chosen_run.hpp"
+#include "render/figures/drop_overlay.hpp"
+#include "render/studies/registry.hpp"
 
 namespace touchdown::render {
 

@@ -1,9 +1,10 @@
+#include "core/fields.hpp"
+
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/fields.hpp"
 #include "tests/complaint.hpp"
 
 namespace touchdown {

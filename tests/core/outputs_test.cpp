@@ -52,7 +52,8 @@ TEST_F(Outputs, ThatAreAnInputUnderAnyNameAreRefused) {
 TEST_F(Outputs, BesideTheInputsAreGood) {
   const fs::path other = folder_.write("b.mpack", "log");
   EXPECT_EQ(complaint({{log_, "log"}, {"", "model"}}, {folder_ / "new", other}), "no complaint");
-  EXPECT_EQ(complaint({{log_, "log"}}, {folder_ / "no" / "such" / "folder" / "a.mpack"}), "no complaint");
+  EXPECT_EQ(complaint({{log_, "log"}}, {folder_ / "no" / "such" / "folder" / "a.mpack"}),
+            "no complaint");
   EXPECT_EQ(complaint({}, {}), "no complaint");
 }
 

@@ -9,11 +9,11 @@
 #include "core/files.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "tests/experiments/studies/study_test.hpp"
 #include "experiments/run_experiment.hpp"
 #include "experiments/studies/experiment_file.hpp"
 #include "render/report/pictures.hpp"
 #include "tests/experiments/small_step_scene.hpp"
+#include "tests/experiments/studies/study_test.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {

@@ -1,5 +1,4 @@
 #include "simulators/actuators.hpp"
-
 #include "tests/simulators/upkie.hpp"
 
 namespace touchdown::simulators {

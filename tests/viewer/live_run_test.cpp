@@ -1,3 +1,5 @@
+#include "viewer/live_run.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -5,7 +7,6 @@
 #include "recordings/log/recording_file.hpp"
 #include "scenarios/engine.hpp"
 #include "tests/scratch_folder.hpp"
-#include "viewer/live_run.hpp"
 
 namespace touchdown::viewer {
 namespace {

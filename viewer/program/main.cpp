@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/program.hpp"
 #include "core/files.hpp"
+#include "core/program.hpp"
 #include "core/progress.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"
@@ -23,6 +23,7 @@
 #include "recordings/log/recording_file.hpp"
 #include "render/report/filmed_run.hpp"
 #include "render/report/subject.hpp"
+#include "scenarios/generation/generate.hpp"
 #include "scenarios/scenario_file.hpp"
 #include "viewer/panel.hpp"
 #include "viewer/watch.hpp"

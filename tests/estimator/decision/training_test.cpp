@@ -1,11 +1,10 @@
-#include "estimator/decision/fit.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "estimator/decision/fit.hpp"
 #include "tests/estimator/decision/random_model.hpp"
 #include "tests/estimator/random.hpp"
 

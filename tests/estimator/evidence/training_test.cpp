@@ -1,5 +1,3 @@
-#include "estimator/evidence/fit.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -7,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "estimator/evidence/fit.hpp"
 #include "tests/estimator/evidence/random_curves.hpp"
 #include "tests/estimator/random.hpp"
 

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "estimator/evidence/curves.hpp"
-#include "experiments/results/result_files.hpp"
 #include "estimator/models/parameters.hpp"
+#include "experiments/results/result_files.hpp"
 #include "tests/estimator/evidence/random_curves.hpp"
 
 namespace touchdown::experiments {
@@ -46,7 +46,8 @@ TEST(EvidenceTable, NamesTheSetOfCurves) {
   const EvidenceModel without = test::random_curves(3);
   for (const EvidenceCurveSets& sets :
        {EvidenceCurveSets(with, without), EvidenceCurveSets(with), EvidenceCurveSets(without)}) {
-    const Table table = evidence_table({{"bullet", {{"evidence_curves_quiet", fitted_model_of(sets)}}}});
+    const Table table =
+        evidence_table({{"bullet", {{"evidence_curves_quiet", fitted_model_of(sets)}}}});
     std::map<std::string, std::set<std::string>> channels;
     for (const auto& row : table.rows) {
       channels[cell(table, row, "targets")].insert(cell(table, row, "channel"));

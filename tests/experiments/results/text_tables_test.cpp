@@ -1,8 +1,9 @@
-#include "experiments/results/json_table.hpp"
 #include "experiments/results/text_tables.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "experiments/results/json_table.hpp"
 
 namespace touchdown::experiments {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "experiments/evaluation/tasks.hpp"
 #include "experiments/estimators/fits.hpp"
+#include "experiments/evaluation/tasks.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 

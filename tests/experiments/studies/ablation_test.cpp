@@ -100,8 +100,8 @@ std::vector<std::string> from_paper_to_robust() {
   return names;
 }
 
-std::array<std::vector<double>, 2> p_contact_of(const EstimatorEntry& entry,
-                                                const Model& model, const RunSignals& run,
+std::array<std::vector<double>, 2> p_contact_of(const EstimatorEntry& entry, const Model& model,
+                                                const RunSignals& run,
                                                 const noise::SensorNoise& levels) {
   const auto estimator = entry.make(entry, {.model = &model});
   const NoiseRun noise = noise_run(run, {.seed = 5, .run = 1});

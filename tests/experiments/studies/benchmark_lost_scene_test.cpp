@@ -5,8 +5,8 @@
 #include "core/table.hpp"
 #include "experiments/run_experiment.hpp"
 #include "tests/experiments/small_step_scene.hpp"
-#include "tests/scratch_folder.hpp"
 #include "tests/experiments/studies/study_test.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {
 namespace {

@@ -16,11 +16,11 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/experiment_context.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "tests/experiments/studies/study_test.hpp"
 #include "experiments/run_directory/shard.hpp"
 #include "experiments/run_experiment.hpp"
 #include "experiments/studies/experiment_file.hpp"
 #include "tests/experiments/small_step_scene.hpp"
+#include "tests/experiments/studies/study_test.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {

@@ -13,8 +13,8 @@
 #include "experiments/run_experiment.hpp"
 #include "experiments/studies/experiment_file.hpp"
 #include "tests/experiments/small_step_scene.hpp"
-#include "tests/scratch_folder.hpp"
 #include "tests/experiments/studies/study_test.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {
 namespace {
