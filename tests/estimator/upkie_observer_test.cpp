@@ -1,6 +1,7 @@
 #include "estimator/upkie_observer.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -8,14 +9,13 @@ namespace touchdown {
 namespace {
 
 constexpr double dt = 0.001;
-constexpr double pi = 3.14159265358979;
 
 /// Runs a wheel of the given inertia under a sinusoidal torque. Returns the last decision.
 bool drive(WheelContactObserver& observer, double inertia, double torque_amplitude,
            double seconds) {
   double velocity = 0.0;
   for (int t = 0; t * dt < seconds; ++t) {
-    const double torque = torque_amplitude * std::sin(2.0 * pi * 2.0 * t * dt);
+    const double torque = torque_amplitude * std::sin(2.0 * std::numbers::pi * 2.0 * t * dt);
     velocity += torque / inertia * dt;
     observer.update(torque, velocity, dt);
   }
