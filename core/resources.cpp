@@ -36,6 +36,20 @@ std::vector<std::string> neighbours_of(const std::filesystem::path& path) {
   return names;
 }
 
+/// A suggestion for a path whose folder holds nothing like it, as after the folder was renamed: the
+/// program's own file of the same name.
+std::string same_name_elsewhere(const std::filesystem::path& path) {
+  for (const char* folder : {"experiments", "models", "noise/profiles", "scenarios"}) {
+    const std::filesystem::path candidate = folder / path.filename();
+    std::error_code ignored;
+    for (const std::filesystem::path& root : roots()) {
+      if (!std::filesystem::is_regular_file(root / candidate, ignored)) continue;
+      return fmt::format(" (did you mean '{}'?)", candidate.string());
+    }
+  }
+  return "";
+}
+
 /// Errors: `InputError` for what is there, but cannot be a file: a folder, a pipe, a device, a loop
 /// of links, a name that is too long.
 void require_missing(const std::filesystem::path& path) {
@@ -81,8 +95,9 @@ std::filesystem::path find_resource(const std::filesystem::path& path) {
   for (const auto& file : resources_in(path.parent_path(), path.extension().string())) {
     neighbours.push_back(file.string());
   }
-  throw InputError(
-      fmt::format("{}: no such file{}", path.string(), did_you_mean(path.string(), neighbours)));
+  std::string near = did_you_mean(path.string(), neighbours);
+  if (near.empty()) near = same_name_elsewhere(path);
+  throw InputError(fmt::format("{}: no such file{}", path.string(), near));
 }
 
 void require_file(const std::filesystem::path& path) {

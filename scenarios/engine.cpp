@@ -77,8 +77,8 @@ std::unique_ptr<simulators::Simulator> make_simulator(
   return simulators::make_simulator(name, scene, scenario.simulation);
 }
 
-recordings::RecordingInfo recording_info(const Scenario& scenario, std::string_view simulator,
-                                         std::uint64_t seed, std::int64_t run) {
+logs::RecordingInfo recording_info(const Scenario& scenario, std::string_view simulator,
+                                   std::uint64_t seed, std::int64_t run) {
   return {.scenario = scenario.name,
           .simulator = std::string(simulator),
           .seed = seed,
@@ -88,10 +88,10 @@ recordings::RecordingInfo recording_info(const Scenario& scenario, std::string_v
           .scenario_yaml = to_yaml(scenario)};
 }
 
-recordings::Recording play(const Scenario& scenario, simulators::Simulator& simulator,
-                           std::uint64_t seed, std::int64_t run, const ContinueSimulation& progress,
-                           policies::WheelContact contact_source) {
-  recordings::Recording recording;
+logs::Recording play(const Scenario& scenario, simulators::Simulator& simulator, std::uint64_t seed,
+                     std::int64_t run, const ContinueSimulation& progress,
+                     policies::WheelContact contact_source) {
+  logs::Recording recording;
   recording.info = recording_info(scenario, simulator.name(), seed, run);
   const auto most_steps =
       static_cast<std::size_t>(scenario.end.duration / simulator.control_period()) + 2;
@@ -114,8 +114,8 @@ recordings::Recording play(const Scenario& scenario, simulators::Simulator& simu
   }
 }
 
-recordings::Recording play(const Scenario& scenario, std::string_view simulator, std::uint64_t seed,
-                           std::int64_t run, const ContinueSimulation& progress) {
+logs::Recording play(const Scenario& scenario, std::string_view simulator, std::uint64_t seed,
+                     std::int64_t run, const ContinueSimulation& progress) {
   return play(scenario, *make_simulator(scenario, simulator), seed, run, progress);
 }
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "logs/recording.hpp"
 #include "models/robot_model.hpp"
-#include "recordings/recording.hpp"
 #include "scenarios/scenario.hpp"
 #include "simulators/simulator.hpp"
 
@@ -51,22 +51,21 @@ std::unique_ptr<simulators::Simulator> make_simulator(
     const std::shared_ptr<const models::RobotModel>& scene);
 
 /// A recording's description of its run.
-recordings::RecordingInfo recording_info(const Scenario& scenario, std::string_view simulator,
-                                         std::uint64_t seed, std::int64_t run);
+logs::RecordingInfo recording_info(const Scenario& scenario, std::string_view simulator,
+                                   std::uint64_t seed, std::int64_t run);
 
 /// Simulates `scenario` as it is, without random draws, and records every control step. Falling,
 /// running out of time and diverging are outcomes, not errors. `seed` and `run` are only stored in
 /// the recording's info. `simulator` comes from `make_simulator` for a scenario with the same
 /// robot, terrain, mass and simulation; it is reset first, so it can be used again. If
 /// `contact_source` is given, it replaces the scenario's contact source, with the same delay.
-recordings::Recording play(const Scenario& scenario, simulators::Simulator& simulator,
-                           std::uint64_t seed = 0, std::int64_t run = 0,
-                           const ContinueSimulation& progress = {},
-                           policies::WheelContact contact_source = {});
+logs::Recording play(const Scenario& scenario, simulators::Simulator& simulator,
+                     std::uint64_t seed = 0, std::int64_t run = 0,
+                     const ContinueSimulation& progress = {},
+                     policies::WheelContact contact_source = {});
 
 /// As above, in a new simulator.
-recordings::Recording play(const Scenario& scenario, std::string_view simulator,
-                           std::uint64_t seed = 0, std::int64_t run = 0,
-                           const ContinueSimulation& progress = {});
+logs::Recording play(const Scenario& scenario, std::string_view simulator, std::uint64_t seed = 0,
+                     std::int64_t run = 0, const ContinueSimulation& progress = {});
 
 }  // namespace touchdown::scenarios

@@ -97,8 +97,7 @@ std::vector<std::string> differences(const models::RobotModel& robot) {
 }
 
 /// The largest angle of a held joint from its reference during a run (rad).
-double given_way(const recordings::Recording& recording,
-                 const std::vector<CheckedHeldJoint>& held) {
+double given_way(const logs::Recording& recording, const std::vector<CheckedHeldJoint>& held) {
   double largest = 0.0;
   for (const models::GroundTruth& truth : recording.truth) {
     for (std::size_t i = 0; i < std::min(held.size(), truth.held.size()); ++i) {
@@ -113,11 +112,11 @@ CheckedStand stand(const Scenario& scenario, const std::string& engine, const Ro
   const auto is_wanted = [&](double /*time*/ = 0.0) {
     return !should_continue || should_continue();
   };
-  const recordings::Recording recording = play(scenario, engine, 0, 0, is_wanted);
+  const logs::Recording recording = play(scenario, engine, 0, 0, is_wanted);
   if (!is_wanted()) throw Stopped("stopped");
   CheckedStand stand{.engine = engine, .ending = ending_text(recording, scenario.end)};
   stand.given_way = given_way(recording, check.held);
-  stand.stands = recording.info.outcome == recordings::Outcome::finished;
+  stand.stands = recording.info.outcome == logs::Outcome::finished;
   stand.moved = (recording.truth.back().base_position - recording.truth.front().base_position)
                     .head<2>()
                     .norm();

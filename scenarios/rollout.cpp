@@ -11,10 +11,10 @@
 #include "core/error.hpp"
 #include "estimator/force/support_force.hpp"
 #include "estimator/free_fall.hpp"
+#include "logs/signals_from.hpp"
 #include "models/robot_model.hpp"
 #include "policies/soft_lander.hpp"
 #include "policies/wheel_balancer.hpp"
-#include "recordings/signals_from.hpp"
 #include "scenarios/leg_geometry.hpp"
 #include "scenarios/start_pose.hpp"
 
@@ -29,7 +29,7 @@ policies::WheelContact contact_from(std::shared_ptr<ContactEstimator> estimator)
   estimator->reset();
   return [estimator = std::move(estimator)](const models::Observation& observation,
                                             const models::Action* previous) {
-    const Belief& belief = estimator->update(recordings::signals_from(observation, previous));
+    const Belief& belief = estimator->update(logs::signals_from(observation, previous));
     return WheelContacts{belief.wheel[0].contact, belief.wheel[1].contact};
   };
 }
@@ -158,15 +158,15 @@ const models::Action& Rollout::act() {
   const End& end = scenario_.end;
   if (truth.base_position.x() > end.x) passed_ = std::min(passed_, time());
   if (!simulator_.healthy()) {
-    outcome_ = recordings::Outcome::diverged;
+    outcome_ = logs::Outcome::diverged;
   } else if (truth.base_position.z() < 0.0) {
-    outcome_ = recordings::Outcome::left_terrain;
+    outcome_ = logs::Outcome::left_terrain;
   } else if (truth.body_touches_terrain || tipped_over(truth, end.fall_tilt)) {
-    outcome_ = recordings::Outcome::fell;
+    outcome_ = logs::Outcome::fell;
   } else if (time() - passed_ >= end.settle) {
-    outcome_ = recordings::Outcome::finished;
+    outcome_ = logs::Outcome::finished;
   } else if (time() >= end.duration) {
-    outcome_ = std::isinf(end.x) ? recordings::Outcome::finished : recordings::Outcome::timed_out;
+    outcome_ = std::isinf(end.x) ? logs::Outcome::finished : logs::Outcome::timed_out;
   }
   return action_;
 }

@@ -8,11 +8,11 @@
 #include <optional>
 #include <vector>
 
+#include "logs/recording.hpp"
 #include "models/robot.hpp"
 #include "policies/course.hpp"
 #include "policies/policy.hpp"
 #include "policies/wheel_contact.hpp"
-#include "recordings/recording.hpp"
 #include "scenarios/scenario.hpp"
 #include "simulators/simulator.hpp"
 
@@ -70,7 +70,7 @@ class Rollout {
   /// Computes the policy's action for the present observation, and whether the run is over.
   const models::Action& act();
   /// How the run ended, once it is over.
-  const std::optional<recordings::Outcome>& outcome() const { return outcome_; }
+  const std::optional<logs::Outcome>& outcome() const { return outcome_; }
   /// Simulates one control step under the last action.
   void advance();
 
@@ -99,7 +99,7 @@ class Rollout {
   std::shared_ptr<policies::CourseScripts> scripts_;
   std::unique_ptr<policies::Policy> policy_;
   models::Action action_;
-  std::optional<recordings::Outcome> outcome_;
+  std::optional<logs::Outcome> outcome_;
   double passed_;  ///< first time past `end.x` (s)
 };
 

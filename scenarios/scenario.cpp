@@ -26,19 +26,19 @@ std::string cause_of_fall(const models::GroundTruth& truth, double limit) {
                      limit);
 }
 
-std::string cause(const recordings::Recording& recording, const End& end) {
+std::string cause(const logs::Recording& recording, const End& end) {
   const models::GroundTruth& truth = recording.truth.back();
   switch (*recording.info.outcome) {
-    case recordings::Outcome::fell:
+    case logs::Outcome::fell:
       return cause_of_fall(truth, end.fall_tilt);
-    case recordings::Outcome::timed_out:
+    case logs::Outcome::timed_out:
       return fmt::format("at x = {:.2f} m, before the finish line at {:g} m",
                          truth.base_position.x(), end.x);
-    case recordings::Outcome::diverged:
+    case logs::Outcome::diverged:
       return "position or velocity not finite, or too large to be physical";
-    case recordings::Outcome::left_terrain:
+    case logs::Outcome::left_terrain:
       return "the base is below the floor";
-    case recordings::Outcome::finished:
+    case logs::Outcome::finished:
       break;
   }
   return {};
@@ -46,14 +46,14 @@ std::string cause(const recordings::Recording& recording, const End& end) {
 
 }  // namespace
 
-std::string outcome_text(recordings::Outcome outcome) {
-  if (outcome == recordings::Outcome::left_terrain) return "left the terrain";
-  std::string text(recordings::to_text(outcome));
+std::string outcome_text(logs::Outcome outcome) {
+  if (outcome == logs::Outcome::left_terrain) return "left the terrain";
+  std::string text(logs::to_text(outcome));
   std::replace(text.begin(), text.end(), '_', ' ');
   return text;
 }
 
-std::string ending_text(const recordings::Recording& recording, const End& end) {
+std::string ending_text(const logs::Recording& recording, const End& end) {
   const double duration = static_cast<double>(recording.steps()) * recording.period();
   if (!recording.info.outcome) return fmt::format("stopped after {:.3f} s", duration);
   const std::string ended =

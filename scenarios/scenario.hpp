@@ -9,12 +9,12 @@
 
 #include "core/key.hpp"
 #include "core/yaml.hpp"
+#include "logs/recording.hpp"
 #include "models/robot_description.hpp"
 #include "models/terrain.hpp"
 #include "policies/commands.hpp"
 #include "policies/forces.hpp"
 #include "policies/wheel_contact.hpp"
-#include "recordings/recording.hpp"
 #include "scenarios/perturbation.hpp"
 #include "simulators/options.hpp"
 
@@ -98,10 +98,10 @@ inline constexpr double least_bend = 0.03;
 Scenario perturbed(const Scenario& scenario, std::uint64_t seed, std::int64_t run);
 
 /// An outcome in running text: "timed out", "left the terrain".
-std::string outcome_text(recordings::Outcome outcome);
+std::string outcome_text(logs::Outcome outcome);
 
 /// How and when a run ended, and why if it ended early: "finished after 27.552 s", "fell after
 /// 1.048 s: pitch beyond 1 rad". `end` holds the limits of the run's scenario.
-std::string ending_text(const recordings::Recording& recording, const End& end);
+std::string ending_text(const logs::Recording& recording, const End& end);
 
 }  // namespace touchdown::scenarios

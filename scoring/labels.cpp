@@ -120,8 +120,8 @@ ContactSequence contact_labels(std::span<const double> normal_force, double peri
   return config.annotator ? annotated(contact, period, *config.annotator) : contact;
 }
 
-std::array<ContactSequence, models::wheel_count> contact_labels(
-    const recordings::Recording& recording, const LabelConfig& config) {
+std::array<ContactSequence, models::wheel_count> contact_labels(const logs::Recording& recording,
+                                                                const LabelConfig& config) {
   if (recording.truth.size() != recording.steps()) {
     throw InputError(fmt::format("recording of '{}' has no ground truth to label contact with",
                                  recording.info.scenario));

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "logs/recording.hpp"
 #include "models/robot.hpp"
-#include "recordings/recording.hpp"
 
 namespace touchdown {
 class Fields;
@@ -62,8 +62,8 @@ ContactSequence contact_labels(std::span<const double> normal_force, double peri
 
 /// Contact of both wheels (left, right) from a simulated run's ground truth.
 /// Errors: `InputError` when the recording has no ground truth.
-std::array<ContactSequence, models::wheel_count> contact_labels(
-    const recordings::Recording& recording, const LabelConfig& config);
+std::array<ContactSequence, models::wheel_count> contact_labels(const logs::Recording& recording,
+                                                                const LabelConfig& config);
 
 std::vector<Flight> flights(const ContactSequence& contact);
 

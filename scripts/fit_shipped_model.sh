@@ -13,7 +13,7 @@ cd "$(dirname "$0")/.."
 readonly seed=103
 readonly simulators=(mujoco bullet)
 readonly robots=(upkie.xml upkie_actuated.yaml upkie_straight.yaml upkie_straight_actuated.yaml)
-readonly sensors=sensors/upkie.yaml
+readonly sensors=noise/profiles/upkie.yaml
 # leave_below and return_above of both operating points
 readonly balanced_point=(0.65 0.98) quiet_point=(0.2 0.99)
 

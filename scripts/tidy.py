@@ -60,7 +60,7 @@ def contradict(flags, others):
 
 
 def sources_of(entry):
-    """The file, or the files of a folder that the build compiles as one (cmake/TouchdownTargets.cmake)."""
+    """The file, or the files of a folder that the build compiles as one (scripts/cmake/TouchdownTargets.cmake)."""
     file = os.path.abspath(os.path.join(entry["directory"], entry["file"]))
     if not file.endswith(".cxx"):
         return [file]

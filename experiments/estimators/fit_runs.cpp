@@ -32,7 +32,7 @@ double period_of(const RunSignals& run) {
   return 1e-6 * static_cast<double>(run.info.control_period_us);
 }
 
-std::string robot_of(const recordings::RecordingInfo& info) {
+std::string robot_of(const logs::RecordingInfo& info) {
   if (info.scenario_yaml.empty()) return info.robot;
   const YamlDocument scenario =
       YamlDocument::parse(info.scenario_yaml, info.scenario + " (in the log)");
@@ -42,7 +42,7 @@ std::string robot_of(const recordings::RecordingInfo& info) {
              : "";
 }
 
-void FittedTo::add(const recordings::RecordingInfo& info) {
+void FittedTo::add(const logs::RecordingInfo& info) {
   if (sample_rate == 0.0) sample_rate = 1e6 / static_cast<double>(info.control_period_us);
   if (const std::string robot = robot_of(info); !robot.empty()) robots.insert(robot);
 }

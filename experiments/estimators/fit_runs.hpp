@@ -10,7 +10,7 @@
 
 #include "estimator/force/leg_geometry.hpp"
 #include "estimator/models/arrays.hpp"
-#include "recordings/recording.hpp"
+#include "logs/recording.hpp"
 #include "scoring/transitions.hpp"
 
 namespace touchdown::experiments {
@@ -39,7 +39,7 @@ LegGeometry legs_of(const FitRuns& runs);
 double period_of(const RunSignals& run);
 
 /// The name of the robot's file, without extension; empty for a log that does not name it.
-std::string robot_of(const recordings::RecordingInfo& info);
+std::string robot_of(const logs::RecordingInfo& info);
 
 /// The data that a model's metadata records about the runs of its fit.
 struct FittedTo {
@@ -48,7 +48,7 @@ struct FittedTo {
   LegGeometry legs = {};
   bool servo_load = false;  ///< as in `FitRuns`
 
-  void add(const recordings::RecordingInfo& info);
+  void add(const logs::RecordingInfo& info);
 };
 
 /// The number of a run's steps in the first `skip` seconds of its log, at most all of them.

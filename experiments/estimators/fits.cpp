@@ -61,7 +61,7 @@ std::span<const Signals> usable_signals(const RunSignals& run,
 
 }  // namespace
 
-bool may_be_held(const recordings::RecordingInfo& info) {
+bool may_be_held(const logs::RecordingInfo& info) {
   if (info.scenario_yaml.empty()) return false;
   const YAML::Node scenario =
       YamlDocument::parse(info.scenario_yaml, info.scenario + " (in the log)").root();

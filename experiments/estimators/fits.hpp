@@ -16,7 +16,7 @@
 namespace touchdown::experiments {
 
 /// Whether a tether or a force may have carried the robot in a run.
-bool may_be_held(const recordings::RecordingInfo& info);
+bool may_be_held(const logs::RecordingInfo& info);
 
 /// Fits the phase filter's model to noiseless runs, each without its first `skip` seconds. Its
 /// provenance lists scenarios, simulators, seeds, runs and seconds.

@@ -104,7 +104,7 @@ EstimatorEntry configured(EstimatorEntry entry, const Model& model,
 }  // namespace
 
 std::unique_ptr<ContactEstimator> LogEstimator::make(double sample_rate,
-                                                     const recordings::RecordingInfo& log) const {
+                                                     const logs::RecordingInfo& log) const {
   if (model.metadata && !request.transfer) {
     try {
       check_use(*model.metadata,

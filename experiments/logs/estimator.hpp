@@ -7,7 +7,7 @@
 #include "estimator/contact_estimator.hpp"
 #include "experiments/estimators/entry.hpp"
 #include "experiments/logs/robot.hpp"
-#include "recordings/recording.hpp"
+#include "logs/recording.hpp"
 
 namespace touchdown::experiments {
 
@@ -33,7 +33,7 @@ struct LogEstimator {
   /// the estimator cannot run. Without `request.transfer` also for a rate or a robot that the model
   /// was not fitted for.
   std::unique_ptr<ContactEstimator> make(double sample_rate,
-                                         const recordings::RecordingInfo& log = {}) const;
+                                         const logs::RecordingInfo& log = {}) const;
 
   /// The model's metadata in one line; empty without a model.
   std::string model_text() const;

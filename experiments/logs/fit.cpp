@@ -19,10 +19,9 @@ namespace touchdown::experiments {
 
 namespace {
 
-recordings::LogReader reader_of(const FitLog& log, const LogFitConfig& config) {
-  if (!log.records) return recordings::LogReader(log.path, config.stop);
-  return recordings::LogReader(recordings::memory_source(log.records, config.stop),
-                               log.path.string());
+logs::LogReader reader_of(const FitLog& log, const LogFitConfig& config) {
+  if (!log.records) return logs::LogReader(log.path, config.stop);
+  return logs::LogReader(logs::memory_source(log.records, config.stop), log.path.string());
 }
 
 using Sink = std::function<void(bool contact, const TorqueSample& sample)>;

@@ -13,7 +13,7 @@
 #include "experiments/estimators/entry.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
-#include "recordings/log/contact_intervals.hpp"
+#include "logs/log/contact_intervals.hpp"
 #include "scoring/labels.hpp"
 
 namespace touchdown::experiments {
@@ -26,7 +26,7 @@ struct FitLog {
   /// Its records, if they are in memory; `path` is then only their name.
   std::shared_ptr<const std::string> records = {};
   /// Labels of segments of the log; steps between the segments are left out.
-  std::shared_ptr<const recordings::ContactIntervals> labels = {};
+  std::shared_ptr<const logs::ContactIntervals> labels = {};
 };
 
 struct LogFitConfig {
@@ -74,7 +74,7 @@ class FitLogSteps {
   void finish(std::int64_t used_steps);
 
   /// The log's description, with its period.
-  const recordings::RecordingInfo& info() const { return info_; }
+  const logs::RecordingInfo& info() const { return info_; }
   const LogSteps& steps() const { return steps_; }
   /// Those of the log's robot; Upkie's if its file is not known.
   LegGeometry legs() const { return robot_.legs.value_or(LegGeometry{}); }
@@ -85,10 +85,10 @@ class FitLogSteps {
   const FitLog& log_;
   const LogFitConfig& config_;
   LogFitReport& report_;
-  recordings::LogReader reader_;
-  recordings::CheckedRobot robot_;
+  logs::LogReader reader_;
+  logs::CheckedRobot robot_;
   LogSteps steps_;
-  recordings::RecordingInfo info_;
+  logs::RecordingInfo info_;
   const LogStep* step_ = nullptr;
   double last_time_ = 0.0;
   std::int64_t compared_ = 0;  ///< steps, both wheels added

@@ -6,17 +6,17 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "recordings/sample_times.hpp"
+#include "logs/sample_times.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
 /// The rate of the log (Hz). A simulated log specifies its own.
-double usable_rate(recordings::LogReader& reader) {
-  const recordings::RecordingInfo& info = reader.info();
+double usable_rate(logs::LogReader& reader) {
+  const logs::RecordingInfo& info = reader.info();
   const double measured = 1e6 / static_cast<double>(info.control_period_us);
-  const double rate = info.simulator.empty() ? recordings::nominal_rate(measured) : measured;
+  const double rate = info.simulator.empty() ? logs::nominal_rate(measured) : measured;
   constexpr double lowest = 100.0;
   constexpr double highest = 20'000.0;
   if (!(rate >= lowest && rate <= highest)) {
@@ -32,8 +32,7 @@ AssemblyConfig assembly_of(double sample_rate) {
 }
 
 /// Stand-ins for the forces of a log with labels of contact alone.
-std::optional<std::array<double, models::wheel_count>> forces(
-    const recordings::ContactInterval* label) {
+std::optional<std::array<double, models::wheel_count>> forces(const logs::ContactInterval* label) {
   if (label == nullptr) return std::nullopt;
   constexpr double some_force = std::numeric_limits<double>::infinity();
   return {{label->contact[0] ? some_force : 0.0, label->contact[1] ? some_force : 0.0}};
@@ -41,8 +40,8 @@ std::optional<std::array<double, models::wheel_count>> forces(
 
 }  // namespace
 
-LogSteps::LogSteps(recordings::LogReader& reader, const recordings::ContactIntervals* labels,
-                   const recordings::CheckedRobot& robot)
+LogSteps::LogSteps(logs::LogReader& reader, const logs::ContactIntervals* labels,
+                   const logs::CheckedRobot& robot)
     : reader_(reader),
       labels_(labels),
       sample_rate_(usable_rate(reader)),
@@ -51,11 +50,11 @@ LogSteps::LogSteps(recordings::LogReader& reader, const recordings::ContactInter
       plausibility_(1.0 / sample_rate_, robot) {}
 
 const LogStep* LogSteps::next() {
-  const std::optional<recordings::LogRow> row = reader_.next();
+  const std::optional<logs::LogRow> row = reader_.next();
   if (!row) return nullptr;
   plausibility_.add(row->observation);
   step_.signals = assembler_.assemble(
-      recordings::record_of(row->observation, previous_ ? &*previous_ : nullptr, joints_));
+      logs::record_of(row->observation, previous_ ? &*previous_ : nullptr, joints_));
   previous_ = row->action;
   step_.normal_force.reset();
   if (labels_ != nullptr) {

@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "estimator/signal_assembler.hpp"
-#include "recordings/log/contact_intervals.hpp"
-#include "recordings/log/reader.hpp"
-#include "recordings/plausibility/check.hpp"
-#include "recordings/signals_from.hpp"
+#include "logs/log/contact_intervals.hpp"
+#include "logs/log/reader.hpp"
+#include "logs/plausibility/check.hpp"
+#include "logs/signals_from.hpp"
 
 namespace touchdown::experiments {
 
@@ -28,14 +28,13 @@ class LogSteps {
   /// truth. `robot` is for the findings. Errors: those of the reader; `InputError` for a log with
   /// fewer than 100 steps per second, where every step would be a gap (`SignalGuardConfig`), or
   /// with more than 20,000.
-  explicit LogSteps(recordings::LogReader& reader,
-                    const recordings::ContactIntervals* labels = nullptr,
-                    const recordings::CheckedRobot& robot = {});
+  explicit LogSteps(logs::LogReader& reader, const logs::ContactIntervals* labels = nullptr,
+                    const logs::CheckedRobot& robot = {});
 
   /// The next step, valid until the next call; null at the end of the log.
   const LogStep* next();
 
-  /// The log's period. For a robot's log it is that of `recordings::nominal_rate`: clocks jitter,
+  /// The log's period. For a robot's log it is that of `logs::nominal_rate`: clocks jitter,
   /// and some estimators support only certain rates.
   std::int64_t period_us() const { return period_us_; }
   double period() const { return 1.0 / sample_rate_; }
@@ -49,13 +48,13 @@ class LogSteps {
   std::vector<std::string> findings() const { return plausibility_.findings(); }
 
  private:
-  recordings::LogReader& reader_;
-  const recordings::ContactIntervals* labels_;
+  logs::LogReader& reader_;
+  const logs::ContactIntervals* labels_;
   double sample_rate_;
   std::int64_t period_us_;
   SignalAssembler assembler_;
-  recordings::PlausibilityCheck plausibility_;
-  recordings::RecordedJoints joints_;
+  logs::PlausibilityCheck plausibility_;
+  logs::RecordedJoints joints_;
   std::optional<models::Action> previous_;  ///< of the step before
   LogStep step_;
 };

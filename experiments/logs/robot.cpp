@@ -15,15 +15,15 @@ namespace touchdown::experiments {
 
 namespace {
 
-recordings::JointRanges ranges_of(const models::RobotModel& robot) {
-  recordings::JointRanges ranges;
+logs::JointRanges ranges_of(const models::RobotModel& robot) {
+  logs::JointRanges ranges;
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const int joint = robot.mj->dof_jntid[robot.dof_address[i]];
     const bool is_limited = robot.mj->jnt_limited[joint] != 0;
     constexpr double turn = 6.283185307179586;
-    ranges[i] = is_limited ? recordings::JointRange{robot.mj->jnt_range[2 * joint],
-                                                    robot.mj->jnt_range[2 * joint + 1]}
-                           : recordings::JointRange{-turn, turn};
+    ranges[i] = is_limited ? logs::JointRange{robot.mj->jnt_range[2 * joint],
+                                              robot.mj->jnt_range[2 * joint + 1]}
+                           : logs::JointRange{-turn, turn};
   }
   return ranges;
 }
@@ -43,7 +43,7 @@ bool is_robots_file(const std::filesystem::path& path) {
 }
 
 /// The path of a simulated log's robot; empty for other logs.
-std::filesystem::path robot_file_of(const recordings::RecordingInfo& log) {
+std::filesystem::path robot_file_of(const logs::RecordingInfo& log) {
   if (log.scenario_yaml.empty()) return {};
   const YamlDocument scenario = YamlDocument::parse(log.scenario_yaml, log.scenario);
   const YAML::Node robot = scenario.root()["robot"];
@@ -74,8 +74,7 @@ LogRobot robot_of_file(const std::string& file) {
   return robot_in_file(file);
 }
 
-recordings::CheckedRobot checked_robot(const LogRobot& requested,
-                                       const recordings::RecordingInfo& log) {
+logs::CheckedRobot checked_robot(const LogRobot& requested, const logs::RecordingInfo& log) {
   LogRobot robot = requested;
   if (!robot.legs) {
     try {

@@ -4,16 +4,16 @@
 #include <string>
 
 #include "estimator/force/leg_geometry.hpp"
-#include "recordings/plausibility/rules.hpp"
-#include "recordings/recording.hpp"
+#include "logs/plausibility/rules.hpp"
+#include "logs/recording.hpp"
 
 namespace touchdown::experiments {
 
 /// The robot of some logs.
 struct LogRobot {
-  std::string name = {};                               ///< empty: as in the logs, if they name one
-  std::optional<LegGeometry> legs = {};                ///< from its file, if there is one
-  std::optional<recordings::JointRanges> ranges = {};  ///< of its joints, likewise
+  std::string name = {};                         ///< empty: as in the logs, if they name one
+  std::optional<LegGeometry> legs = {};          ///< from its file, if there is one
+  std::optional<logs::JointRanges> ranges = {};  ///< of its joints, likewise
 };
 
 /// Takes a name, or a file: an MJCF, or a YAML description of one (models/robot_description.hpp). A
@@ -27,8 +27,7 @@ LogRobot robot_of_file(const std::string& file);
 
 /// What the checks of a log know about its robot: the requested one, else the one that a simulated
 /// log names, if its file is there.
-recordings::CheckedRobot checked_robot(const LogRobot& requested,
-                                       const recordings::RecordingInfo& log);
+logs::CheckedRobot checked_robot(const LogRobot& requested, const logs::RecordingInfo& log);
 
 /// A model's robot for messages: its name in quotes, or "an unnamed robot".
 std::string robot_text(const std::string& name);

@@ -86,7 +86,7 @@ class LogSummary {
 
   /// Ends the log. A few lines, each with a line end: time, contact, takeoffs and landings,
   /// signals, and the score if the log has ground truth. `start` is the log's clock at time 0 (s),
-  /// `findings` the number of lines about implausible signals (recordings/plausibility/check.hpp).
+  /// `findings` the number of lines about implausible signals (logs/plausibility/check.hpp).
   std::string text(const std::optional<scoring::RobotScore>& score, double start = 0.0,
                    std::size_t findings = 0);
 

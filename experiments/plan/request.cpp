@@ -121,7 +121,7 @@ noise::NoiseKey sensor_key(const Experiment& experiment, std::int64_t run) {
 }
 
 void report_through_sensors(const noise::SensorProfile& profile, const Experiment& experiment,
-                            std::int64_t run, recordings::Recording& recording) {
+                            std::int64_t run, logs::Recording& recording) {
   const noise::NoiseKey key = sensor_key(experiment, run);
   noise::report_through(profile, key, recording.period(), recording.observation);
   noise::report_targets(profile, key, recording.action);

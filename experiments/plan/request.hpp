@@ -8,9 +8,9 @@
 
 #include "experiments/config/experiment.hpp"
 #include "experiments/run_directory/directory.hpp"
+#include "logs/recording.hpp"
 #include "noise/gaussian.hpp"
 #include "noise/sensor_profile.hpp"
-#include "recordings/recording.hpp"
 #include "scenarios/scenario.hpp"
 
 namespace touchdown::experiments {
@@ -43,10 +43,10 @@ noise::NoiseKey sensor_key(const Experiment& experiment, std::int64_t run);
 /// Replaces the recorded observations of a run by the output of the sensor model, and targets by
 /// those with the zeros of its joints. The same run of another engine gets the same draws.
 void report_through_sensors(const noise::SensorProfile& profile, const Experiment& experiment,
-                            std::int64_t run, recordings::Recording& recording);
+                            std::int64_t run, logs::Recording& recording);
 
-/// The caption of robot and sensors, such as "; sensors as in sensors/upkie.yaml". It omits ideal
-/// sensors, and the robot where each scenario has its own.
+/// The caption of robot and sensors, such as "; sensors as in noise/profiles/upkie.yaml". It omits
+/// ideal sensors, and the robot where each scenario has its own.
 std::string setup_caption(const Experiment& experiment);
 
 /// A scenario under the name that the experiment uses, found and read.

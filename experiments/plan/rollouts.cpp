@@ -15,7 +15,7 @@
 #include "core/fingerprint.hpp"
 #include "core/progress.hpp"
 #include "experiments/plan/request.hpp"
-#include "recordings/log/recording_file.hpp"
+#include "logs/log/recording_file.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/leg_geometry.hpp"
 #include "scenarios/scenario.hpp"
@@ -54,7 +54,7 @@ bool is_whole(const PlannedRun& run, const RunDirectory& directory, const std::s
 /// The rollout of a run that could not be simulated.
 Rollout failed(const PlannedRun& plan, const std::string& why) {
   Rollout run{plan,
-              {.outcome = recordings::Outcome::diverged,
+              {.outcome = logs::Outcome::diverged,
                .error = why,
                .ending = "could not be simulated: " + why},
               {}};
@@ -64,7 +64,7 @@ Rollout failed(const PlannedRun& plan, const std::string& why) {
 }
 
 /// The rollout of a recorded run, with the signals of its sensor model.
-Rollout rollout(const PlannedRun& run, recordings::Recording recording, const Plan& plan,
+Rollout rollout(const PlannedRun& run, logs::Recording recording, const Plan& plan,
                 const Experiment& experiment, scenarios::CompiledScenes& scenes) {
   const noise::SensorProfile& sensors = plan.sensors[run.sensors].profile;
   report_through_sensors(sensors, experiment, run.run, recording);
@@ -82,7 +82,7 @@ Rollout rollout(const PlannedRun& run, recordings::Recording recording, const Pl
     return flight.landing - flight.takeoff < shortest;
   });
   return {run,
-          {recording.info.outcome.value_or(recordings::Outcome::finished),
+          {recording.info.outcome.value_or(logs::Outcome::finished),
            static_cast<double>(recording.steps()) * recording.period(),
            static_cast<int>(flights.size()),
            {},
@@ -90,8 +90,8 @@ Rollout rollout(const PlannedRun& run, recordings::Recording recording, const Pl
           std::move(signals)};
 }
 
-recordings::Recording simulate(const PlannedRun& run, scenarios::CompiledScenes& scenes,
-                               const ShouldContinue& should_continue) {
+logs::Recording simulate(const PlannedRun& run, scenarios::CompiledScenes& scenes,
+                         const ShouldContinue& should_continue) {
   const auto simulator =
       scenarios::make_simulator(run.scenario, run.simulator, scenes.of(run.scenario));
   return scenarios::play(run.scenario, *simulator, run.seed, run.run,
@@ -100,7 +100,7 @@ recordings::Recording simulate(const PlannedRun& run, scenarios::CompiledScenes&
 
 /// The recording of a run, or the reason why there is none.
 struct Recorded {
-  std::optional<recordings::Recording> recording;
+  std::optional<logs::Recording> recording;
   std::string error;
 };
 
@@ -109,13 +109,13 @@ Recorded simulate_or_read(const PlannedRun& run, const std::string& key,
                           scenarios::CompiledScenes& scenes,
                           const ShouldContinue& should_continue) {
   const auto file = directory.file("recordings", run.file);
-  if (is_whole(run, directory, key)) return {recordings::read_recording(file), {}};
+  if (is_whole(run, directory, key)) return {logs::read_recording(file), {}};
   if (missing == MissingRun::refuse) {
     const std::optional<SimulationEnd> end = saved_end(run, directory, key);
     if (end && !end->is_recorded) return {{}, end->error};
     if (run.kept) throw Error(fmt::format("{}: is missing or not whole", file.string()));
   }
-  recordings::Recording recording;
+  logs::Recording recording;
   try {
     recording = simulate(run, scenes, should_continue);
   } catch (const InputError&) {
@@ -130,7 +130,7 @@ Recorded simulate_or_read(const PlannedRun& run, const std::string& key,
   }
   if (!should_continue()) throw Stopped();
   if (run.kept) {
-    recordings::write_recording(recording, file);
+    logs::write_recording(recording, file);
     const std::optional<std::uint64_t> sum = file_checksum(file);
     if (!sum) throw Error(fmt::format("{}: cannot be read again", file.string()));
     directory.store().put(

@@ -14,7 +14,7 @@ namespace touchdown::experiments {
 
 /// The outcome of a planned run.
 struct RunReport {
-  recordings::Outcome outcome = recordings::Outcome::finished;
+  logs::Outcome outcome = logs::Outcome::finished;
   double duration = 0.0;    ///< s
   int flights = 0;          ///< with both wheels off the ground for the scoring's minimum time
   std::string error = {};   ///< why there is no recording; the outcome is then `diverged`
@@ -22,9 +22,9 @@ struct RunReport {
 };
 
 /// Whether studies exclude runs with this outcome.
-inline bool is_failure(recordings::Outcome outcome) {
-  return outcome == recordings::Outcome::fell || outcome == recordings::Outcome::diverged ||
-         outcome == recordings::Outcome::left_terrain;
+inline bool is_failure(logs::Outcome outcome) {
+  return outcome == logs::Outcome::fell || outcome == logs::Outcome::diverged ||
+         outcome == logs::Outcome::left_terrain;
 }
 
 /// A planned run that was simulated or read.

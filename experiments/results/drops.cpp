@@ -199,7 +199,7 @@ DropPosterior drop_posterior(const Experiment& experiment, const PosteriorConfig
 }
 
 DropDetail drop_detail(const Experiment& experiment, const DetailConfig& config,
-                       const recordings::Recording& recording, const RunSignals& run,
+                       const logs::Recording& recording, const RunSignals& run,
                        const FittedModels& models) {
   const DropWindow window =
       drop_window(run, config.choice, experiment.scoring.minimum_flight, "detail");

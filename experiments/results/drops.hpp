@@ -11,7 +11,7 @@
 #include "experiments/config/experiment.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/signals/run_signals.hpp"
-#include "recordings/recording.hpp"
+#include "logs/recording.hpp"
 #include "scoring/labels.hpp"
 
 namespace touchdown::experiments {
@@ -102,7 +102,7 @@ struct DropDetail {
 /// first estimator with a transition model, else of `robust`. `recording` is the source of `run`.
 /// Errors: `InputError` when the run has no such drop.
 DropDetail drop_detail(const Experiment& experiment, const DetailConfig& config,
-                       const recordings::Recording& recording, const RunSignals& run,
+                       const logs::Recording& recording, const RunSignals& run,
                        const FittedModels& models);
 
 /// Log likelihoods of every phase at one step, weighted as in the filter, up to a constant that all

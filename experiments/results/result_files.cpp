@@ -25,7 +25,7 @@
 #include "experiments/results/scores.hpp"
 #include "experiments/results/summary_file.hpp"
 #include "experiments/results/text_tables.hpp"
-#include "recordings/model_file.hpp"
+#include "logs/model_file.hpp"
 
 namespace touchdown::experiments {
 
@@ -55,7 +55,7 @@ Json failed_runs(const std::vector<Rollout>& runs) {
   for (const Rollout& run : runs) {
     if (!run.failed()) continue;
     list.push_back({{"recording", run.plan.file},
-                    {"outcome", recordings::to_text(run.report.outcome)},
+                    {"outcome", logs::to_text(run.report.outcome)},
                     {"ending", run.report.ending}});
   }
   return list;
@@ -157,7 +157,7 @@ Columns<Rollout> run_columns() {
       .number("run", [](const Rollout& run) { return run.plan.run; })
       .text("outcome",
             [](const Rollout& run) {
-              return run.report.error.empty() ? recordings::to_text(run.report.outcome) : "error";
+              return run.report.error.empty() ? logs::to_text(run.report.outcome) : "error";
             })
       .count("flights", [](const Rollout& run) { return run.report.flights; })
       .metric("duration_s", [](const Rollout& run) { return run.report.duration; });
@@ -194,7 +194,7 @@ Table evidence_table(const FittedModels& models) {
 void write_model_of(const std::string& key, const std::string& estimator, const Model& model,
                     const RunDirectory& directory) {
   if (is_of_refit(key) || !has_numbers(model)) return;
-  recordings::save_model(model, directory.own_file("models", model_name(key, estimator)));
+  logs::save_model(model, directory.own_file("models", model_name(key, estimator)));
 }
 
 void write_result_files(const ExperimentResult& result) {

@@ -19,7 +19,7 @@ struct RunSummary {
   std::string simulator;
   std::int64_t run = 0;   ///< its index, unique within one engine
   std::string recording;  ///< its file's name
-  recordings::Outcome outcome = recordings::Outcome::finished;
+  logs::Outcome outcome = logs::Outcome::finished;
   int flights = 0;
 };
 

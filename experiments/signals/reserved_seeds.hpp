@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "recordings/recording.hpp"
+#include "logs/recording.hpp"
 
 namespace touchdown::experiments {
 
@@ -18,7 +18,7 @@ inline bool is_reserved(std::uint64_t seed) { return seed >= first_reserved_seed
 inline std::uint64_t fit_seed(std::uint64_t seed) { return is_reserved(seed) ? 1 : seed; }
 
 /// Errors: `InputError` when the run was drawn with a reserved seed.
-inline void check_may_be_fitted(const recordings::RecordingInfo& info) {
+inline void check_may_be_fitted(const logs::RecordingInfo& info) {
   if (!is_reserved(info.seed)) return;
   throw InputError("run " + std::to_string(info.run) + " of scenario '" + info.scenario +
                    "' was drawn with seed " + std::to_string(info.seed) + ": seeds from " +

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "recordings/signals_from.hpp"
+#include "logs/signals_from.hpp"
 
 namespace touchdown::experiments {
 
@@ -51,7 +51,7 @@ odometry::WheeledBiped wheeled_biped(const models::RobotModel& robot) {
   return biped;
 }
 
-RunMotion motion_of(const recordings::Recording& recording, const models::RobotModel& robot) {
+RunMotion motion_of(const logs::Recording& recording, const models::RobotModel& robot) {
   const Eigen::Vector3d imu = robot.imu_position;
   RunMotion motion{wheeled_biped(robot), {}, {}};
   motion.specific_force.reserve(recording.steps());
@@ -73,7 +73,7 @@ RunPointers pointers_to(const std::vector<RunSignals>& runs) {
   return pointers;
 }
 
-RunSignals signals_of(const recordings::Recording& recording, const scoring::LabelConfig& labels,
+RunSignals signals_of(const logs::Recording& recording, const scoring::LabelConfig& labels,
                       const scoring::ScoringConfig& scoring, scoring::SampleUnit unit) {
   RunSignals run;
   run.info = recording.info;
@@ -95,7 +95,7 @@ RunSignals signals_of(const recordings::Recording& recording, const scoring::Lab
   for (std::size_t k = 0; k < recording.steps(); ++k) {
     const models::Observation& observation = recording.observation[k];
     run.signals.push_back(
-        recordings::signals_from(observation, k > 0 ? &recording.action[k - 1] : nullptr));
+        logs::signals_from(observation, k > 0 ? &recording.action[k - 1] : nullptr));
     // The attitude reference system's z axis points down.
     run.up_in_imu.push_back(observation.imu.orientation.conjugate() * -Eigen::Vector3d::UnitZ());
   }

@@ -12,9 +12,9 @@
 #include "estimator/force/leg_geometry.hpp"
 #include "estimator/odometry/wheeled_leg.hpp"
 #include "estimator/signals.hpp"
+#include "logs/recording.hpp"
 #include "models/robot_model.hpp"
 #include "noise/sensor_noise.hpp"
-#include "recordings/recording.hpp"
 #include "scoring/bootstrap.hpp"
 #include "scoring/labels.hpp"
 #include "scoring/score.hpp"
@@ -30,7 +30,7 @@ struct RunMotion {
 };
 
 /// Errors: `InputError` for a robot with joints that do not turn about ±y, see `wheeled_biped`.
-RunMotion motion_of(const recordings::Recording& recording, const models::RobotModel& robot);
+RunMotion motion_of(const logs::Recording& recording, const models::RobotModel& robot);
 
 /// The kinematic model for odometry, from the robot's MuJoCo model. It assumes planar legs. Errors:
 /// `InputError` when a joint does not turn about ±y.
@@ -41,7 +41,7 @@ inline bool has_record(const Signals& signals) { return !std::isnan(signals.time
 
 /// The data that a study keeps of a recording: the signals at every step and the ground truth.
 struct RunSignals {
-  recordings::RecordingInfo info;
+  logs::RecordingInfo info;
   /// Time from the beginning of the log to the first step (s). Only the beginning of a log is
   /// skipped, not that of each of its segments.
   double start = 0.0;
@@ -64,7 +64,7 @@ using RunPointers = std::vector<const RunSignals*>;
 RunPointers pointers_to(const std::vector<RunSignals>& runs);
 
 /// Errors: `InputError` when the recording has no ground truth.
-RunSignals signals_of(const recordings::Recording& recording, const scoring::LabelConfig& labels,
+RunSignals signals_of(const logs::Recording& recording, const scoring::LabelConfig& labels,
                       const scoring::ScoringConfig& scoring, scoring::SampleUnit unit);
 
 /// Position and velocity of each joint of one leg, per step: hip, knee, wheel.

@@ -49,7 +49,7 @@ static void describe(Fields& fields, BenchmarkConfig& benchmark, const Experimen
 
 namespace {
 
-/// "sensors/harsh.yaml" → "harsh"; without a file: "ideal".
+/// "noise/profiles/harsh.yaml" → "harsh"; without a file: "ideal".
 std::string short_name(const std::string& file) {
   return file.empty() ? "ideal" : std::filesystem::path(file).stem().string();
 }

@@ -11,8 +11,8 @@
 #include "experiments/estimators/fitted_model.hpp"
 #include "experiments/plan/rollouts.hpp"
 #include "experiments/studies/study.hpp"
+#include "logs/recording.hpp"
 #include "noise/sensor_noise.hpp"
-#include "recordings/recording.hpp"
 #include "scenarios/engine.hpp"
 #include "scoring/labels.hpp"
 #include "scoring/transitions.hpp"
@@ -80,7 +80,7 @@ struct ContactTrace {
 /// A closed-loop run.
 struct ClosedLoopRun {
   scenarios::Scenario scenario;  ///< as simulated
-  recordings::Recording recording;
+  logs::Recording recording;
   ContactTrace trace;  ///< before the policy's delay
 };
 
@@ -114,7 +114,7 @@ struct ClosedLoopMetrics {
 /// The metrics of one run. `recording` is from ideal sensors, `robot` as described by its file.
 /// `trace` is the contact (left, right) at every step, before the policy's delay.
 ClosedLoopMetrics closed_loop_metrics_of(
-    const recordings::Recording& recording,
+    const logs::Recording& recording,
     const std::array<scoring::ContactSequence, models::wheel_count>& trace,
     const odometry::WheeledBiped& robot, const scoring::LabelConfig& labels,
     const scoring::ScoringConfig& scoring);

@@ -13,10 +13,10 @@
 #include "experiments/plan/request.hpp"
 #include "experiments/signals/run_signals.hpp"
 #include "experiments/studies/closed_loop.hpp"
+#include "logs/signals_from.hpp"
 #include "noise/reported_signals.hpp"
 #include "noise/sensor_noise.hpp"
 #include "policies/wheel_contact.hpp"
-#include "recordings/signals_from.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/rollout.hpp"
 #include "scoring/score.hpp"
@@ -67,7 +67,7 @@ policies::WheelContact contact_source(std::unique_ptr<ContactEstimator> estimato
                               std::span(&*action, 1));
       }
       state->belief =
-          state->estimator->update(recordings::signals_from(reported, action ? &*action : nullptr));
+          state->estimator->update(logs::signals_from(reported, action ? &*action : nullptr));
     }
     ++state->step;
     std::array<bool, models::wheel_count> in_contact = {};
@@ -205,14 +205,14 @@ std::array<double, models::wheel_count> tyre_speeds(const models::Observation& o
 }
 
 ClosedLoopMetrics closed_loop_metrics_of(
-    const recordings::Recording& recording,
+    const logs::Recording& recording,
     const std::array<scoring::ContactSequence, models::wheel_count>& trace,
     const odometry::WheeledBiped& robot, const scoring::LabelConfig& labels,
     const scoring::ScoringConfig& scoring) {
   ClosedLoopMetrics metrics;
   metrics.runs = 1;
-  const auto how = recording.info.outcome.value_or(recordings::Outcome::finished);
-  metrics.finished = how == recordings::Outcome::finished ? 1 : 0;
+  const auto how = recording.info.outcome.value_or(logs::Outcome::finished);
+  metrics.finished = how == logs::Outcome::finished ? 1 : 0;
   metrics.fell = is_failure(how) ? 1 : 0;
   const double period = recording.period();
   const auto shortest = static_cast<std::size_t>(std::llround(scoring.minimum_flight / period));

@@ -117,7 +117,7 @@ RunFacts facts_of(const Rollout& run, const Experiment& experiment) {
   RunFacts facts;
   add_drops(run.signals, experiment.scoring, facts);
   add_torques(run.signals, experiment.scoring, facts);
-  if (run.report.outcome == recordings::Outcome::finished) {
+  if (run.report.outcome == logs::Outcome::finished) {
     const scenarios::End& end = run.plan.scenario.end;
     mean_of(facts, Quantity::descent)
         .add(run.report.duration - (std::isfinite(end.x) ? end.settle : 0.0));

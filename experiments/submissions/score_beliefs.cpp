@@ -23,7 +23,7 @@
 #include "experiments/studies/benchmark.hpp"
 #include "experiments/studies/experiment_file.hpp"
 #include "experiments/submissions/exported_runs.hpp"
-#include "recordings/log/beliefs.hpp"
+#include "logs/log/beliefs.hpp"
 
 namespace touchdown::experiments {
 
@@ -134,7 +134,7 @@ void require_sound(const std::vector<BeliefFile>& files, const ShouldContinue& s
   tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) {
     if (!should_continue()) throw Stopped();
     try {
-      static_cast<void>(recordings::read_beliefs(files[i].path));
+      static_cast<void>(logs::read_beliefs(files[i].path));
     } catch (const InputError& error) {
       complaints[i] = error.what();
     }
@@ -145,7 +145,7 @@ void require_sound(const std::vector<BeliefFile>& files, const ShouldContinue& s
 }
 
 /// The step of a belief.
-std::size_t step_of(const recordings::Beliefs& beliefs, std::size_t index, const RunSignals& run) {
+std::size_t step_of(const logs::Beliefs& beliefs, std::size_t index, const RunSignals& run) {
   const double period = 1e-6 * static_cast<double>(run.info.control_period_us);
   const double step = std::round(beliefs.time[index] / period);
   if (step >= 0.0 && step < static_cast<double>(run.steps())) return static_cast<std::size_t>(step);
@@ -154,7 +154,7 @@ std::size_t step_of(const recordings::Beliefs& beliefs, std::size_t index, const
                                period * static_cast<double>(run.steps() - 1)));
 }
 
-Belief belief_of(const recordings::Beliefs& beliefs, std::size_t index) {
+Belief belief_of(const logs::Beliefs& beliefs, std::size_t index) {
   Belief belief;
   for (std::size_t w = 0; w < models::wheel_count; ++w) {
     belief.wheel[w] = {beliefs.p_contact[w][index], beliefs.contact[w][index] != 0};
@@ -192,7 +192,7 @@ Rollouts runs_as_saved(const ExperimentContext& context) {
                                    context.directory.path().string()));
     }
     if (!counts->is_scored()) {
-      runs.at(task.run).report.outcome = recordings::Outcome::fell;
+      runs.at(task.run).report.outcome = logs::Outcome::fell;
     }
   }
   return runs;
@@ -261,7 +261,7 @@ SubmissionScores scores_of(const std::vector<BeliefFile>& files,
           if (!context.should_continue()) throw Stopped();
           const ExportedRun& about = exported[file->run];
           const SubmittedPrediction submitted =
-              prediction_of(recordings::read_beliefs(file->path), run.signals);
+              prediction_of(logs::read_beliefs(file->path), run.signals);
           const TaskCounts counts = scores_of(run.signals, submitted.prediction, experiment);
           const std::scoped_lock lock(mutex);
           scores.by_cell[about.cell].emplace(task_name(plan, plan.tasks[*about.task]), counts);
@@ -304,7 +304,7 @@ BeliefReport scored(const BeliefRequest& wanted, ExperimentContext& context) {
 
 }  // namespace
 
-SubmittedPrediction prediction_of(const recordings::Beliefs& beliefs, const RunSignals& run) {
+SubmittedPrediction prediction_of(const logs::Beliefs& beliefs, const RunSignals& run) {
   SubmittedPrediction result;
   for (scoring::Track& track : result.prediction) {
     track.contact.reserve(run.steps());

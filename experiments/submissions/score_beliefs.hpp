@@ -6,7 +6,7 @@
 
 #include "experiments/experiment_context.hpp"
 #include "experiments/signals/run_signals.hpp"
-#include "recordings/log/beliefs.hpp"
+#include "logs/log/beliefs.hpp"
 #include "scoring/score.hpp"
 
 namespace touchdown::experiments {
@@ -44,6 +44,6 @@ struct SubmittedPrediction {
 /// Each belief holds from the step nearest to its time until the next belief; before the first,
 /// p = 0.5. P(any wheel in contact) and P(both wheels in contact) follow from independent wheels.
 /// Errors: `InputError` for a time outside of the run, or two beliefs at one step.
-SubmittedPrediction prediction_of(const recordings::Beliefs& beliefs, const RunSignals& run);
+SubmittedPrediction prediction_of(const logs::Beliefs& beliefs, const RunSignals& run);
 
 }  // namespace touchdown::experiments

@@ -6,7 +6,7 @@
 #include "core/progress.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/results/drops.hpp"
-#include "recordings/log/recording_file.hpp"
+#include "logs/log/recording_file.hpp"
 
 namespace touchdown::render {
 
@@ -19,10 +19,10 @@ const experiments::Rollout& chosen_run(const experiments::ExperimentResult& resu
   return *found;
 }
 
-recordings::Recording chosen_recording(const experiments::ExperimentResult& result,
-                                       const std::string& simulator, int run, const char* key) {
+logs::Recording chosen_recording(const experiments::ExperimentResult& result,
+                                 const std::string& simulator, int run, const char* key) {
   const std::string& file = chosen_run(result, simulator, run, key).plan.file;
-  return recordings::read_recording(result.directory.file("recordings", file));
+  return logs::read_recording(result.directory.file("recordings", file));
 }
 
 std::size_t fitted_runs(const experiments::ExperimentResult& result, const std::string& simulator) {

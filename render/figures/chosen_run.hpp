@@ -4,7 +4,7 @@
 #include <string>
 
 #include "experiments/results/result.hpp"
-#include "recordings/recording.hpp"
+#include "logs/recording.hpp"
 
 namespace touchdown::render {
 
@@ -14,8 +14,8 @@ const experiments::Rollout& chosen_run(const experiments::ExperimentResult& resu
                                        const std::string& simulator, int run, const char* key);
 
 /// Its recording. Errors: as above, and when the recording is missing or broken.
-recordings::Recording chosen_recording(const experiments::ExperimentResult& result,
-                                       const std::string& simulator, int run, const char* key);
+logs::Recording chosen_recording(const experiments::ExperimentResult& result,
+                                 const std::string& simulator, int run, const char* key);
 
 /// The number of whole runs that an engine's models were fitted to.
 std::size_t fitted_runs(const experiments::ExperimentResult& result, const std::string& simulator);

@@ -224,7 +224,7 @@ void draw_detail(const experiments::ExperimentResult& result, const std::string&
   const experiments::Experiment& experiment = result.experiment;
   const experiments::DetailConfig& config = *experiment.detail;
   const experiments::Rollout& run = chosen_run(result, simulator, config.choice.run, "detail");
-  const recordings::Recording recording =
+  const logs::Recording recording =
       chosen_recording(result, simulator, config.choice.run, "detail");
   const experiments::DropDetail detail =
       experiments::drop_detail(experiment, config, recording, run.signals, result.models);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double before = 0.15, after = 0.45;  ///< shown before and after the takeoff (s)
 
-scoring::Flight flight_of(const recordings::Recording& recording, const DropOverlay& what) {
+scoring::Flight flight_of(const logs::Recording& recording, const DropOverlay& what) {
   const std::vector<scoring::Flight> found = experiments::drops(
       scoring::contact_labels(recording, what.labels), recording.period(), what.minimum_flight);
   const auto number = static_cast<std::size_t>(what.drop);
@@ -28,7 +28,7 @@ scoring::Flight flight_of(const recordings::Recording& recording, const DropOver
 }
 
 /// The data: time since takeoff (ms), then the drawn quantities. Heights count from takeoff's.
-std::string columns(const recordings::Recording& recording, const DropOverlay& what) {
+std::string columns(const logs::Recording& recording, const DropOverlay& what) {
   const std::size_t takeoff = flight_of(recording, what).takeoff;
   const auto steps = [&](double seconds) {
     return static_cast<std::size_t>(std::llround(seconds / recording.period()));
@@ -55,10 +55,10 @@ std::string columns(const recordings::Recording& recording, const DropOverlay& w
 }
 
 /// The alternative text.
-std::string described(const std::array<const recordings::Recording*, 2>& recordings,
+std::string described(const std::array<const logs::Recording*, 2>& recordings,
                       const DropOverlay& what) {
   std::string text = "Height, normal force, torques and acceleration through one drop.";
-  for (const recordings::Recording* recording : recordings) {
+  for (const logs::Recording* recording : recordings) {
     const scoring::Flight flight = flight_of(*recording, what);
     const auto steps = static_cast<double>(flight.landing - flight.takeoff);
     text += fmt::format(" {}: {:.0f} ms in the air.",
@@ -70,16 +70,16 @@ std::string described(const std::array<const recordings::Recording*, 2>& recordi
 
 }  // namespace
 
-Figure draw_drop_overlay(const recordings::Recording& first, const recordings::Recording& second,
+Figure draw_drop_overlay(const logs::Recording& first, const logs::Recording& second,
                          const DropOverlay& what, const std::filesystem::path& stem) {
   constexpr std::array<const char*, 5> labels = {"base height\n(m)", "normal force\n(N)",
                                                  "knee torque\n(N·m)", "wheel torque\n(N·m)",
                                                  "vertical acc.\n(m/s²)"};
   constexpr std::array<double, labels.size()> tics = {0.1, 500.0, 5.0, 1.0, 100.0};
   const std::string name = stem.filename().string();
-  const std::array<const recordings::Recording*, 2> recordings = {&first, &second};
+  const std::array<const logs::Recording*, 2> recordings = {&first, &second};
   std::vector<PlotData> data;
-  for (const recordings::Recording* recording : recordings) {
+  for (const logs::Recording* recording : recordings) {
     data.push_back(
         {fmt::format("{}_{}.dat", name, recording->info.simulator), columns(*recording, what)});
   }

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "recordings/recording.hpp"
+#include "logs/recording.hpp"
 #include "render/gnuplot/figure.hpp"
 #include "scoring/labels.hpp"
 #include "scoring/transitions.hpp"
@@ -22,7 +22,7 @@ struct DropOverlay {
 /// Draws one drop as simulated in both engines, aligned at takeoff: height of the base, normal
 /// force, knee and wheel torque of the left leg, vertical acceleration. Files as `draw_figure`.
 /// Errors: `InputError` when a run has no such drop; `Error` as `draw_figure`.
-Figure draw_drop_overlay(const recordings::Recording& first, const recordings::Recording& second,
+Figure draw_drop_overlay(const logs::Recording& first, const logs::Recording& second,
                          const DropOverlay& what, const std::filesystem::path& stem);
 
 }  // namespace touchdown::render

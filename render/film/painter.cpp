@@ -30,7 +30,7 @@ constexpr Label outcome_labels[] = {{"FINISHED", 0x2f6f4f},
 constexpr Label contact_labels[] = {
     {"IN THE AIR", 0xd9760f}, {"ON ONE WHEEL", 0x8a6d1d}, {"ON THE GROUND", 0x2f6f4f}};
 
-Label state_label(const recordings::Recording& recording, std::size_t row,
+Label state_label(const logs::Recording& recording, std::size_t row,
                   const std::vector<std::uint8_t>& contact) {
   const bool last = row + 1 >= recording.steps();
   if (last && recording.info.outcome) {
@@ -98,7 +98,7 @@ cv::Size single_view_size(const VideoOptions& options) {
   return {options.width, options.height - strip_height_of(options)};
 }
 
-std::size_t row_at(const recordings::Recording& recording, double time) {
+std::size_t row_at(const logs::Recording& recording, double time) {
   const double k = std::round(time / recording.period());
   return static_cast<std::size_t>(std::clamp(k, 0.0, static_cast<double>(recording.steps() - 1)));
 }
@@ -187,7 +187,7 @@ struct FramePainter::Show {
     camera = smoothed(std::move(base), recording.period(), camera_time_constant);
   }
 
-  const recordings::Recording& recording;
+  const logs::Recording& recording;
   Poses poses;
   SceneView view;
   std::vector<Eigen::Vector3d> camera;

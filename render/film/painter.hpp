@@ -16,7 +16,7 @@
 namespace touchdown::render {
 
 /// The row of a recording at `time` (s).
-std::size_t row_at(const recordings::Recording& recording, double time);
+std::size_t row_at(const logs::Recording& recording, double time);
 
 /// The size of the only view in the pictures of a film with labels and strip (px).
 cv::Size single_view_size(const VideoOptions& options);

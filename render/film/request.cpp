@@ -10,7 +10,7 @@
 
 namespace touchdown::render {
 
-std::vector<std::uint8_t> wheels_in_contact(const recordings::Recording& recording,
+std::vector<std::uint8_t> wheels_in_contact(const logs::Recording& recording,
                                             const scoring::LabelConfig& labels) {
   if (recording.truth.size() < recording.steps()) return {};
   const auto wheels = scoring::contact_labels(recording, labels);
@@ -21,7 +21,7 @@ std::vector<std::uint8_t> wheels_in_contact(const recordings::Recording& recordi
   return count;
 }
 
-std::vector<scoring::Flight> visible_flights(const recordings::Recording& recording,
+std::vector<scoring::Flight> visible_flights(const logs::Recording& recording,
                                              scoring::LabelConfig labels) {
   if (recording.truth.size() < recording.steps()) return {};
   constexpr double visible = 0.05;  // s

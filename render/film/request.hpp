@@ -11,8 +11,8 @@
 
 #include <opencv2/core/types.hpp>
 
+#include "logs/recording.hpp"
 #include "models/robot_model.hpp"
-#include "recordings/recording.hpp"
 #include "render/film/encode.hpp"
 #include "render/palette.hpp"
 #include "scoring/labels.hpp"
@@ -34,18 +34,18 @@ struct BeliefTrack {
 /// beliefs to draw.
 struct VideoSource {
   const models::RobotModel& robot;
-  const recordings::Recording& recording;
+  const logs::Recording& recording;
   const std::vector<BeliefTrack>& beliefs;
   std::string label = {};  ///< shown in the film; empty: the name of its engine
 };
 
 /// The number of wheels in true contact, row by row; empty for a robot's log.
-std::vector<std::uint8_t> wheels_in_contact(const recordings::Recording& recording,
+std::vector<std::uint8_t> wheels_in_contact(const logs::Recording& recording,
                                             const scoring::LabelConfig& labels);
 
 /// Flights of both wheels of a simulated run that are long enough to be seen; none of a robot's
 /// log.
-std::vector<scoring::Flight> visible_flights(const recordings::Recording& recording,
+std::vector<scoring::Flight> visible_flights(const logs::Recording& recording,
                                              scoring::LabelConfig labels);
 
 /// A run's label, or else "MuJoCo", "Bullet" or "robot log".

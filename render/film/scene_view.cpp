@@ -12,7 +12,7 @@ namespace {
 
 /// The wheels' mean path since the first row, without slip (m).
 std::vector<Eigen::Vector3d> odometry(const models::RobotModel& robot,
-                                      const recordings::Recording& recording) {
+                                      const logs::Recording& recording) {
   std::vector<Eigen::Vector3d> path(recording.steps(), Eigen::Vector3d::Zero());
   const auto forward = [](const models::Observation& observation) {
     return 0.5 * (observation.servo[models::index(models::Servo::left_wheel)].position -
@@ -46,7 +46,7 @@ constexpr float vector_colour[4] = {0.85F, 0.46F, 0.06F, 1};  // of the film's o
 
 }  // namespace
 
-Poses::Poses(const models::RobotModel& robot, const recordings::Recording& recording)
+Poses::Poses(const models::RobotModel& robot, const logs::Recording& recording)
     : robot_(robot), recording_(recording) {
   if (recording.steps() == 0) throw InputError("the recording is empty: there is nothing to draw");
   if (recording.truth.size() < recording.steps()) {

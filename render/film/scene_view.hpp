@@ -8,8 +8,8 @@
 #include <Eigen/Core>
 #include <mujoco/mujoco.h>
 
+#include "logs/recording.hpp"
 #include "models/robot_model.hpp"
-#include "recordings/recording.hpp"
 
 namespace touchdown::render {
 
@@ -21,7 +21,7 @@ namespace touchdown::render {
 class Poses {
  public:
   /// Keeps references to both. Errors: `InputError` for a recording without rows.
-  Poses(const models::RobotModel& robot, const recordings::Recording& recording);
+  Poses(const models::RobotModel& robot, const logs::Recording& recording);
 
   std::size_t count() const { return base_.size(); }
   /// The base's position in the world (m). NaN is replaced by the last number before it.
@@ -31,7 +31,7 @@ class Poses {
 
  private:
   const models::RobotModel& robot_;
-  const recordings::Recording& recording_;
+  const logs::Recording& recording_;
   std::vector<Eigen::Vector3d> base_;
 };
 

@@ -47,7 +47,7 @@ StripRow transition_row(const VideoSource& source, const std::vector<std::uint8_
   return row;
 }
 
-std::vector<float> torque(const recordings::Recording& recording, models::Servo servo) {
+std::vector<float> torque(const logs::Recording& recording, models::Servo servo) {
   std::vector<float> values;
   values.reserve(recording.steps());
   for (const models::Observation& observation : recording.observation) {
@@ -105,7 +105,7 @@ std::vector<StripRow> strip_rows(const std::vector<VideoSource>& sources,
   if (sources.size() > 2) return rows;
   StripRow knees = empty_row("knee torque (N·m)", sources.front());
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    const recordings::Recording& recording = sources[i].recording;
+    const logs::Recording& recording = sources[i].recording;
     std::vector<float> values = torque(recording, models::Servo::left_knee);
     if (recording.period() != knees.period) {  // resample to the first recording's rows
       std::vector<float> resampled;

@@ -126,7 +126,7 @@ class FilmFile {
 
 }  // namespace
 
-double first_flight(const recordings::Recording& recording, const scoring::LabelConfig& labels) {
+double first_flight(const logs::Recording& recording, const scoring::LabelConfig& labels) {
   for (const scoring::Flight& flight : visible_flights(recording, labels)) {
     if (flight.takeoff == 0 || flight.landing == recording.steps()) continue;
     return recording.period() * static_cast<double>(flight.takeoff + flight.landing) / 2.0;
@@ -189,7 +189,7 @@ void render_poster(const std::vector<VideoSource>& sources, const VideoOptions& 
   picture(sources, options, true, time, path);
 }
 
-void render_scene(const models::RobotModel& robot, const recordings::Recording& recording,
+void render_scene(const models::RobotModel& robot, const logs::Recording& recording,
                   const VideoOptions& options, double time, const std::filesystem::path& path) {
   const std::vector<BeliefTrack> none;
   picture({{robot, recording, none}}, options, false, time, path);

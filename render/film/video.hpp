@@ -35,7 +35,7 @@ VideoStatistics render_films(const std::vector<VideoSource>& sources,
                              const std::vector<Film>& films);
 
 /// The middle of the run's first visible flight, or else of the run (s).
-double first_flight(const recordings::Recording& recording, const scoring::LabelConfig& labels);
+double first_flight(const logs::Recording& recording, const scoring::LabelConfig& labels);
 
 /// Writes the video's picture at `time` of the recording (s) as a PNG, or as a JPEG for a path with
 /// `.jpg`. NaN means the middle of the first run's first flight. The quality is always `page`.
@@ -43,7 +43,7 @@ void render_poster(const std::vector<VideoSource>& sources, const VideoOptions& 
                    double time, const std::filesystem::path& path);
 
 /// Writes a picture of the robot on its terrain, without labels and plots, as a PNG.
-void render_scene(const models::RobotModel& robot, const recordings::Recording& recording,
+void render_scene(const models::RobotModel& robot, const logs::Recording& recording,
                   const VideoOptions& options, double time, const std::filesystem::path& path);
 
 }  // namespace touchdown::render

@@ -16,7 +16,7 @@
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/plan/request.hpp"
-#include "recordings/log/recording_file.hpp"
+#include "logs/log/recording_file.hpp"
 #include "render/palette.hpp"
 #include "render/stop.hpp"
 #include "scenarios/engine.hpp"
@@ -29,8 +29,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-scenarios::Scenario recorded_scenario(const recordings::Recording& recording) {
-  const recordings::RecordingInfo& info = recording.info;
+scenarios::Scenario recorded_scenario(const logs::Recording& recording) {
+  const logs::RecordingInfo& info = recording.info;
   if (info.scenario_yaml.empty()) {
     throw InputError(
         "the recording does not contain its terrain: a robot's own log cannot be drawn");
@@ -61,7 +61,7 @@ BeliefTrack beliefs_of(const experiments::Experiment& experiment,
 
 }  // namespace
 
-models::RobotModel recorded_robot(const recordings::Recording& recording) {
+models::RobotModel recorded_robot(const logs::Recording& recording) {
   return scenarios::compile_robot(recorded_scenario(recording));
 }
 
@@ -94,11 +94,11 @@ void add_belief(BeliefTrack& track, const ContactEstimator& estimator, const Bel
   }
 }
 
-FilmedRun filmed(recordings::Recording recording, const experiments::Experiment& experiment,
+FilmedRun filmed(logs::Recording recording, const experiments::Experiment& experiment,
                  const noise::SensorProfile& profile, const FilmedEstimators& filmed_estimators) {
   const std::int64_t run = recording.info.run;
   const noise::NoiseKey key = experiments::noise_key(experiment, 0, run);
-  recordings::Recording reported = recording;
+  logs::Recording reported = recording;
   experiments::report_through_sensors(profile, experiment, run, reported);
   experiments::RunSignals signals = experiments::signals_of(
       reported, experiment.labels, experiment.scoring, experiment.intervals.over);
@@ -139,16 +139,16 @@ std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
     if (!is_there(log)) continue;
     const experiments::FittedModels models =
         read_models(subject.directory, experiment, run.simulator, video.estimators);
-    all.push_back(filmed(recordings::read_recording(log), experiment, profile,
-                         {video.estimators, models, levels}));
+    all.push_back(
+        filmed(logs::read_recording(log), experiment, profile, {video.estimators, models, levels}));
   }
   return all;
 }
 
 FilmedRun filmed_recording(const fs::path& log, std::vector<std::string>& warnings,
                            const std::atomic<bool>* stop) {
-  recordings::LogReader reader(log, stop);
-  recordings::Recording recording = recordings::read_recording(reader, &warnings);
+  logs::LogReader reader(log, stop);
+  logs::Recording recording = logs::read_recording(reader, &warnings);
   if (stop != nullptr && *stop) throw Stopped("stopped; nothing was written");
   models::RobotModel robot = recorded_robot(recording);
   return {std::move(robot), std::move(recording), {}, {}};

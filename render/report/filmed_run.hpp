@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "experiments/estimators/fitted_model.hpp"
+#include "logs/recording.hpp"
 #include "models/robot_model.hpp"
 #include "noise/sensor_noise.hpp"
 #include "noise/sensor_profile.hpp"
-#include "recordings/recording.hpp"
 #include "render/film/video.hpp"
 #include "render/report/subject.hpp"
 
@@ -23,7 +23,7 @@ namespace touchdown::render {
 
 /// The robot of a recording, on the terrain of the scenario that the recording contains. Errors:
 /// `InputError` when it contains none.
-models::RobotModel recorded_robot(const recordings::Recording& recording);
+models::RobotModel recorded_robot(const logs::Recording& recording);
 
 /// The models of these estimators in a run directory, with the hyperparameters that its tuning
 /// chose. Errors: `InputError` when the directory lacks a model.
@@ -38,7 +38,7 @@ void add_belief(BeliefTrack& track, const ContactEstimator& estimator, const Bel
 /// A run with all data for a film of it.
 struct FilmedRun {
   models::RobotModel robot;
-  recordings::Recording recording;
+  logs::Recording recording;
   std::vector<BeliefTrack> beliefs;
   scoring::LabelConfig labels;
 
@@ -54,7 +54,7 @@ struct FilmedEstimators {
 
 /// A run of an experiment as its sensors report it, with the first noise realisation, and the
 /// beliefs of estimators that were fitted in its engine.
-FilmedRun filmed(recordings::Recording recording, const experiments::Experiment& experiment,
+FilmedRun filmed(logs::Recording recording, const experiments::Experiment& experiment,
                  const noise::SensorProfile& profile, const FilmedEstimators& filmed_estimators);
 
 /// The run that an experiment films, for each of its engines: the recording with the experiment's

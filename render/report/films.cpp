@@ -75,7 +75,7 @@ void film_runs(const std::vector<FilmedRun>& runs, const fs::path& run_directory
   if (runs.empty()) return;
   std::vector<Film> films;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const recordings::RecordingInfo& info = runs[i].recording.info;
+    const logs::RecordingInfo& info = runs[i].recording.info;
     films.push_back({.runs = {i},
                      .options = full_size(runs[i]),
                      .path = experiments::record_file(

@@ -15,7 +15,7 @@
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
-#include "recordings/log/mcap.hpp"
+#include "logs/log/mcap.hpp"
 #include "render/film/primitives.hpp"
 #include "render/film/scene_view.hpp"
 #include "scenarios/scenario.hpp"
@@ -151,7 +151,7 @@ struct LogEvent {
 };
 
 /// True takeoffs and landings of both wheels by row, and how the run ended.
-std::multimap<std::size_t, LogEvent> events_of(const recordings::Recording& recording) {
+std::multimap<std::size_t, LogEvent> events_of(const logs::Recording& recording) {
   std::multimap<std::size_t, LogEvent> events;
   if (recording.truth.size() < recording.steps()) return events;
   const auto contact = scoring::contact_labels(recording, {});
@@ -173,7 +173,7 @@ std::multimap<std::size_t, LogEvent> events_of(const recordings::Recording& reco
     }
   }
   if (recording.info.outcome) {
-    const bool is_finished = *recording.info.outcome == recordings::Outcome::finished;
+    const bool is_finished = *recording.info.outcome == logs::Outcome::finished;
     events.insert({recording.steps() - 1,
                    {"run", scenarios::outcome_text(*recording.info.outcome),
                     is_finished ? information : warning}});
@@ -183,9 +183,9 @@ std::multimap<std::size_t, LogEvent> events_of(const recordings::Recording& reco
 
 }  // namespace
 
-std::uint64_t write_mcap_with_scene(recordings::LogReader& reader, std::ostream& stream,
+std::uint64_t write_mcap_with_scene(logs::LogReader& reader, std::ostream& stream,
                                     const models::RobotModel& robot,
-                                    const recordings::Recording& recording) {
+                                    const logs::Recording& recording) {
   const Poses poses(robot, recording);
   const models::MjDataPtr data(mj_makeData(robot.mj.get()));
   const auto events = events_of(recording);
@@ -193,8 +193,8 @@ std::uint64_t write_mcap_with_scene(recordings::LogReader& reader, std::ostream&
       static_cast<std::size_t>(std::max(1L, std::lround(transform_period / recording.period())));
   std::uint16_t of_transforms = 0;
   std::uint16_t of_events = 0;
-  return recordings::write_mcap(
-      reader, stream, [&](recordings::McapWriter& writer, std::uint64_t row, std::uint64_t time) {
+  return logs::write_mcap(
+      reader, stream, [&](logs::McapWriter& writer, std::uint64_t row, std::uint64_t time) {
         if (row >= poses.count()) return;
         if (row % every == 0) {
           poses.apply(row, *data);
@@ -202,13 +202,13 @@ std::uint64_t write_mcap_with_scene(recordings::LogReader& reader, std::ostream&
           if (row == 0) {
             const std::string scene = scene_update(*robot.mj, time).dump();
             writer.write(writer.add_topic(mcap_scene_topic, "foxglove.SceneUpdate",
-                                          recordings::json_schema_of(scene)),
+                                          logs::json_schema_of(scene)),
                          time, scene);
             of_transforms = writer.add_topic(mcap_transforms_topic, "foxglove.FrameTransforms",
-                                             recordings::json_schema_of(transforms));
+                                             logs::json_schema_of(transforms));
             of_events = writer.add_topic(
                 mcap_events_topic, "foxglove.Log",
-                recordings::json_schema_of(log_message("", "", information, time).dump()));
+                logs::json_schema_of(log_message("", "", information, time).dump()));
           }
           writer.write(of_transforms, time, transforms);
         }

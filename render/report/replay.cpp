@@ -157,7 +157,7 @@ Json scene_json(const models::RobotModel& robot) {
 }
 
 /// The rows of the recording at `rate` per second.
-std::vector<std::size_t> rows_at(const recordings::Recording& recording, double rate) {
+std::vector<std::size_t> rows_at(const logs::Recording& recording, double rate) {
   const double last = recording.period() * static_cast<double>(recording.steps() - 1);
   const auto count = static_cast<std::size_t>(std::min(last, longest_replay) * rate + 1e-9) + 1;
   std::vector<std::size_t> rows;

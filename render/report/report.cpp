@@ -114,7 +114,7 @@ std::string drops_html(const FilmedRun& run, double end) {
 
 /// A link to the video in full size; empty without one.
 std::string full_size_html(const FilmedRun& run, const fs::path& directory) {
-  const recordings::RecordingInfo& info = run.recording.info;
+  const logs::RecordingInfo& info = run.recording.info;
   const std::string name = experiments::video_name(info.simulator, info.scenario);
   std::error_code error;
   const std::uintmax_t bytes = fs::file_size(directory / "videos" / name, error);

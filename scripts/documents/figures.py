@@ -128,7 +128,7 @@ class Painter:
             film = self.run(['experiments/closed_loop.yaml']) / 'videos' / 'closed_loop_mujoco.mp4'
             call('ffmpeg', '-y', '-loglevel', 'error', '-ss', 6, '-i', film, '-frames:v', 1, image)
         elif name == 'performance.png':
-            call(sys.executable, 'benchmarks/experiments/scaling.py', self.program, 'docs/images/performance')
+            call(sys.executable, 'tests/benchmarks/experiments/scaling.py', self.program, 'docs/images/performance')
         else:
             sys.exit(f'{name}: no recipe')
 

@@ -54,7 +54,7 @@ def robots_program(source, build, touchdown, qemu):
     run(touchdown, 'export', work / 'model.npz', '-o', work / 'model.hpp')
     run('cmake', '--install', build, '--prefix', work / 'prefix')
     run('cmake', '-S', work / 'source', '-B', work / 'build', '-G', 'Ninja', '--toolchain',
-        source / 'cmake/aarch64-linux-gnu.cmake', f'-DCMAKE_PREFIX_PATH={work / "prefix"}',
+        source / 'scripts/cmake/aarch64-linux-gnu.cmake', f'-DCMAKE_PREFIX_PATH={work / "prefix"}',
         f'-Dtouchdown_DIR={work / "prefix/lib/cmake/touchdown"}', f'-DMODEL_HEADER={work / "model.hpp"}')
     run('cmake', '--build', work / 'build')
     output = run(*qemu, work / 'build/robot_without_files')
@@ -70,7 +70,7 @@ def main():
         return 77
 
     run('cmake', '-S', source, '-B', build, '-G', 'Ninja', '--toolchain',
-        source / 'cmake/aarch64-linux-gnu.cmake', '-DCMAKE_BUILD_TYPE=Release',
+        source / 'scripts/cmake/aarch64-linux-gnu.cmake', '-DCMAKE_BUILD_TYPE=Release',
         '-DTOUCHDOWN_ESTIMATOR_ONLY=ON', '-DTOUCHDOWN_TESTS=ON', '-DCMAKE_UNITY_BUILD=ON')
     run('cmake', '--build', build, '--parallel', '1')  # other tests run beside this one
 

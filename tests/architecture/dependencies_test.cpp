@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <fstream>
-#include <sstream>
+#include <regex>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/files.hpp"
 #include "tests/architecture/source_tree.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -13,82 +13,91 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-using ::testing::UnorderedElementsAre;
+using ::testing::IsSupersetOf;
+using ::testing::UnorderedElementsAreArray;
 
 const std::filesystem::path source = TOUCHDOWN_SOURCE_DIR;
 
-std::string text_of(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
+std::vector<std::string> written_order() {
+  return folder_order_in(read_file(source / "docs/reference/architecture.md"));
 }
 
-DependencyTable written_table() {
-  return dependency_table_in(text_of(source / "docs/reference/architecture.md"));
+constexpr std::size_t most_lines = 400;
+
+bool is_of_product(const std::string& file) {
+  return !file.starts_with("examples/") && !file.starts_with("tests/");
 }
 
-/// All sources below the top-level folders of the table.
-SourceTree source_tree() {
-  std::set<std::string> top;
-  for (const auto& [folder, allowed] : written_table()) {
-    top.insert(folder.substr(0, folder.find('/')));
+/// All sources of the product. Tests and examples may be as long as they like.
+SourceTree product() {
+  SourceTree tree = source_tree_in(source, written_order());
+  std::erase_if(tree.files, [](const SourceFile& file) { return !is_of_product(file.name); });
+  std::erase_if(tree.includes, [](const Include& include) { return !is_of_product(include.from); });
+  return tree;
+}
+
+/// The headers that the estimator library installs, as its install.cmake lists them.
+std::set<std::string> installed_headers() {
+  const std::string text = read_file(source / "estimator/install.cmake");
+  std::set<std::string> headers;
+  static const std::regex name(R"([a-z0-9_]+(/[a-z0-9_]+)*)");
+  for (std::sregex_iterator one(text.begin(), text.end(), name), end; one != end; ++one) {
+    headers.insert("estimator/" + one->str() + ".hpp");
   }
-  return source_tree_in(source, top);
+  return headers;
 }
 
-TEST(Includes, FollowTheTableInTheArchitecture) {
-  const DependencyTable table = written_table();
-  ASSERT_GT(table.size(), 30U);
-  EXPECT_THAT(forbidden_includes(table, source_tree()), IsEmpty());
-}
-
-TEST(Includes, FormNoCycleOfModules) { EXPECT_THAT(cyclic_includes(source_tree()), IsEmpty()); }
-
-TEST(Includes, ThatTheTableAllowsFormNoCycleOfFolders) {
-  // Each folder becomes one file, which includes every folder of its row.
-  SourceTree folders;
-  for (const auto& [folder, allowed] : written_table()) {
-    for (const std::string& name : allowed) {
-      if (name.ends_with(".hpp") || name.ends_with("/*")) continue;
-      folders.includes.push_back({folder + ".hpp", 1, name + ".hpp"});
+TEST(Folders, AreThoseOfTheArchitecture) {
+  std::vector<std::string> found;
+  for (const auto& entry : std::filesystem::directory_iterator(source)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_directory() && name[0] != '.' && name != "build" && name != "runs") {
+      found.push_back(name);
     }
   }
-  EXPECT_THAT(cyclic_includes(folders), IsEmpty());
+  EXPECT_THAT(written_order(), UnorderedElementsAreArray(found));
 }
 
-TEST(Folders, HoldTwelveModulesAtMost) {
-  EXPECT_THAT(crowded_folders(source_tree(), 12), IsEmpty());
+TEST(Includes, FollowTheOrderOfTheFolders) {
+  EXPECT_THAT(includes_against(written_order(), product()), IsEmpty());
 }
 
-TEST(Folders, OfTheTableAllExist) {
-  const SourceTree tree = source_tree();
-  for (const auto& row : written_table()) {
-    EXPECT_TRUE(std::any_of(tree.files.begin(), tree.files.end(), [&](const std::string& file) {
-      return folder_of(file) == row.first;
-    })) << row.first;
+TEST(Includes, FormNoCycleOfModules) { EXPECT_THAT(cyclic_includes(product()), IsEmpty()); }
+
+TEST(Includes, OfTheEstimatorNeedNothingOfThisProjectButErrorsAndFingerprints) {
+  std::set<std::string> outside;
+  for (const Include& include : product().includes) {
+    if (include.from.starts_with("estimator/") && !include.to.starts_with("estimator/")) {
+      outside.insert(include.to);
+    }
   }
+  EXPECT_THAT((std::set<std::string>{"core/error.hpp", "core/fingerprint.hpp"}),
+              IsSupersetOf(outside));
+}
+
+TEST(Files, HoldFourHundredLinesAtMost) {
+  EXPECT_THAT(long_files(product(), most_lines), IsEmpty());
+}
+
+TEST(Headers, HaveTwoReadersOrAreInstalled) {
+  SourceTree tree = product();  // with the tests and examples as readers
+  tree.includes = source_tree_in(source, written_order()).includes;
+  std::set<std::string> exempt = installed_headers();
+  exempt.insert("experiments/results/estimates.hpp");  // users' studies print their tables by it
+  EXPECT_THAT(headers_with_one_reader(tree, most_lines, exempt), IsEmpty());
 }
 
 // The checks themselves, on a small source tree that breaks the rules.
 
-constexpr const char* small_table =
-    "<!-- dependencies -->\n| folder | contents | may include |\n|---|---|---|\n"
-    "| `kitchen` | `cellar` is not in the last column | `cellar` |\n"
-    "| `cellar` | | – |\n| `roof` | | `kitchen`, `cellar/wine.hpp` |\n<!-- /dependencies -->\n"
-    "| `garden` | not a row of the table | `roof` |\n";
-
-TEST(DependencyTableOfMarkdown, IsReadFromItsLastColumn) {
-  const DependencyTable table = dependency_table_in(small_table);
-  ASSERT_EQ(table.size(), 3U);
-  EXPECT_THAT(table.at("kitchen"), UnorderedElementsAre("cellar"));
-  EXPECT_THAT(table.at("cellar"), IsEmpty());
-  EXPECT_THAT(table.at("roof"), UnorderedElementsAre("kitchen", "cellar/wine.hpp"));
+TEST(FolderOrder, IsReadFromTheFirstColumnOfItsTable) {
+  EXPECT_THAT(folder_order_in("| `garden` | not a row of the table |\n<!-- folders -->\n"
+                              "| folder | contents |\n|---|---|\n| `cellar` | `wine` |\n"
+                              "| `kitchen` | |\n<!-- /folders -->\n| `roof` | |\n"),
+              ElementsAre("cellar", "kitchen"));
 }
 
 class SmallSourceTree : public ::testing::Test {
  protected:
-  SourceTree tree() const { return source_tree_in(folder_.path(), {"cellar", "kitchen", "roof"}); }
-
   SmallSourceTree() {
     folder_.write("cellar/wine.hpp", "#pragma once\n");
     folder_.write("cellar/coal.hpp", "#pragma once\n");
@@ -96,22 +105,27 @@ class SmallSourceTree : public ::testing::Test {
     folder_.write("roof/tiles.cpp", "#include <vector>\n#include \"cellar/wine.hpp\"\n");
   }
 
+  SourceTree tree() const { return source_tree_in(folder_.path(), {"cellar", "kitchen", "roof"}); }
+
+  const std::vector<std::string> order_ = {"cellar", "kitchen", "roof"};
   const ScratchFolder folder_;
 };
 
-TEST_F(SmallSourceTree, FollowsTheTableAtFirst) {
-  EXPECT_THAT(forbidden_includes(dependency_table_in(small_table), tree()), IsEmpty());
+TEST_F(SmallSourceTree, BreaksNoRuleAtFirst) {
+  EXPECT_THAT(includes_against(order_, tree()), IsEmpty());
   EXPECT_THAT(cyclic_includes(tree()), IsEmpty());
+  EXPECT_THAT(long_files(tree(), 2), IsEmpty());
 }
 
-TEST_F(SmallSourceTree, ReportsEachForbiddenInclude) {
+TEST_F(SmallSourceTree, ReportsEachIncludeOfAFolderBelow) {
   folder_.write("cellar/wine.hpp", "#pragma once\n\n#include \"kitchen/stove.hpp\"\n");
-  folder_.write("roof/tiles.cpp", "#include \"cellar/coal.hpp\"\n");
-  EXPECT_THAT(
-      forbidden_includes(dependency_table_in(small_table), tree()),
-      ElementsAre(
-          "cellar/wine.hpp:3: includes \"kitchen/stove.hpp\", and cellar may not include kitchen",
-          "roof/tiles.cpp:1: includes \"cellar/coal.hpp\", and roof may not include cellar"));
+  EXPECT_THAT(includes_against(order_, tree()),
+              ElementsAre("cellar/wine.hpp:3: includes \"kitchen/stove.hpp\", and kitchen stands "
+                          "below cellar"));
+  EXPECT_THAT(includes_against({"cellar", "kitchen"}, tree()),
+              ElementsAre("cellar/wine.hpp:3: includes \"kitchen/stove.hpp\", and kitchen stands "
+                          "below cellar",
+                          "roof/tiles.cpp: its folder has no row"));
 }
 
 TEST_F(SmallSourceTree, ReportsBothIncludesOfACycle) {
@@ -123,8 +137,22 @@ TEST_F(SmallSourceTree, ReportsBothIncludesOfACycle) {
                   "cellar/wine.cpp:1: includes \"cellar/coal.hpp\", which includes it in turn"));
 }
 
-TEST_F(SmallSourceTree, CountsTheModulesOfAFolder) {
-  EXPECT_THAT(crowded_folders(tree(), 1), ElementsAre("cellar: holds 2 modules, more than 1"));
+TEST_F(SmallSourceTree, ReportsLongFiles) {
+  EXPECT_THAT(long_files(tree(), 1), ElementsAre("roof/tiles.cpp: 2 lines"));
+}
+
+TEST_F(SmallSourceTree, ReportsHeadersWithOneReader) {
+  folder_.write("roof/gutter.cpp", "#include \"cellar/wine.hpp\"\n");
+  EXPECT_THAT(headers_with_one_reader(tree(), 10, {}),
+              ElementsAre("cellar/coal.hpp: only kitchen/stove includes it",
+                          "kitchen/stove.hpp: nobody includes it"));
+  EXPECT_THAT(headers_with_one_reader(tree(), 10, {"cellar/coal.hpp", "kitchen/stove.hpp"}),
+              IsEmpty());
+  folder_.write("cellar/coal.cpp", "#include \"cellar/coal.hpp\"\n\n\n\n\n\n");
+  folder_.write("kitchen/stove.cpp", "#include \"kitchen/stove.hpp\"\n\n\n\n\n\n");
+  EXPECT_THAT(headers_with_one_reader(tree(), 10, {}),
+              ElementsAre("kitchen/stove.hpp: nobody includes it"))
+      << "both together are too long";
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <regex>
 #include <sstream>
 
@@ -12,18 +13,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool is_allowed(const DependencyTable& table, const std::string& from, const std::string& to_file) {
-  const std::string to = folder_of(to_file);
-  const auto row = table.find(from);
-  if (from == to) return true;
-  if (row == table.end()) return false;
-  return std::any_of(row->second.begin(), row->second.end(), [&](const std::string& name) {
-    if (name == to || name == to_file) return true;
-    if (!name.ends_with("/*")) return false;
-    const std::string root = name.substr(0, name.size() - 2);
-    return to == root || to.starts_with(root + "/");
-  });
-}
+std::string top_of(const std::string& file) { return file.substr(0, file.find('/')); }
+
+std::string module_of(const std::string& file) { return file.substr(0, file.rfind('.')); }
 
 std::string place(const Include& include) {
   return include.from + ":" + std::to_string(include.line) + ": includes \"" + include.to + "\"";
@@ -31,69 +23,58 @@ std::string place(const Include& include) {
 
 }  // namespace
 
-SourceTree source_tree_in(const fs::path& source, const std::set<std::string>& top_folders) {
+SourceTree source_tree_in(const fs::path& source, const std::vector<std::string>& top_folders) {
   SourceTree tree;
   for (const std::string& folder : top_folders) {
     for (const auto& entry : fs::recursive_directory_iterator(source / folder)) {
       const std::string ending = entry.path().extension().string();
       if (ending != ".cpp" && ending != ".hpp") continue;
-      tree.files.push_back(fs::relative(entry.path(), source).string());
+      tree.files.push_back({fs::relative(entry.path(), source).string()});
     }
   }
-  std::sort(tree.files.begin(), tree.files.end());
+  const auto by_name = [](const SourceFile& a, const SourceFile& b) { return a.name < b.name; };
+  std::sort(tree.files.begin(), tree.files.end(), by_name);
   static const std::regex pattern(R"re(^#include "([^"]+)".*)re");
-  for (const std::string& file : tree.files) {
-    std::ifstream text(source / file);
+  for (SourceFile& file : tree.files) {
+    std::ifstream text(source / file.name);
     std::smatch match;
-    int number = 0;
     for (std::string line; std::getline(text, line);) {
-      ++number;
-      if (std::regex_match(line, match, pattern)) tree.includes.push_back({file, number, match[1]});
+      ++file.lines;
+      if (std::regex_match(line, match, pattern)) {
+        tree.includes.push_back({file.name, static_cast<int>(file.lines), match[1]});
+      }
     }
   }
   return tree;
 }
 
-DependencyTable dependency_table_in(const std::string& markdown) {
-  DependencyTable table;
+std::vector<std::string> folder_order_in(const std::string& markdown) {
+  std::vector<std::string> order;
   std::istringstream text(markdown);
-  static const std::regex name("`([a-z_/*.]+)`");
   bool inside = false;
   for (std::string line; std::getline(text, line);) {
-    if (line == "<!-- dependencies -->" || line == "<!-- /dependencies -->") {
-      inside = line[5] != '/';
-    }
-    static const std::regex row(R"(^\| `([^`]+)` \|.*\|([^|]*)\|$)");
+    if (line == "<!-- folders -->" || line == "<!-- /folders -->") inside = line[5] != '/';
+    static const std::regex row(R"(^\| `([a-z]+)` \|.*)");
     std::smatch cells;
-    if (!inside || !std::regex_match(line, cells, row)) continue;
-    const std::string last = cells[2];
-    std::set<std::string>& allowed = table[cells[1]];
-    for (std::sregex_iterator match(last.begin(), last.end(), name), end; match != end; ++match) {
-      allowed.insert((*match)[1]);
-    }
+    if (inside && std::regex_match(line, cells, row)) order.push_back(cells[1]);
   }
-  return table;
+  return order;
 }
 
-std::string folder_of(const std::string& file) {
-  const std::size_t slash = file.rfind('/');
-  return slash == std::string::npos ? "" : file.substr(0, slash);
-}
-
-std::string module_of(const std::string& file) { return file.substr(0, file.rfind('.')); }
-
-std::vector<std::string> forbidden_includes(const DependencyTable& table, const SourceTree& tree) {
+std::vector<std::string> includes_against(const std::vector<std::string>& order,
+                                          const SourceTree& tree) {
+  const auto rank = [&](const std::string& file) {
+    return std::find(order.begin(), order.end(), top_of(file)) - order.begin();
+  };
+  const auto unknown = static_cast<std::ptrdiff_t>(order.size());
   std::vector<std::string> lines;
-  std::set<std::string> folders;
-  for (const std::string& file : tree.files) folders.insert(folder_of(file));
-  for (const std::string& folder : folders) {
-    if (!table.contains(folder))
-      lines.push_back(folder + ": has no row in docs/reference/architecture.md");
+  for (const SourceFile& file : tree.files) {
+    if (rank(file.name) == unknown) lines.push_back(file.name + ": its folder has no row");
   }
   for (const Include& include : tree.includes) {
-    if (is_allowed(table, folder_of(include.from), include.to)) continue;
-    lines.push_back(place(include) + ", and " + folder_of(include.from) + " may not include " +
-                    folder_of(include.to));
+    if (rank(include.to) <= rank(include.from) || rank(include.to) == unknown) continue;
+    lines.push_back(place(include) + ", and " + top_of(include.to) + " stands below " +
+                    top_of(include.from));
   }
   return lines;
 }
@@ -125,14 +106,36 @@ std::vector<std::string> cyclic_includes(const SourceTree& tree) {
   return lines;
 }
 
-std::vector<std::string> crowded_folders(const SourceTree& tree, std::size_t most) {
-  std::map<std::string, std::set<std::string>> modules;
-  for (const std::string& file : tree.files) modules[folder_of(file)].insert(module_of(file));
+std::vector<std::string> long_files(const SourceTree& tree, std::size_t most) {
   std::vector<std::string> lines;
-  for (const auto& [folder, inside] : modules) {
-    if (inside.size() <= most) continue;
-    lines.push_back(folder + ": holds " + std::to_string(inside.size()) + " modules, more than " +
-                    std::to_string(most));
+  for (const SourceFile& file : tree.files) {
+    if (file.lines > most)
+      lines.push_back(file.name + ": " + std::to_string(file.lines) + " lines");
+  }
+  return lines;
+}
+
+std::vector<std::string> headers_with_one_reader(const SourceTree& tree, std::size_t most,
+                                                 const std::set<std::string>& exempt) {
+  std::map<std::string, std::size_t> size;
+  for (const SourceFile& file : tree.files) size[file.name] = file.lines;
+  std::map<std::string, std::set<std::string>> readers;
+  for (const Include& include : tree.includes) {
+    if (module_of(include.from) != module_of(include.to)) {
+      readers[include.to].insert(module_of(include.from));
+    }
+  }
+  std::vector<std::string> lines;
+  for (const SourceFile& file : tree.files) {
+    if (!file.name.ends_with(".hpp") || exempt.contains(file.name)) continue;
+    const std::set<std::string>& found = readers[file.name];
+    if (found.size() > 1) continue;
+    if (!found.empty() &&
+        size[module_of(file.name) + ".cpp"] + size[*found.begin() + ".cpp"] > most) {
+      continue;
+    }
+    lines.push_back(file.name + (found.empty() ? ": nobody includes it"
+                                               : ": only " + *found.begin() + " includes it"));
   }
   return lines;
 }

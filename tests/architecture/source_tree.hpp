@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,35 +14,39 @@ struct Include {
   std::string to;    ///< included file: "core/error.hpp"
 };
 
+/// A source of the project.
+struct SourceFile {
+  std::string name;  ///< relative to the source folder
+  std::size_t lines = 0;
+};
+
 /// Every .cpp and .hpp below some top-level folders, sorted, and all their includes.
 struct SourceTree {
-  std::vector<std::string> files;
+  std::vector<SourceFile> files;
   std::vector<Include> includes;
 };
 SourceTree source_tree_in(const std::filesystem::path& source,
-                          const std::set<std::string>& top_folders);
+                          const std::vector<std::string>& top_folders);
 
-/// Maps each folder to what it may include besides itself: folders ("core", or "estimator/*" for
-/// estimator and all folders inside) or single files ("core/error.hpp").
-using DependencyTable = std::map<std::string, std::set<std::string>>;
+/// The top-level folders in their order: the first backquoted name of each row of the table between
+/// the lines "<!-- folders -->" and "<!-- /folders -->" of docs/reference/architecture.md.
+std::vector<std::string> folder_order_in(const std::string& markdown);
 
-/// Reads the table in docs/reference/architecture.md: the rows between the lines "<!-- dependencies
-/// -->" and
-/// "<!-- /dependencies -->". The first column is the folder. The last lists what it may include,
-/// in backquotes.
-DependencyTable dependency_table_in(const std::string& markdown);
+/// One line for every include of a file in a top-level folder that stands below that of the
+/// including file, and for every file in a folder without a row.
+std::vector<std::string> includes_against(const std::vector<std::string>& order,
+                                          const SourceTree& tree);
 
-/// The folder of a file, and its module: "render/film" and "render/film/video".
-std::string folder_of(const std::string& file);
-std::string module_of(const std::string& file);
-
-/// One line for every include that the table does not allow, and for every folder without a row.
-std::vector<std::string> forbidden_includes(const DependencyTable& table, const SourceTree& tree);
-
-/// One line for every include in a cycle of modules.
+/// One line for every include in a cycle of modules. A module is a header with its source.
 std::vector<std::string> cyclic_includes(const SourceTree& tree);
 
-/// One line for every folder of more than `most` modules.
-std::vector<std::string> crowded_folders(const SourceTree& tree, std::size_t most);
+/// One line for every file of more than `most` lines.
+std::vector<std::string> long_files(const SourceTree& tree, std::size_t most);
+
+/// One line for every header that fewer than two modules include besides its own source, but those
+/// of `exempt`. Such a header is no interface: its contents belong to its only reader, unless their
+/// sources together would have more than `most` lines.
+std::vector<std::string> headers_with_one_reader(const SourceTree& tree, std::size_t most,
+                                                 const std::set<std::string>& exempt);
 
 }  // namespace touchdown::tests

@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
+#include "logs/log/recording_file.hpp"
 #include "program.hpp"
-#include "recordings/log/recording_file.hpp"
 #include "tests/bag_writer.hpp"
 
 namespace touchdown::cli {
@@ -40,7 +40,7 @@ joints:
 
 /// A run of Upkie as another robot's bag: joints at 500 Hz in another order, the right leg counted
 /// like the left one; the IMU at 200 Hz on a clock of its own, by REP 103 and 145.
-test::TestBag other_robots_bag(const recordings::Recording& run) {
+test::TestBag other_robots_bag(const logs::Recording& run) {
   constexpr std::int64_t epoch = 1'732'540'000'000'000'000;
   test::TestBag bag{
       {{"/joint_states", "sensor_msgs/msg/JointState"}, {"/imu/data", "sensor_msgs/msg/Imu"}}, {}};
@@ -79,7 +79,7 @@ test::TestBag other_robots_bag(const recordings::Recording& run) {
 
 /// Balanced accuracy of the decisions in a table of beliefs against the run, both wheels together.
 /// `offset` is the run's time at the table's time 0.
-double balanced_accuracy(const std::filesystem::path& csv, const recordings::Recording& run,
+double balanced_accuracy(const std::filesystem::path& csv, const logs::Recording& run,
                          double offset) {
   std::istringstream lines(read_file(csv));
   std::string line;
@@ -111,7 +111,7 @@ TEST(Bag, OfAnotherRobotGivesBeliefsAsGoodAsTheRunsOwnLog) {
   const std::string model = TOUCHDOWN_SOURCE_DIR "/models/evidence_curves.npz";
   ASSERT_EQ(touchdown_program("simulate " + scenario + " -o run.mpack", folder.path()).exit_code,
             0);
-  const recordings::Recording run = recordings::read_recording(folder / "run.mpack");
+  const logs::Recording run = logs::read_recording(folder / "run.mpack");
   const test::TestBag bag = other_robots_bag(run);
   std::filesystem::create_directories(folder / "bag");
   std::ofstream(folder / "bag" / "bag_0.mcap", std::ios::binary)
@@ -153,7 +153,7 @@ TEST(Bag, IsCheckedByAMapping) {
   const std::string scenario = TOUCHDOWN_SOURCE_DIR "/scenarios/hop.yaml";
   ASSERT_EQ(touchdown_program("simulate " + scenario + " -o run.mpack", folder.path()).exit_code,
             0);
-  const test::TestBag bag = other_robots_bag(recordings::read_recording(folder / "run.mpack"));
+  const test::TestBag bag = other_robots_bag(logs::read_recording(folder / "run.mpack"));
   std::filesystem::create_directories(folder / "bag");
   test::write_db3(bag, folder / "bag" / "bag_0.db3");
   std::ofstream(folder / "bag.mcap", std::ios::binary) << test::mcap_bytes(bag);
@@ -217,7 +217,7 @@ TEST(Bag, OfThePagePrintsWhatThePagePrints) {
   ASSERT_EQ(touchdown_program("simulate " + scenario + " -o run.mpack", folder.path()).exit_code,
             0);
   std::filesystem::create_directories(folder / "bag");
-  test::write_db3(other_robots_bag(recordings::read_recording(folder / "run.mpack")),
+  test::write_db3(other_robots_bag(logs::read_recording(folder / "run.mpack")),
                   folder / "bag" / "bag_0.db3");
   const std::string page = read_file(TOUCHDOWN_SOURCE_DIR "/docs/tutorials/ros2_bag.md");
   const std::size_t begin = page.find("```yaml\n") + 8;
@@ -252,7 +252,7 @@ TEST(Bag, OfThePagePrintsWhatThePagePrints) {
 }
 
 /// The messages of a bag as two CSV files, a message per row.
-void write_csv_files(const recordings::Recording& run, const ScratchFolder& folder) {
+void write_csv_files(const logs::Recording& run, const ScratchFolder& folder) {
   std::filesystem::create_directories(folder / "csv");
   std::ofstream joints(folder / "csv" / "joint_states.csv");
   std::ofstream imu(folder / "csv" / "imu.csv");
@@ -299,7 +299,7 @@ TEST(Bag, AndCsvFilesAreReadByTheExamples) {
   const std::string scenario = TOUCHDOWN_SOURCE_DIR "/scenarios/hop.yaml";
   ASSERT_EQ(touchdown_program("simulate " + scenario + " -o run.mpack", folder.path()).exit_code,
             0);
-  const recordings::Recording run = recordings::read_recording(folder / "run.mpack");
+  const logs::Recording run = logs::read_recording(folder / "run.mpack");
   std::ofstream(folder / "bag.mcap", std::ios::binary) << test::mcap_bytes(other_robots_bag(run));
   write_csv_files(run, folder);
   std::vector<double> accuracy;

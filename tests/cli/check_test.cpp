@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "logs/log/recording_file.hpp"
 #include "program.hpp"
-#include "recordings/log/recording_file.hpp"
 #include "synthetic_log.hpp"
 
 namespace touchdown::cli {
@@ -27,18 +27,18 @@ class RobotsLog : public ::testing::Test {
     const ScratchFolder folder;
     ASSERT_EQ(
         touchdown_program("simulate scenarios/hop.yaml -o hop.mpack", folder.path()).exit_code, 0);
-    hop() = recordings::read_recording(folder / "hop.mpack");
+    hop() = logs::read_recording(folder / "hop.mpack");
     hop().info = {};
     hop().truth.clear();
   }
 
-  static recordings::Recording& hop() {
-    static recordings::Recording recording;
+  static logs::Recording& hop() {
+    static logs::Recording recording;
     return recording;
   }
 
   void write(const std::string& name, const Change& change, std::size_t every = 1) {
-    recordings::Recording log = hop();
+    logs::Recording log = hop();
     log.observation.clear();
     log.action.clear();
     for (std::size_t k = 0; k < hop().steps(); k += every) {
@@ -47,7 +47,7 @@ class RobotsLog : public ::testing::Test {
       if (change) change(log.observation.back(), k);
     }
     log.info.control_period_us *= static_cast<std::int64_t>(every);
-    recordings::write_recording(log, folder_ / name);
+    logs::write_recording(log, folder_ / name);
   }
 
   Ended run(const std::string& arguments) const {
@@ -145,9 +145,9 @@ TEST(LogThatStatesItsPeriod, IsRefusedByEveryReaderIfItsTimesAreNoSeconds) {
   const ScratchFolder folder;
   for (const auto& [factor, unit] : std::vector<std::pair<double, std::string>>{
            {1e3, "milliseconds"}, {1e6, "microseconds"}, {1e9, "nanoseconds"}}) {
-    recordings::Recording log = test::synthetic_log(2.0);
+    logs::Recording log = test::synthetic_log(2.0);
     for (models::Observation& o : log.observation) o.time *= factor;
-    recordings::write_recording(log, folder / "stated.mpack");
+    logs::write_recording(log, folder / "stated.mpack");
     for (const std::string arguments :
          {"check stated.mpack", "fit stated.mpack -o out.npz", "estimate stated.mpack",
           "estimate stated.mpack -o out.csv", "estimate stated.mpack -o out.mpack",
@@ -180,7 +180,7 @@ TEST_F(RobotsLog, WithImplausibleSignalsIsNamedByAFit) {
 
 TEST(FittedLogs, RefusesALogThatIsNamedTwice) {
   const ScratchFolder folder;
-  recordings::write_recording(test::one_class_log(2.0, true), folder / "a.mpack");
+  logs::write_recording(test::one_class_log(2.0, true), folder / "a.mpack");
   std::filesystem::create_symlink("a.mpack", folder / "link.mpack");
   std::filesystem::create_hard_link(folder / "a.mpack", folder / "same.mpack");
   for (const char* logs :
@@ -195,10 +195,10 @@ TEST(FittedLogs, RefusesALogThatIsNamedTwice) {
 
 TEST(FittedLogs, RefusesLogsOfTwoRates) {
   const ScratchFolder folder;
-  recordings::write_recording(test::one_class_log(2.0, true), folder / "a.mpack");
-  recordings::Recording slow = test::one_class_log(2.0, false);
+  logs::write_recording(test::one_class_log(2.0, true), folder / "a.mpack");
+  logs::Recording slow = test::one_class_log(2.0, false);
   for (const int every : {2, 5}) {
-    recordings::Recording part = slow;
+    logs::Recording part = slow;
     part.observation.clear();
     part.action.clear();
     for (std::size_t k = 0; k < slow.steps(); k += static_cast<std::size_t>(every)) {
@@ -206,7 +206,7 @@ TEST(FittedLogs, RefusesLogsOfTwoRates) {
       part.action.push_back(slow.action[k]);
     }
     part.info.control_period_us = 1000 * every;
-    recordings::write_recording(part, folder / "b.mpack");
+    logs::write_recording(part, folder / "b.mpack");
     for (const char* name : {"robust", "force_kinematics"}) {
       const Ended ended = touchdown_program(
           fmt::format("fit --contact a.mpack --no-contact b.mpack -o m.npz --estimator {}", name),
@@ -219,7 +219,7 @@ TEST(FittedLogs, RefusesLogsOfTwoRates) {
 
 TEST(FittedLogs, SkipsTheBeginningOfTheLogAloneAndNotThatOfEachSegment) {
   const ScratchFolder folder;
-  recordings::write_recording(test::robot_log(3.0), folder / "robot.mpack");
+  logs::write_recording(test::robot_log(3.0), folder / "robot.mpack");
   // Flights of 0.2 s, with a gap around each.
   folder.write("robot.csv",
                "start,end,contact\n0.3495,0.5495,1\n0.6195,0.7795,0\n0.9995,1.4995,1\n"

@@ -15,9 +15,9 @@
 #include "estimator/npz/load_estimator.hpp"
 #include "estimator/signal_assembler.hpp"
 #include "estimator/touchdown.h"
+#include "logs/log/recording_file.hpp"
+#include "logs/signals_from.hpp"
 #include "program.hpp"
-#include "recordings/log/recording_file.hpp"
-#include "recordings/signals_from.hpp"
 #include "tests/bag_writer.hpp"
 #include "tests/python_with_numpy.hpp"
 
@@ -49,7 +49,7 @@ struct Step {
   Eigen::Vector3d acceleration;  ///< gravity included
 };
 
-std::vector<Step> steps_of(const recordings::Recording& run) {
+std::vector<Step> steps_of(const logs::Recording& run) {
   std::vector<Step> steps;
   for (std::size_t k = 0; k < run.steps(); ++k) {
     const models::Observation& o = run.observation[k];
@@ -162,11 +162,11 @@ std::array<double, 6> numbers_of(const Belief& belief) {
 }
 
 /// Of the run that the robot's numbers come from, without its servos' commands.
-Beliefs beliefs_of_run(const recordings::Recording& run) {
+Beliefs beliefs_of_run(const logs::Recording& run) {
   const auto estimator = load_estimator(model);
   Beliefs beliefs;
   for (const models::Observation& o : run.observation) {
-    beliefs.push_back(numbers_of(estimator->update(recordings::signals_from(o, nullptr))));
+    beliefs.push_back(numbers_of(estimator->update(logs::signals_from(o, nullptr))));
   }
   return beliefs;
 }
@@ -281,7 +281,7 @@ TEST(Doors, GiveTheSameBeliefsAboutARobotWithConventionsOfItsOwn) {
                               folder.path())
                 .exit_code,
             0);
-  const recordings::Recording run = recordings::read_recording(folder / "run.mpack");
+  const logs::Recording run = logs::read_recording(folder / "run.mpack");
   const std::vector<Step> steps = steps_of(run);
   const Beliefs expected = beliefs_of_cpp(steps);
 

@@ -14,10 +14,10 @@
 #include "experiments/estimators/fits.hpp"
 #include "experiments/logs/summary.hpp"
 #include "experiments/signals/estimator_runner.hpp"
+#include "logs/log/recording_file.hpp"
+#include "logs/model_file.hpp"
+#include "logs/signals_from.hpp"
 #include "program.hpp"
-#include "recordings/log/recording_file.hpp"
-#include "recordings/model_file.hpp"
-#include "recordings/signals_from.hpp"
 #include "scoring/score.hpp"
 #include "synthetic_log.hpp"
 
@@ -53,17 +53,17 @@ Lines lines_of(const std::string& csv) {
 class Estimate : public ::testing::Test {
  protected:
   Estimate() {
-    const recordings::Recording fitted = test::synthetic_log(3.0);
+    const logs::Recording fitted = test::synthetic_log(3.0);
     const experiments::RunSignals run =
         experiments::signals_of(fitted, {}, {}, scoring::SampleUnit::run);
     const std::vector<const experiments::RunSignals*> runs = {&run};
     MeasurementConfig config = BayesFilterConfig::robust().measurement;
     config.fit.knee_count = config.fit.wheel_count = 60;
-    recordings::save_model({.grid = experiments::fit(runs, config, {})}, folder_ / "m.npz");
+    logs::save_model({.grid = experiments::fit(runs, config, {})}, folder_ / "m.npz");
   }
 
-  void log(const std::string& name, const recordings::Recording& recording) const {
-    recordings::write_recording(recording, folder_ / name);
+  void log(const std::string& name, const logs::Recording& recording) const {
+    logs::write_recording(recording, folder_ / name);
   }
 
   std::string estimate(const std::string& arguments) const {
@@ -90,13 +90,13 @@ class Estimate : public ::testing::Test {
     return BayesFilter(*load_model(folder_ / "m.npz").grid, config);
   }
 
-  void expect_beliefs(const Lines& lines, const recordings::Recording& recording,
+  void expect_beliefs(const Lines& lines, const logs::Recording& recording,
                       BayesFilter filter) const {
     ASSERT_EQ(lines.size(), recording.steps());
     double command = 0.0;
     for (std::size_t k = 0; k < lines.size(); ++k) {
-      const Belief& b = filter.update(recordings::signals_from(recording.observation[k], command));
-      command = recordings::ground_velocity_command(recording.action[k]);
+      const Belief& b = filter.update(logs::signals_from(recording.observation[k], command));
+      command = logs::ground_velocity_command(recording.action[k]);
       const std::vector<double> expected = {recording.observation[k].time,
                                             b.wheel[0].p_contact,
                                             b.wheel[1].p_contact,
@@ -117,7 +117,7 @@ class Estimate : public ::testing::Test {
 };
 
 TEST_F(Estimate, WritesTheBeliefsOfTheLibrarysFilter) {
-  const recordings::Recording recording = test::synthetic_log(2.0);
+  const logs::Recording recording = test::synthetic_log(2.0);
   log("a.mpack", recording);
   EXPECT_THAT(estimate("a.mpack --model m.npz -o b.csv"),
               AllOf(StartsWith("a.mpack: 2000 steps, 2.000 s at 1000 Hz, Bayes filter (robust)"),
@@ -126,7 +126,7 @@ TEST_F(Estimate, WritesTheBeliefsOfTheLibrarysFilter) {
 }
 
 TEST_F(Estimate, OfASlowerLogUsesAWindowOfTheSameLength) {
-  const recordings::Recording recording = test::synthetic_log(2.0, 5000);
+  const logs::Recording recording = test::synthetic_log(2.0, 5000);
   log("a.mpack", recording);
   EXPECT_THAT(estimate("a.mpack --model m.npz -o b.csv"),
               HasSubstr("400 steps, 2.000 s at 200 Hz"));
@@ -134,19 +134,18 @@ TEST_F(Estimate, OfASlowerLogUsesAWindowOfTheSameLength) {
 }
 
 TEST_F(Estimate, RoundsAJitteringClockToItsNominalRate) {
-  recordings::Recording recording = test::robot_log(1.0);
+  logs::Recording recording = test::robot_log(1.0);
   for (std::size_t k = 0; k < recording.steps(); ++k) {
     recording.observation[k].time = 1.0007e-3 * static_cast<double>(k) + (k % 3 == 1 ? 4e-6 : 0.0);
   }
   log("a.mpack", recording);
   EXPECT_THAT(estimate("a.mpack --model m.npz -o b.csv"), HasSubstr("at 1000 Hz"));
-  expect_beliefs(table("b.csv"), recordings::read_recording(folder_ / "a.mpack"),
-                 filter(1000.0, 128));
+  expect_beliefs(table("b.csv"), logs::read_recording(folder_ / "a.mpack"), filter(1000.0, 128));
   EXPECT_THAT(estimate("a.mpack --estimator nmn"), HasSubstr("NMN"));
 }
 
 TEST_F(Estimate, ScoresAgainstTheTruthAsExperimentsDo) {
-  const recordings::Recording recording = test::synthetic_log(3.0);
+  const logs::Recording recording = test::synthetic_log(3.0);
   log("a.mpack", recording);
   const experiments::RunSignals run =
       experiments::signals_of(recording, {}, {}, scoring::SampleUnit::run);
@@ -212,7 +211,7 @@ TEST_F(Estimate, WritesBeliefsIntoTheLogAndKeepsTheRest) {
 }
 
 TEST_F(Estimate, ReportsUnusableSignals) {
-  recordings::Recording broken = test::synthetic_log(1.0);
+  logs::Recording broken = test::synthetic_log(1.0);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 400; k < 410; ++k) broken.observation[k].servo[1].torque = nan;
   broken.observation[420].imu.linear_acceleration.z() = nan;
@@ -230,7 +229,7 @@ TEST_F(Estimate, ReportsUnusableSignals) {
 }
 
 TEST_F(Estimate, ReportsTheLogsTimesGapsAndStepsBack) {
-  recordings::Recording robot = test::robot_log(1.0);
+  logs::Recording robot = test::robot_log(1.0);
   for (std::size_t k = 0; k < robot.steps(); ++k) {
     robot.observation[k].time += 10.0 + (k >= 700 ? 0.5 : 0.0);
   }
@@ -305,11 +304,11 @@ TEST_F(Estimate, RecognizesTheEstimatorOfAParameterModel) {
   }
   EXPECT_THAT(complaint_about("a.mpack --model m.npz --estimator force_kinematics"),
               HasSubstr("m.npz: is a model of torques' densities"));
-  recordings::write_npz(arrays_of(Parameters{{"force_mean", {1.0, 2.0}}}, "force_kinematics"),
-                        folder_ / "l.npz");
+  logs::write_npz(arrays_of(Parameters{{"force_mean", {1.0, 2.0}}}, "force_kinematics"),
+                  folder_ / "l.npz");
   EXPECT_THAT(complaint_about("a.mpack --model l.npz"),
               HasSubstr("l.npz: parameter 'force_deviation'"));
-  recordings::write_npz(arrays_of(Parameters{{"slope", {1.0}}}, "lode"), folder_ / "l.npz");
+  logs::write_npz(arrays_of(Parameters{{"slope", {1.0}}}, "lode"), folder_ / "l.npz");
   EXPECT_THAT(complaint_about("a.mpack --model l.npz"), HasSubstr("unknown estimator 'lode'"));
 }
 

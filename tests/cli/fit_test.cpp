@@ -8,9 +8,9 @@
 #include "experiments/estimators/fits.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/signals/run_signals.hpp"
+#include "logs/log/recording_file.hpp"
+#include "logs/model_file.hpp"
 #include "program.hpp"
-#include "recordings/log/recording_file.hpp"
-#include "recordings/model_file.hpp"
 #include "synthetic_log.hpp"
 
 namespace touchdown::cli {
@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 
 class Fit : public ::testing::Test {
  protected:
-  fs::path log(const std::string& name, const recordings::Recording& recording) const {
-    recordings::write_recording(recording, folder_ / name);
+  fs::path log(const std::string& name, const logs::Recording& recording) const {
+    logs::write_recording(recording, folder_ / name);
     return folder_ / name;
   }
 
@@ -69,7 +69,7 @@ TEST_F(Fit, OfLabelledLogsEqualsTheFitOfExperiments) {
     EXPECT_THAT(fit("a.mpack b.mpack -o m.npz --estimator " + name), HasSubstr("2 logs"));
     std::vector<experiments::RunSignals> runs;
     for (const char* file : {"a.mpack", "b.mpack"}) {
-      runs.push_back(experiments::signals_of(recordings::read_recording(folder_ / file), {}, {},
+      runs.push_back(experiments::signals_of(logs::read_recording(folder_ / file), {}, {},
                                              scoring::SampleUnit::run));
     }
     const std::vector<const experiments::RunSignals*> signals = {&runs[0], &runs[1]};
@@ -115,15 +115,15 @@ TEST_F(Fit, LeavesOutUnlabelledSteps) {
 }
 
 TEST_F(Fit, UsesLogsOfOneClassAsDeclared) {
-  const recordings::Recording rolling = test::one_class_log(2.0, true);
-  const recordings::Recording hanging = test::one_class_log(1.0, false);
+  const logs::Recording rolling = test::one_class_log(2.0, true);
+  const logs::Recording hanging = test::one_class_log(1.0, false);
   log("rolling.mpack", rolling);
   log("hanging.mpack", hanging);
   fit("--contact rolling.mpack --no-contact hanging.mpack -o m.npz --grid 80 60 --skip 0.1");
   MeasurementConfig config = BayesFilterConfig::robust().measurement;
   config.fit.knee_count = 80;
   config.fit.wheel_count = 60;
-  const auto samples = [&](const recordings::Recording& recording) {
+  const auto samples = [&](const logs::Recording& recording) {
     std::vector<TorqueSample> all;
     for (const Side side : {Side::left, Side::right}) {
       TorqueChannel channel(config.torque, side, 1000.0);
@@ -145,7 +145,7 @@ TEST_F(Fit, OfThePhaseFilterEqualsTheFitOfExperiments) {
   log("a.mpack", test::synthetic_log(3.0));
   EXPECT_THAT(fit("a.mpack -o m.npz --estimator phase"), HasSubstr("2.700 s of 1 log"));
   const experiments::RunSignals run = experiments::signals_of(
-      recordings::read_recording(folder_ / "a.mpack"), {}, {}, scoring::SampleUnit::run);
+      logs::read_recording(folder_ / "a.mpack"), {}, {}, scoring::SampleUnit::run);
   const std::vector<const experiments::RunSignals*> runs = {&run};
   const Model expected = experiments::fit_phases(runs, PhaseFilterConfig{}.fit, 0.3);
   const Model written = load_model(folder_ / "m.npz");
@@ -158,7 +158,7 @@ TEST_F(Fit, OfThePhaseFilterEqualsTheFitOfExperiments) {
 TEST_F(Fit, OfParametersEqualsTheFitOfExperiments) {
   log("a.mpack", test::synthetic_log(3.0));
   const experiments::RunSignals run = experiments::signals_of(
-      recordings::read_recording(folder_ / "a.mpack"), {}, {}, scoring::SampleUnit::run);
+      logs::read_recording(folder_ / "a.mpack"), {}, {}, scoring::SampleUnit::run);
   for (const std::string name :
        {"force_kinematics", "decision_network", "evidence_curves", "evidence_curves_quiet"}) {
     EXPECT_THAT(fit("a.mpack -o m.npz --estimator " + name), HasSubstr("2.700 s of 1 log"));
@@ -188,8 +188,8 @@ TEST_F(Fit, OfParametersUsesLogsOfOneClassAsDeclared) {
 }
 
 TEST_F(Fit, RefusesLabelsThatTheLogsOwnTruthContradicts) {
-  const auto with_truth = [](recordings::Recording recording, double force) {
-    recordings::Recording simulated = test::synthetic_log(2.0);
+  const auto with_truth = [](logs::Recording recording, double force) {
+    logs::Recording simulated = test::synthetic_log(2.0);
     for (models::GroundTruth& truth : simulated.truth) truth.wheel_normal_force = {force, force};
     recording.truth = simulated.truth;
     recording.info = simulated.info;
@@ -209,7 +209,7 @@ TEST_F(Fit, RefusesLabelsThatTheLogsOwnTruthContradicts) {
 }
 
 TEST_F(Fit, LeavesOutTorquesThatAreNotFinite) {
-  recordings::Recording broken = test::synthetic_log(3.0);
+  logs::Recording broken = test::synthetic_log(3.0);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t k = 1000; k < 1010; ++k) broken.observation[k].servo[1].torque = nan;
   broken.observation[2000].servo[5].torque = std::numeric_limits<double>::infinity();
@@ -235,7 +235,7 @@ TEST_F(Fit, OfATruncatedLogUsesTheCompleteSteps) {
 }
 
 TEST_F(Fit, RefusesRunsOfReservedSeeds) {
-  recordings::Recording reserved = test::synthetic_log(2.0);
+  logs::Recording reserved = test::synthetic_log(2.0);
   reserved.info.seed = 900'000'001;
   log("a.mpack", reserved);
   EXPECT_THAT(complaint_about("a.mpack -o m.npz"), HasSubstr("reserved"));

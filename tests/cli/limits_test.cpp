@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
-#include "recordings/log/recording_file.hpp"
+#include "logs/log/recording_file.hpp"
 #include "started_program.hpp"
 #include "synthetic_log.hpp"
 
@@ -42,7 +42,7 @@ std::string last_line(std::string text) {
 
 class Limits : public ::testing::Test {
  protected:
-  Limits() { recordings::write_recording(test::synthetic_log(2.0), folder_ / "a.mpack"); }
+  Limits() { logs::write_recording(test::synthetic_log(2.0), folder_ / "a.mpack"); }
 
   /// The one line about a request that is refused.
   std::string refusal(const std::string& arguments, int code = 2) const {
@@ -209,9 +209,9 @@ TEST_F(Limits, EmptyTextsAreRefused) {
 
 TEST_F(Limits, AbsurdTimesOfALogArePrintedShort) {
   for (const double time : {1e300, -1e22, 1e21}) {
-    recordings::Recording log = test::synthetic_log(2.0);
+    logs::Recording log = test::synthetic_log(2.0);
     log.observation[1000].time = time;
-    recordings::write_recording(log, folder_ / "t.mpack");
+    logs::write_recording(log, folder_ / "t.mpack");
     for (const std::string verb : {"estimate", "check"}) {
       const Ended ended = touchdown_program(verb + " t.mpack", folder_.path());
       EXPECT_EQ(ended.exit_code, 0) << ended.errors;

@@ -10,9 +10,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "logs/log/recording_file.hpp"
+#include "logs/log/writer.hpp"
 #include "program.hpp"
-#include "recordings/log/recording_file.hpp"
-#include "recordings/log/writer.hpp"
 #include "synthetic_log.hpp"
 
 namespace touchdown::cli {
@@ -90,9 +90,9 @@ class LiveEstimate : public ::testing::Test {
 };
 
 /// The log's records, one text each.
-std::vector<std::string> records(const recordings::Recording& log) {
+std::vector<std::string> records(const logs::Recording& log) {
   std::ostringstream stream;
-  recordings::LogWriter writer(stream, log.info, recordings::WrittenTruth{});
+  logs::LogWriter writer(stream, log.info, logs::WrittenTruth{});
   std::vector<std::string> all;
   for (std::size_t k = 0; k < log.steps(); ++k) {
     writer.write(log.observation[k], log.action[k], nullptr);
@@ -148,7 +148,7 @@ TEST_F(LiveEstimate, PrintsTheBeliefsBeforeGarbage) {
 }
 
 TEST_F(LiveEstimate, PrintsTheSameAsFromAFile) {
-  const recordings::Recording log = test::robot_log(0.7);
+  const logs::Recording log = test::robot_log(0.7);
   std::ptrdiff_t sent = 0;
   for (const std::string& record : records(log)) {
     send(record);
@@ -158,7 +158,7 @@ TEST_F(LiveEstimate, PrintsTheSameAsFromAFile) {
   close_input();
   const std::string printed = wait_for_output(everything);
   EXPECT_EQ(exit_code(), 0);
-  recordings::write_recording(log, folder_ / "a.mpack");
+  logs::write_recording(log, folder_ / "a.mpack");
   touchdown_program("estimate a.mpack --estimator free_fall -o a.csv", folder_.path());
   EXPECT_EQ(printed, read_file(folder_ / "a.csv"));
 }

@@ -6,8 +6,8 @@
 
 #include "core/files.hpp"
 #include "core/table.hpp"
+#include "logs/log/recording_file.hpp"
 #include "program.hpp"
-#include "recordings/log/recording_file.hpp"
 
 namespace touchdown::cli {
 namespace {
@@ -22,7 +22,7 @@ std::string six(const char* what) {
 }
 
 /// The run as CSV in Upkie's units. Each number reads back to the same bits.
-std::string si_csv(const recordings::Recording& run) {
+std::string si_csv(const logs::Recording& run) {
   std::string csv =
       fmt::format("t, {}, {}, {}, qw, qx, qy, qz, gx, gy, gz, ax, ay, az, px, py, pz\n", six("q"),
                   six("v"), six("tau"));
@@ -65,7 +65,7 @@ class Mapping : public ::testing::Test {
     ran("simulate step.yaml --run 2 -o run.mpack");
     ran("fit run.mpack -o model.npz");
     ran("estimate run.mpack --model model.npz -o run.csv");
-    run = new recordings::Recording(recordings::read_recording(*folder / "run.mpack"));
+    run = new logs::Recording(logs::read_recording(*folder / "run.mpack"));
   }
   static void TearDownTestSuite() {
     delete folder;
@@ -85,10 +85,10 @@ class Mapping : public ::testing::Test {
   }
 
   static ScratchFolder* folder;
-  static recordings::Recording* run;
+  static logs::Recording* run;
 };
 ScratchFolder* Mapping::folder = nullptr;
-recordings::Recording* Mapping::run = nullptr;
+logs::Recording* Mapping::run = nullptr;
 
 TEST_F(Mapping, LogInUpkiesUnitsGivesTheSameBeliefsAsTheRun) {
   folder->write("si.csv", si_csv(*run));
@@ -109,7 +109,7 @@ TEST_F(Mapping, ExampleIsTheOneInTheDocuments) {
                       example)),
       AllOf(HasSubstr("10 records, from 81.000 to 81.009 s"), HasSubstr("3 intervals"),
             Not(HasSubstr("lack"))));
-  const auto recorded = recordings::read_recording(*folder / "example.mpack");
+  const auto recorded = logs::read_recording(*folder / "example.mpack");
   ASSERT_EQ(recorded.steps(), 10U);
   // The robot stands: knees bent backwards, torques that carry it, no gravity except for rounding.
   const models::Observation& o = recorded.observation.front();

@@ -9,8 +9,8 @@
 
 #include "core/files.hpp"
 #include "core/table.hpp"
+#include "logs/log/recording_file.hpp"
 #include "program.hpp"
-#include "recordings/log/recording_file.hpp"
 #include "result_files.hpp"
 #include "synthetic_log.hpp"
 
@@ -56,9 +56,9 @@ class Mcap : public ::testing::Test {
 
 TEST_F(Mcap, HoldsSignalsAndBeliefsOfEveryStep) {
   // More than one chunk, and a clock that does not begin at 0.
-  recordings::Recording log = test::synthetic_log(1.5);
+  logs::Recording log = test::synthetic_log(1.5);
   for (models::Observation& o : log.observation) o.time += 0.25;
-  recordings::write_recording(log, folder_ / "log.mpack");
+  logs::write_recording(log, folder_ / "log.mpack");
   ran("estimate log.mpack --estimator support_force -o with.mpack -o beliefs.csv");
   EXPECT_THAT(ran("export with.mpack -o with.mcap"), HasSubstr("with.mcap, 1500 records"));
   ran("export with.mpack -o again.mcap");
@@ -101,7 +101,7 @@ TEST_F(Mcap, OfARobotWithoutBeliefsKeepsTheRobotsClock) {
 TEST_F(Mcap, ShowsRobotTerrainAndTakeoffsOfASimulatedRun) {
   ran("simulate " TOUCHDOWN_SOURCE_DIR "/scenarios/stairs.yaml --set end.duration=5 -o run.mpack");
   ran("export run.mpack -o run.mcap");
-  const recordings::Recording run = recordings::read_recording(folder_ / "run.mpack");
+  const logs::Recording run = logs::read_recording(folder_ / "run.mpack");
   std::map<std::string, std::vector<Message>> by_schema;
   for (Message& message : read("run.mcap")) by_schema[message.schema].push_back(message);
 
@@ -149,12 +149,12 @@ TEST_F(Mcap, ShowsRobotTerrainAndTakeoffsOfASimulatedRun) {
     EXPECT_LE(run.truth[row].wheel_normal_force[0], 1.0);
   }
   EXPECT_GE(takeoffs, 1U);
-  ASSERT_EQ(run.info.outcome, recordings::Outcome::timed_out);
+  ASSERT_EQ(run.info.outcome, logs::Outcome::timed_out);
   EXPECT_EQ(by_schema["foxglove.Log"].back().json["message"], "timed out");
 }
 
 TEST_F(Mcap, ShowsTheNamedRobotOfALogWithoutAScene) {
-  recordings::write_recording(test::robot_log(1.0), folder_ / "log.mpack");
+  logs::write_recording(test::robot_log(1.0), folder_ / "log.mpack");
   ran("export log.mpack --robot " TOUCHDOWN_SOURCE_DIR "/models/upkie.xml -o log.mcap");
   std::map<std::string, std::size_t> count;
   for (const Message& message : read("log.mcap")) ++count[message.schema];
@@ -173,7 +173,7 @@ TEST_F(Mcap, OfNoLogIsRefusedAndNothingIsWritten) {
   EXPECT_THAT(refused("export text.mpack -o a.mcap"), HasSubstr("text.mpack: byte 0: expected"));
   EXPECT_THAT(refused("export none.mpack -o a.mcap"), HasSubstr("none.mpack: no such file"));
   // A record with an additional key that is a number, which JSON does not allow.
-  recordings::write_recording(test::robot_log(0.002), folder_ / "keys.mpack");
+  logs::write_recording(test::robot_log(0.002), folder_ / "keys.mpack");
   std::string bytes = read_file(folder_ / "keys.mpack");
   const auto entries = static_cast<unsigned char>(bytes[0]);
   ASSERT_EQ(entries & 0xf0U, 0x80U);  // a map of a few entries, which gets one more

@@ -7,9 +7,9 @@
 #include "core/files.hpp"
 #include "estimator/npz/load_estimator.hpp"
 #include "estimator/npz/npz.hpp"
+#include "logs/log/recording_file.hpp"
+#include "logs/model_file.hpp"
 #include "program.hpp"
-#include "recordings/log/recording_file.hpp"
-#include "recordings/model_file.hpp"
 #include "synthetic_log.hpp"
 
 namespace touchdown::cli {
@@ -27,8 +27,8 @@ class Metadata : public ::testing::Test {
     run("fit a.mpack -o m.npz --robot tall --grid 60 60");
   }
 
-  void log(const std::string& name, const recordings::Recording& recording) const {
-    recordings::write_recording(recording, folder_ / name);
+  void log(const std::string& name, const logs::Recording& recording) const {
+    logs::write_recording(recording, folder_ / name);
   }
 
   std::string run(const std::string& arguments) const {
@@ -82,7 +82,7 @@ TEST_F(Metadata, HoldsTheHyperparametersOfTheFit) {
 }
 
 TEST_F(Metadata, OfASimulatedLogNamesItsRobot) {
-  recordings::Recording simulated = test::synthetic_log(3.0);
+  logs::Recording simulated = test::synthetic_log(3.0);
   simulated.info.scenario_yaml = "name: x\nrobot: models/upkie_heavy.yaml\n";
   log("heavy.mpack", simulated);
   run("fit heavy.mpack -o heavy.npz");
@@ -120,7 +120,7 @@ TEST_F(Metadata, OfARobotsFileHasItsLegs) {
 TEST_F(Metadata, OfASimulatedLogsRobotHasTheLegsOfItsFile) {
   for (const std::string robot : {"upkie_heavy", "upkie_long_legs"}) {
     const std::string file = "models/" + robot + ".yaml";
-    recordings::Recording simulated = recordings::read_recording(folder_ / "a.mpack");
+    logs::Recording simulated = logs::read_recording(folder_ / "a.mpack");
     simulated.info.scenario_yaml = "name: x\nrobot: " + file + "\n";
     log("own.mpack", simulated);
     const auto beliefs = [&](const std::string& flags) {
@@ -194,7 +194,7 @@ TEST_F(Metadata, ChoosesTheEstimatorThatAGridWasFittedFor) {
 TEST_F(Metadata, IsNotNeededByOlderFiles) {
   ModelArrays arrays = read_npz(folder_ / "m.npz");
   arrays.erase("metadata");
-  recordings::write_npz(arrays, folder_ / "old.npz");
+  logs::write_npz(arrays, folder_ / "old.npz");
   EXPECT_THAT(run("estimate a.mpack --model old.npz --estimator reference"),
               HasSubstr("model        old.npz: has no metadata (an older or external file): "
                         "used with 'reference'\n"));
@@ -203,7 +203,7 @@ TEST_F(Metadata, IsNotNeededByOlderFiles) {
 TEST_F(Metadata, DetectsAModelThatWasChangedAfterItsFit) {
   ModelArrays arrays = read_npz(folder_ / "m.npz");
   arrays["contact_likelihood"].data[100] += 1.0;
-  recordings::write_npz(arrays, folder_ / "m.npz");
+  logs::write_npz(arrays, folder_ / "m.npz");
   EXPECT_THAT(complaint_about("estimate a.mpack --model m.npz"),
               HasSubstr("m.npz: its numbers are not those that were fitted"));
 }
@@ -230,7 +230,7 @@ TEST_F(Metadata, OfAFolderIsAnError) {
 
 /// A regression: the summary once reported "all good" for such a log.
 TEST_F(Metadata, AnImuThatIsUpsideDownIsReported) {
-  recordings::Recording robot = test::robot_log(2.0);
+  logs::Recording robot = test::robot_log(2.0);
   for (models::Observation& o : robot.observation) {
     o.imu.raw_linear_acceleration = o.imu.linear_acceleration + Eigen::Vector3d(0.0, 0.0, 9.81);
   }

@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "logs/log/recording_file.hpp"
 #include "program.hpp"
-#include "recordings/log/recording_file.hpp"
 #include "synthetic_log.hpp"
 
 namespace touchdown::cli {
@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 class Overwrite : public ::testing::Test {
  protected:
   Overwrite() {
-    recordings::write_recording(test::synthetic_log(2.0), folder_ / "a.mpack");
-    recordings::write_recording(test::synthetic_log(1.0), folder_ / "a.dat");
+    logs::write_recording(test::synthetic_log(2.0), folder_ / "a.mpack");
+    logs::write_recording(test::synthetic_log(1.0), folder_ / "a.dat");
     write_tiny_experiment(folder_);
     fs::create_symlink("a.mpack", folder_ / "soft.mpack");
     fs::create_hard_link(folder_ / "a.mpack", folder_ / "hard.mpack");

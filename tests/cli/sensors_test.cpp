@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
+#include "logs/log/recording_file.hpp"
 #include "program.hpp"
-#include "recordings/log/recording_file.hpp"
 #include "result_files.hpp"
 
 namespace touchdown::cli {
@@ -32,7 +32,7 @@ TEST(Sensors, ThatAreIdealGiveTheBytesOfAnExperimentThatNamesNone) {
   const ScratchFolder folder;
   write_tiny_experiment(folder);
   const auto none = run_with(folder, "none");
-  const auto ideal = run_with(folder, "ideal", "--set sensors=sensors/ideal.yaml");
+  const auto ideal = run_with(folder, "ideal", "--set sensors=noise/profiles/ideal.yaml");
   EXPECT_THAT(different_files(none, ideal), IsEmpty());
   EXPECT_THAT(read_file(folder / "ideal/config.yaml"), Not(HasSubstr("sensors")));
   EXPECT_THAT(read_file(folder / "none/tables/tables.md"), Not(HasSubstr("sensors as in")));
@@ -46,13 +46,13 @@ TEST(Sensors, ReportTheSignalsOfASimulatedRun) {
         "simulate drawn:hops_7_000 --run 2 --set end.duration=1.5 -o " + name + ".mpack " + flags,
         folder.path());
     EXPECT_EQ(ended.exit_code, 0) << ended.errors;
-    return recordings::read_recording(folder / (name + ".mpack"));
+    return logs::read_recording(folder / (name + ".mpack"));
   };
-  const recordings::Recording ideal = simulated("none", "");
-  EXPECT_EQ(simulated("ideal", "--sensors sensors/ideal.yaml").steps(), ideal.steps());
+  const logs::Recording ideal = simulated("none", "");
+  EXPECT_EQ(simulated("ideal", "--sensors noise/profiles/ideal.yaml").steps(), ideal.steps());
   EXPECT_EQ(read_file(folder / "ideal.mpack"), read_file(folder / "none.mpack"));
 
-  const recordings::Recording upkie = simulated("upkie", "--sensors sensors/upkie.yaml");
+  const logs::Recording upkie = simulated("upkie", "--sensors noise/profiles/upkie.yaml");
   ASSERT_EQ(upkie.steps(), ideal.steps());
   std::size_t changed = 0;
   for (std::size_t k = 0; k < ideal.steps(); ++k) {
@@ -65,36 +65,37 @@ TEST(Sensors, ReportTheSignalsOfASimulatedRun) {
   }
   EXPECT_GT(changed, ideal.steps() * 9 / 10);
   EXPECT_NE(upkie.action[0].servo[1].position, ideal.action[0].servo[1].position);
-  simulated("again", "--sensors sensors/upkie.yaml");
+  simulated("again", "--sensors noise/profiles/upkie.yaml");
   EXPECT_EQ(read_file(folder / "again.mpack"), read_file(folder / "upkie.mpack"));
 
   const Ended missing = touchdown_program(
-      "simulate scenarios/flat.yaml -o x.mpack --sensors sensors/upkei.yaml", folder.path());
+      "simulate scenarios/flat.yaml -o x.mpack --sensors noise/profiles/upkei.yaml", folder.path());
   EXPECT_EQ(missing.exit_code, 2);
-  EXPECT_THAT(missing.errors, HasSubstr("sensors/upkei.yaml: no such file (did you mean"));
+  EXPECT_THAT(missing.errors, HasSubstr("noise/profiles/upkei.yaml: no such file (did you mean"));
 }
 
 TEST(Sensors, ChangeSignalsAndFitsButNotRecordings) {
   const ScratchFolder folder;
   write_tiny_experiment(folder);
   const auto none = run_with(folder, "none");
-  const auto harsh = run_with(folder, "harsh", "--set sensors=sensors/harsh.yaml");
+  const auto harsh = run_with(folder, "harsh", "--set sensors=noise/profiles/harsh.yaml");
   const auto different = different_files(none, harsh);
   EXPECT_THAT(different, Each(Not(StartsWith("recordings/"))));
   for (const char* name : {"tables/success.csv", "tables/latency.csv", "models/mujoco_robust.npz",
                            "models/bullet_robust.npz", "config.yaml"}) {
     EXPECT_THAT(different, Contains(name));
   }
-  EXPECT_THAT(read_file(folder / "harsh/config.yaml"), HasSubstr("sensors: sensors/harsh.yaml"));
+  EXPECT_THAT(read_file(folder / "harsh/config.yaml"),
+              HasSubstr("sensors: noise/profiles/harsh.yaml"));
   EXPECT_THAT(read_file(folder / "harsh/tables/tables.md"),
-              HasSubstr("sensors as in sensors/harsh.yaml"));
+              HasSubstr("sensors as in noise/profiles/harsh.yaml"));
   EXPECT_THAT(read_file(folder / "harsh/tables/success.csv"), Not(HasSubstr("nan,nan")));
 }
 
 TEST(Sensors, GiveTheSameBytesAgainWhateverTheNumberOfThreadsAndTheEngines) {
   const ScratchFolder folder;
   write_tiny_experiment(folder);
-  const std::string harsh = "--set sensors=sensors/harsh.yaml --set workers=";
+  const std::string harsh = "--set sensors=noise/profiles/harsh.yaml --set workers=";
   const auto first = run_with(folder, "a", harsh + "4");
   EXPECT_THAT(different_files(first, run_with(folder, "b", harsh + "1")), IsEmpty());
   const auto mujoco = run_with(folder, "c", harsh + "2 --set simulators=[mujoco]");
@@ -134,16 +135,16 @@ TEST(Sensors, OfAProfileThatIsWrongStopTheRunBeforeItBegins) {
   };
   EXPECT_THAT(complaint("mine.yaml"),
               HasSubstr("mine.yaml:2:10: torque.delay: expected a number from 0 to 10"));
-  EXPECT_THAT(complaint("sensors/upkei.yaml"),
-              AllOf(HasSubstr("sensors/upkei.yaml: no such file"),
-                    HasSubstr("did you mean 'sensors/upkie.yaml'?")));
+  EXPECT_THAT(complaint("noise/profiles/upkei.yaml"),
+              AllOf(HasSubstr("noise/profiles/upkei.yaml: no such file"),
+                    HasSubstr("did you mean 'noise/profiles/upkie.yaml'?")));
 }
 
 TEST(Sensors, AreListedWithADescription) {
   const ScratchFolder folder;
   const Ended listed = touchdown_program("list", folder.path());
-  EXPECT_THAT(listed.output, HasSubstr("sensors/upkie.yaml   Upkie: servos by moteus"));
-  EXPECT_THAT(listed.output, HasSubstr("sensors/harsh.yaml"));
+  EXPECT_THAT(listed.output, HasSubstr("noise/profiles/upkie.yaml   Upkie: servos by moteus"));
+  EXPECT_THAT(listed.output, HasSubstr("noise/profiles/harsh.yaml"));
 }
 
 }  // namespace

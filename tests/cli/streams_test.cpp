@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
+#include "logs/log/recording_file.hpp"
 #include "program.hpp"
-#include "recordings/log/recording_file.hpp"
 #include "synthetic_log.hpp"
 
 namespace touchdown::cli {
@@ -50,7 +50,7 @@ TEST(StandardError, ThatIsFullOrClosedKeepsTheExitCode) {
 
 TEST(StandardError, ThatIsClosedDoesNotEndUpInAFile) {
   const ScratchFolder folder;
-  recordings::write_recording(test::synthetic_log(1.0), folder / "a.mpack");
+  logs::write_recording(test::synthetic_log(1.0), folder / "a.mpack");
   const std::string bytes = read_file(folder / "a.mpack");
   folder.write("cut.mpack", bytes.substr(0, bytes.size() - 5));  // which causes a warning
   const std::string estimate = "estimate cut.mpack --estimator free_fall -o ";
@@ -89,7 +89,7 @@ TEST(StandardOutput, ThatIsFullDoesNotPreventTheReport) {
 
 TEST(StandardOutput, ThatIsFullStopsALiveTable) {
   const ScratchFolder folder;
-  recordings::write_recording(test::synthetic_log(2.0), folder / "a.mpack");
+  logs::write_recording(test::synthetic_log(2.0), folder / "a.mpack");
   EXPECT_EQ(exit_code("estimate - --estimator free_fall <a.mpack >/dev/full 2>errors.txt", folder),
             1);
   EXPECT_THAT(read_file(folder / "errors.txt"), HasSubstr("cannot be written"));

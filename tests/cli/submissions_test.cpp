@@ -38,7 +38,7 @@ test: {scenarios: [step.yaml, roll.yaml], runs: 2}
 noise: {torque: [0.0, 1.0], accelerometer: [0.0, 5.0], seeds: 2}
 highlights: [{torque: 0.0, accelerometer: 0.0}, {torque: 1.0, accelerometer: 5.0}]
 intervals: {resamples: 50}
-benchmark: {sensors: [sensors/harsh.yaml]}
+benchmark: {sensors: [noise/profiles/harsh.yaml]}
 recordings: none
 video: {enabled: false}
 )");

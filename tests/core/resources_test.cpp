@@ -36,6 +36,15 @@ TEST(RequiredResources, ThatAreThereOrNotAskedForAreNoComplaint) {
   EXPECT_EQ(missing_in("fits: {scenarios: [nowhere.yaml]}\nfit: {segments: []}\n"), "no complaint");
 }
 
+TEST(RequiredResources, OfAFolderThatIsGoneAreSuggestedByTheirName) {
+  EXPECT_THAT(missing_in("robot: sensors/upkie.yaml\n"),
+              EndsWith("sensors/upkie.yaml: no such file (did you mean "
+                       "'noise/profiles/upkie.yaml'?)"));
+  EXPECT_THAT(missing_in("robot: terrains/roam.yaml\n"),
+              EndsWith("(did you mean 'scenarios/roam.yaml'?)"));
+  EXPECT_THAT(missing_in("robot: terrains/mine.yaml\n"), EndsWith("mine.yaml: no such file"));
+}
+
 TEST(RequiredResources, ThatAreMissingAreNamedWhereTheyStand) {
   EXPECT_THAT(missing_in("fit:\n  scenarios: [scenarios/roam.yaml, scenarios/stiars.yaml]\n"),
               AllOf(StartsWith("x.yaml:2:36: fit.scenarios.1: scenarios/stiars.yaml: no such file"),

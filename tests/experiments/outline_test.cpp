@@ -58,7 +58,7 @@ TEST(Outline, CountsOneSimulationForRunsThatDifferInTheirSensors) {
                    "name: wide\nestimators: [robust]\n"
                    "fit: {scenarios: [scenarios/stairs.yaml], runs: 1}\n"
                    "test: {scenarios: [scenarios/hop.yaml], runs: 3}\nnoise: {seeds: 5}\n"
-                   "benchmark: {sensors: [sensors/upkie.yaml]}\n"),
+                   "benchmark: {sensors: [noise/profiles/upkie.yaml]}\n"),
       folder);
   EXPECT_EQ(wide.fitted_runs, 4U);
   EXPECT_EQ(wide.test_runs, 12U);

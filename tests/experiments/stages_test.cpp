@@ -27,7 +27,7 @@ Rollout rollout(const PlannedRun& plan, const std::array<scoring::ContactSequenc
 }
 
 /// What the check does with the fitted runs of `given`; the second one has this outcome.
-void check(const Case& given, recordings::Outcome second = recordings::Outcome::finished) {
+void check(const Case& given, logs::Outcome second = logs::Outcome::finished) {
   Experiment experiment;
   experiment.estimators = given.estimators;
   Plan plan;
@@ -82,7 +82,7 @@ TEST(FitRunCheck, AcceptsRunsThatHaveItTogether) {
 }
 
 TEST(FitRunCheck, DoesNotUseRunsThatFell) {
-  EXPECT_THROW(check({{"phase"}, rolls, hangs}, recordings::Outcome::fell), InputError);
+  EXPECT_THROW(check({{"phase"}, rolls, hangs}, logs::Outcome::fell), InputError);
 }
 
 /// What the check does with runs of which each one fails in another way. `segment`: whether there
@@ -91,9 +91,8 @@ void check_failing(const std::vector<std::string>& estimators, bool segment) {
   Experiment experiment;
   experiment.estimators = estimators;
   Plan plan;
-  const auto failures = {recordings::Outcome::left_terrain, recordings::Outcome::fell,
-                         recordings::Outcome::diverged};
-  for (const recordings::Outcome failure : failures) {
+  const auto failures = {logs::Outcome::left_terrain, logs::Outcome::fell, logs::Outcome::diverged};
+  for (const logs::Outcome failure : failures) {
     PlannedRun run;
     run.role = RunRole::fit;
     run.simulator = "bullet";

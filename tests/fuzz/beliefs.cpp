@@ -1,9 +1,9 @@
-#include "recordings/log/beliefs.hpp"
+#include "logs/log/beliefs.hpp"
 
 #include <functional>
 
 #include "core/error.hpp"
-#include "recordings/log/contact_intervals.hpp"
+#include "logs/log/contact_intervals.hpp"
 #include "tests/fuzz/entry.hpp"
 #include "tests/fuzz/memory_file.hpp"
 
@@ -14,10 +14,9 @@ TOUCHDOWN_FUZZ(beliefs) {
   const fuzz::MemoryFile file(input);
   const std::filesystem::path path = file.path();
   for (const std::function<void()>& read : std::initializer_list<std::function<void()>>{
-           [&] { (void)recordings::read_belief_csv(path); },
-           [&] { (void)recordings::read_belief_mpack(path); },
-           [&] { (void)recordings::read_belief_npz(path); },
-           [&] { (void)recordings::read_contact_intervals(path); }}) {
+           [&] { (void)logs::read_belief_csv(path); }, [&] { (void)logs::read_belief_mpack(path); },
+           [&] { (void)logs::read_belief_npz(path); },
+           [&] { (void)logs::read_contact_intervals(path); }}) {
     try {
       read();
     } catch (const Error& error) {

@@ -18,9 +18,9 @@
 #include "core/fields.hpp"
 #include "core/files.hpp"
 #include "experiments/studies/experiment_file.hpp"
+#include "logs/mapping/conversion.hpp"
 #include "models/robot_description.hpp"
 #include "noise/sensor_profile.hpp"
-#include "recordings/mapping/conversion.hpp"
 #include "scenarios/scenario.hpp"
 #include "tests/fuzz/entry.hpp"
 #include "tests/scratch_folder.hpp"
@@ -177,7 +177,7 @@ joints:
 )",
                [&](const std::string& text) {
                  std::ostringstream stream;
-                 (void)recordings::convert_log(log, folder.write("damaged.yaml", text), stream);
+                 (void)logs::convert_log(log, folder.write("damaged.yaml", text), stream);
                },
                tried);
 }

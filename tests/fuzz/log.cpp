@@ -3,9 +3,9 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "recordings/log/annotator.hpp"
-#include "recordings/log/reader.hpp"
-#include "recordings/signals_from.hpp"
+#include "logs/log/annotator.hpp"
+#include "logs/log/reader.hpp"
+#include "logs/signals_from.hpp"
 #include "tests/fuzz/entry.hpp"
 
 namespace touchdown::fuzz {
@@ -20,20 +20,19 @@ struct Annotated {
 };
 
 Annotated annotated(std::string_view bytes, std::size_t chunk) {
-  const recordings::ByteSource source = [&](std::span<char> buffer) {
+  const logs::ByteSource source = [&](std::span<char> buffer) {
     const std::size_t most = chunk == 0 ? buffer.size() : std::min(buffer.size(), chunk);
     const std::size_t size = bytes.copy(buffer.data(), most);
     bytes.remove_prefix(size);
     return size;
   };
-  recordings::LogReader reader(source, "fuzz.mpack");
+  logs::LogReader reader(source, "fuzz.mpack");
   (void)reader.info();
   std::ostringstream out;
-  recordings::LogAnnotator annotator(out);
+  logs::LogAnnotator annotator(out);
   Annotated result;
-  while (const std::optional<recordings::LogRow> row = reader.next()) {
-    (void)recordings::signals_from(row->observation,
-                                   recordings::ground_velocity_command(row->action));
+  while (const std::optional<logs::LogRow> row = reader.next()) {
+    (void)logs::signals_from(row->observation, logs::ground_velocity_command(row->action));
     annotator.copy(reader.skipped());
     annotator.annotate(reader.record(), {}, {});
     ++result.rows;

@@ -2,7 +2,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
-#include "recordings/mapping/conversion.hpp"
+#include "logs/mapping/conversion.hpp"
 #include "tests/fuzz/entry.hpp"
 #include "tests/fuzz/memory_file.hpp"
 #include "tests/scratch_folder.hpp"
@@ -39,7 +39,7 @@ TOUCHDOWN_FUZZ(mapping) {
   const std::string_view rows = input.substr(std::min(end + between.size(), input.size()));
   std::ostringstream stream;
   try {
-    (void)recordings::convert_log(log.with(rows), mapping.with(input.substr(0, end)), stream);
+    (void)logs::convert_log(log.with(rows), mapping.with(input.substr(0, end)), stream);
   } catch (const Error& error) {
     expected(error, input);
   }

@@ -1,5 +1,5 @@
 #include "core/error.hpp"
-#include "recordings/bags/mcap_reader.hpp"
+#include "logs/bags/mcap_reader.hpp"
 #include "tests/fuzz/entry.hpp"
 #include "tests/fuzz/memory_file.hpp"
 
@@ -9,8 +9,8 @@ namespace touchdown::fuzz {
 TOUCHDOWN_FUZZ(mcap) {
   const MemoryFile file(input);
   try {
-    recordings::McapReader reader(file.path());
-    recordings::BagMessage message;
+    logs::McapReader reader(file.path());
+    logs::BagMessage message;
     std::size_t bytes = 0;
     while (reader.next(message)) {
       for (const char c : message.data) bytes += static_cast<unsigned char>(c);

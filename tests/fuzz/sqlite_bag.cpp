@@ -1,7 +1,7 @@
 #include <fstream>
 
 #include "core/error.hpp"
-#include "recordings/bags/sqlite_reader.hpp"
+#include "logs/bags/sqlite_reader.hpp"
 #include "tests/fuzz/entry.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -13,8 +13,8 @@ TOUCHDOWN_FUZZ(sqlite_bag) {
   const std::filesystem::path path = folder / "bag.db3";
   std::ofstream(path, std::ios::binary) << input;
   try {
-    recordings::SqliteReader reader(path);
-    recordings::BagMessage message;
+    logs::SqliteReader reader(path);
+    logs::BagMessage message;
     std::size_t bytes = 0;
     while (reader.next(message)) {
       for (const char c : message.data) bytes += static_cast<unsigned char>(c);

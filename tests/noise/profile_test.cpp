@@ -120,16 +120,16 @@ TEST(SensorProfile, HasATimeConstantOrACutOffFrequencyButNotBoth) {
 }
 
 TEST(SensorProfile, ThatCannotBeFoundIsShownWithTheNearestFile) {
-  EXPECT_THAT(complaint_of([&] { find_sensor_profile("sensors/upkei.yaml"); }),
-              AllOf(HasSubstr("sensors/upkei.yaml: no such file"),
-                    HasSubstr("did you mean 'sensors/upkie.yaml'?")));
+  EXPECT_THAT(complaint_of([&] { find_sensor_profile("noise/profiles/upkei.yaml"); }),
+              AllOf(HasSubstr("noise/profiles/upkei.yaml: no such file"),
+                    HasSubstr("did you mean 'noise/profiles/upkie.yaml'?")));
 }
 
 TEST(SensorProfile, OfEveryShippedFileIsReadAndOnlyTheIdealOneIsIdeal) {
   const auto files = resources_in("sensors", ".yaml");
   EXPECT_GE(files.size(), 3U);
   for (const auto& file : files) {
-    EXPECT_EQ(is_ideal(find_sensor_profile(file)), file == "sensors/ideal.yaml") << file;
+    EXPECT_EQ(is_ideal(find_sensor_profile(file)), file == "noise/profiles/ideal.yaml") << file;
   }
 }
 
@@ -146,7 +146,7 @@ TEST(AVariedProfile, HasTheDropoutOfEverySensorAtTheValue) {
 }
 
 TEST(AVariedProfile, DiffersInTheNamedSensorAlone) {
-  SensorProfile expected = find_sensor_profile("sensors/harsh.yaml");
+  SensorProfile expected = find_sensor_profile("noise/profiles/harsh.yaml");
   const SensorProfile varied = with_value(expected, "torque.white", 0.7);
   for (SensorChannel& channel : expected.torque) channel.white = 0.7;
   EXPECT_EQ(varied, expected);

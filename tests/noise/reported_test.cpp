@@ -112,7 +112,8 @@ TEST(Reported, IdealSensorsReportWhatIsRecordedToTheBit) {
   run[7].servo[2].torque = -0.0;
   run[8].imu.linear_acceleration.x() = -0.0;
   EXPECT_THAT(different(reported(SensorProfile(), run), run), IsEmpty());
-  EXPECT_THAT(different(reported(find_sensor_profile("sensors/ideal.yaml"), run), run), IsEmpty());
+  EXPECT_THAT(different(reported(find_sensor_profile("noise/profiles/ideal.yaml"), run), run),
+              IsEmpty());
 }
 
 TEST(Reported, EverySensorOfTheProfileChangesItsOwnNumbersOnly) {

@@ -9,7 +9,7 @@
 
 #include "estimator/signal_assembler.hpp"
 #include "estimator/touchdown.h"
-#include "recordings/model_file.hpp"
+#include "logs/model_file.hpp"
 #include "tests/estimator/models/models.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 
 class CInterface : public ::testing::Test {
  protected:
-  CInterface() { recordings::write_npz(test::fitted_model("robust"), folder_ / "m.npz"); }
+  CInterface() { logs::write_npz(test::fitted_model("robust"), folder_ / "m.npz"); }
 
   std::string model() const { return (folder_ / "m.npz").string(); }
 
@@ -191,7 +191,7 @@ TEST_F(CInterface, TakesTheTargetsOfServos) {
                         .configuration = default_configuration("decision_network", 1000.0),
                         .fingerprint = {}});
   const auto path = folder_ / "servo.npz";
-  recordings::write_npz(arrays, path);
+  logs::write_npz(arrays, path);
   std::array<char, 200> error{};
   touchdown_estimator* const estimator =
       touchdown_create(path.string().c_str(), nullptr, error.data(), error.size());

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "recordings/model_file.hpp"
+#include "logs/model_file.hpp"
 #include "tests/estimator/models/models.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -23,7 +23,7 @@ using ::testing::StartsWith;
 class LoadEstimator : public ::testing::Test {
  protected:
   std::filesystem::path file(const std::string& name, const ModelArrays& arrays) const {
-    recordings::write_npz(arrays, folder_ / name);
+    logs::write_npz(arrays, folder_ / name);
     return folder_ / name;
   }
 
@@ -90,10 +90,10 @@ TEST_F(LoadEstimator, LoadsTheMetadata) {
 
 TEST_F(LoadEstimator, HeadersOfModelsAlwaysHaveMetadata) {
   const auto grid = file("grid.npz", test::fitted_arrays("robust"));
-  EXPECT_THAT(complaint([&] { recordings::load_model_for(grid, {}); }),
+  EXPECT_THAT(complaint([&] { logs::load_model_for(grid, {}); }),
               HasSubstr("grid.npz: has no metadata"));
-  const Model model = recordings::load_model_for(grid, {"reference", 1000.0, "upkie"});
-  EXPECT_THAT(recordings::header_of_model(model, "grid.npz", "grid"),
+  const Model model = logs::load_model_for(grid, {"reference", 1000.0, "upkie"});
+  EXPECT_THAT(logs::header_of_model(model, "grid.npz", "grid"),
               AllOf(HasSubstr("inline constexpr CompiledArray grid[] = {"),
                     HasSubstr("for 'reference' at 1000 Hz on the robot 'upkie'"),
                     HasSubstr("sample_rate: 1000\\n\"")));

@@ -34,7 +34,7 @@ class Installed(InFolder):
         find = "import touchdown; print(touchdown._touchdown.find_resource('scenarios/found_beside_the_module.yaml'))"
         self.assertEqual(output_of(python, "-c", find, cwd="/", env=env), str(own))
         for brought in ("models/upkie.xml", "models/nmn.npz", "scenarios/stairs.yaml", "experiments/stairs.yaml",
-                        "sensors/upkie.yaml", "commit"):
+                        "noise/profiles/upkie.yaml", "commit"):
             self.assertTrue((package / "share/touchdown" / brought).is_file(), brought)
         self.assertTrue((package / "py.typed").is_file())
 
@@ -60,7 +60,7 @@ class Installed(InFolder):
 
 class Stubs(unittest.TestCase):
     def test_match_the_module(self):
-        tree = ast.parse((SOURCE / "python/touchdown/_touchdown.pyi").read_text(encoding="utf-8"))
+        tree = ast.parse((SOURCE / "apps/python/touchdown/_touchdown.pyi").read_text(encoding="utf-8"))
         module = touchdown._touchdown
         written = {node.name: node for node in tree.body if isinstance(node, (ast.FunctionDef, ast.ClassDef))}
         self.assertEqual(set(written), {name for name in vars(module) if not name.startswith("_")})

@@ -64,7 +64,7 @@ TEST(EstimatorColours, AreThoseOfTheScoresAndFilms) {
               HasSubstr("with linespoints lt 3 title 'Phase filter'"));
 
   const models::RobotModel robot = models::compile_robot_model(upkie_mjcf, staged_terrain());
-  const recordings::Recording run = staged_run(0.5);
+  const logs::Recording run = staged_run(0.5);
   const std::vector<BeliefTrack> beliefs = {
       staged_beliefs(run, "Phase filter", line_type_of(estimators, "phase"))};
   const std::vector<StripRow> rows = strip_rows({{robot, run, beliefs}}, {});

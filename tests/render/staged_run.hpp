@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string>
 
+#include "logs/recording.hpp"
 #include "models/profile.hpp"
 #include "models/robot_model.hpp"
-#include "recordings/recording.hpp"
 #include "render/film/video.hpp"
 #include "tests/models/upkie_mjcf.hpp"
 
@@ -17,10 +17,10 @@ inline models::Terrain staged_terrain() {
 
 /// A run down the stairs without a physics engine: constant speed, free fall after each edge. Its
 /// pictures depend on the renderer alone.
-inline recordings::Recording staged_run(double seconds, const std::string& simulator = "mujoco") {
+inline logs::Recording staged_run(double seconds, const std::string& simulator = "mujoco") {
   constexpr double speed = 0.5, period = 1e-3, gravity = 9.81, radius = 0.05;
   constexpr double hip = 0.455, knee = 0.791;
-  recordings::Recording recording;
+  logs::Recording recording;
   recording.info.simulator = simulator;
   recording.info.scenario = "staged";
   const models::Terrain terrain = staged_terrain();
@@ -62,7 +62,7 @@ inline recordings::Recording staged_run(double seconds, const std::string& simul
 }
 
 /// An estimator that follows the truth with a lag.
-inline BeliefTrack staged_beliefs(const recordings::Recording& recording, const std::string& name,
+inline BeliefTrack staged_beliefs(const logs::Recording& recording, const std::string& name,
                                   std::size_t line_type = 1, float gain = 0.05f) {
   BeliefTrack track{.name = name,
                     .colour = line_colour(line_type),

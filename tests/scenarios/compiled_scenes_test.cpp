@@ -72,10 +72,10 @@ TEST(CompiledScenes, GiveTheSameRunsAsSceneCompiledForOneRun) {
   const Scenario scenario = stairs();
   CompiledScenes scenes;
   for (const std::string& name : simulators::simulator_names()) {
-    const recordings::Recording own = play(scenario, name);
+    const logs::Recording own = play(scenario, name);
     for (int turn = 0; turn < 2; ++turn) {
       const auto simulator = make_simulator(scenario, name, scenes.of(scenario));
-      const recordings::Recording shared = play(scenario, *simulator);
+      const logs::Recording shared = play(scenario, *simulator);
       ASSERT_EQ(shared.steps(), own.steps());
       EXPECT_EQ(shared.truth.back().base_position, own.truth.back().base_position);
       EXPECT_EQ(shared.observation.back().imu.linear_acceleration,

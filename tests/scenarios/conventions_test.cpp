@@ -107,7 +107,7 @@ std::vector<Variant> variants() {
 
 class SameRobot : public ::testing::TestWithParam<std::tuple<std::size_t, std::string>> {
  protected:
-  static recordings::Recording run(const std::filesystem::path& robot, const std::string& engine) {
+  static logs::Recording run(const std::filesystem::path& robot, const std::string& engine) {
     Scenario scenario = find_scenario("scenarios/one_step.yaml", robot.string());
     scenario.start.x = 2.3;
     scenario.velocity.front().time = 0.1;
@@ -121,10 +121,9 @@ TEST_P(SameRobot, HasTheSameRecording) {
   const auto& [number, engine] = GetParam();
   const Variant variant = variants()[number];
   const ScratchFolder folder;
-  const recordings::Recording expected = run(upkie_mjcf, engine);
-  const recordings::Recording found =
-      run(folder.write("robot.xml", edited_upkie(variant.edits)), engine);
-  EXPECT_EQ(found.info.outcome, recordings::Outcome::finished);
+  const logs::Recording expected = run(upkie_mjcf, engine);
+  const logs::Recording found = run(folder.write("robot.xml", edited_upkie(variant.edits)), engine);
+  EXPECT_EQ(found.info.outcome, logs::Outcome::finished);
   ASSERT_EQ(found.steps(), expected.steps());
   for (std::size_t k = 0; k < found.steps(); k += 50) {
     for (std::size_t i = 0; i < models::servo_count; ++i) {
@@ -195,8 +194,8 @@ TEST_P(AnotherRobot, WithFoldedZerosStandsInItsOwnStance) {
       standing_robot("mjcf: folded.xml\nstance: {hip: -2.6, knee: -2.6}\nbalancer: {gains: lqr}\n");
   EXPECT_NEAR(scenario.start.hip, std::numbers::pi - 2.6, 1e-9);
   EXPECT_NEAR(scenario.start.knee, std::numbers::pi - 2.6, 1e-9);
-  const recordings::Recording recording = play(scenario, GetParam());
-  EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished)
+  const logs::Recording recording = play(scenario, GetParam());
+  EXPECT_EQ(recording.info.outcome, logs::Outcome::finished)
       << ending_text(recording, scenario.end);
   EXPECT_THAT(
       [&] { (void)standing_robot("mjcf: folded.xml\nstance: {hip: 0, knee: -2.6}\n"); },

@@ -10,14 +10,14 @@ namespace {
 
 class DistinguishingScene : public InEveryEngine {
  protected:
-  static recordings::Recording recording_of(const char* name, int run = 0) {
-    recordings::Recording recording = play(perturbed(scenario_called(name), 7, run), GetParam());
-    EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished) << name;
+  static logs::Recording recording_of(const char* name, int run = 0) {
+    logs::Recording recording = play(perturbed(scenario_called(name), 7, run), GetParam());
+    EXPECT_EQ(recording.info.outcome, logs::Outcome::finished) << name;
     return recording;
   }
 
   /// For each wheel, the longest time (s) that it alone is in the air.
-  static std::array<double, 2> longest_single_flights(const recordings::Recording& recording) {
+  static std::array<double, 2> longest_single_flights(const logs::Recording& recording) {
     std::array<double, 2> longest = {};
     std::array<double, 2> now = {};
     for (const models::GroundTruth& truth : recording.truth) {
@@ -30,7 +30,7 @@ class DistinguishingScene : public InEveryEngine {
     return longest;
   }
 
-  static double lowest_acceleration(const recordings::Recording& recording) {
+  static double lowest_acceleration(const logs::Recording& recording) {
     double lowest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 300; k < recording.steps(); ++k) {
       lowest = std::min(lowest, models::vertical_acceleration(recording.observation[k].imu));
@@ -40,7 +40,7 @@ class DistinguishingScene : public InEveryEngine {
 };
 
 TEST_P(DistinguishingScene, AKerbLiftsOneWheelThenTheOther) {
-  const recordings::Recording recording = recording_of("kerb");
+  const logs::Recording recording = recording_of("kerb");
   const auto [left, right] = longest_single_flights(recording);
   EXPECT_GT(left, 0.04);
   EXPECT_GT(right, 0.04);
@@ -48,14 +48,14 @@ TEST_P(DistinguishingScene, AKerbLiftsOneWheelThenTheOther) {
 }
 
 TEST_P(DistinguishingScene, AKerbInACurveLiftsOneWheelLongBeforeTheOther) {
-  const recordings::Recording recording = recording_of("kerb_turn");
+  const logs::Recording recording = recording_of("kerb_turn");
   const auto [left, right] = longest_single_flights(recording);
   EXPECT_GT(std::max(left, right), 0.1);
   EXPECT_GT(recording.observation.back().yaw - recording.observation.front().yaw, 0.8);
 }
 
 TEST_P(DistinguishingScene, WheelsLandWithASpeedOtherThanTheGrounds) {
-  const recordings::Recording recording = recording_of("put_down");
+  const logs::Recording recording = recording_of("put_down");
   const double radius = 0.05;  // m
   int spinning = 0;
   for (std::size_t k = 1000; k < recording.steps(); ++k) {
@@ -70,13 +70,13 @@ TEST_P(DistinguishingScene, WheelsLandWithASpeedOtherThanTheGrounds) {
 }
 
 TEST_P(DistinguishingScene, ASquatAcceleratesDownWithItsWheelsOnTheGround) {
-  const recordings::Recording recording = recording_of("squat");
+  const logs::Recording recording = recording_of("squat");
   EXPECT_LT(lowest_acceleration(recording), -4.9);
   EXPECT_THAT(flights(recording, 0.02), ::testing::IsEmpty());
 }
 
 TEST_P(DistinguishingScene, ALiftByHandIsNoFreeFall) {
-  const recordings::Recording recording = recording_of("lift_slowly");
+  const logs::Recording recording = recording_of("lift_slowly");
   const std::vector<double> durations = flights(recording, 0.2);
   EXPECT_GE(durations.size(), 4U);
   // Most of the time in the air, the robot is not in free fall.
@@ -91,7 +91,7 @@ TEST_P(DistinguishingScene, ALiftByHandIsNoFreeFall) {
 }
 
 TEST_P(DistinguishingScene, ARampThrowsTheRobotUpwards) {
-  const recordings::Recording recording = recording_of("ramp_jump");
+  const logs::Recording recording = recording_of("ramp_jump");
   EXPECT_EQ(flights(recording, 0.05).size(), 3U);
 }
 
@@ -100,7 +100,7 @@ TEST_P(DistinguishingScene, LegsHopByThemselves) {
 }
 
 TEST_P(DistinguishingScene, AWashboardUnloadsTheWheels) {
-  const recordings::Recording recording = recording_of("washboard");
+  const logs::Recording recording = recording_of("washboard");
   int light = 0;
   for (const models::GroundTruth& truth : recording.truth) {
     light += truth.wheel_normal_force[0] < 10.0 ? 1 : 0;
@@ -109,7 +109,7 @@ TEST_P(DistinguishingScene, AWashboardUnloadsTheWheels) {
 }
 
 TEST_P(DistinguishingScene, PushesDoNotLiftAStandingRobot) {
-  const recordings::Recording recording = recording_of("pushed", 1);
+  const logs::Recording recording = recording_of("pushed", 1);
   EXPECT_THAT(flights(recording, 0.005), ::testing::IsEmpty());
 }
 

@@ -8,7 +8,7 @@ namespace {
 constexpr double g = 9.81;
 constexpr double mass = 5.33922;  // kg
 
-double mean_load(const recordings::Recording& recording, double from, double to) {
+double mean_load(const logs::Recording& recording, double from, double to) {
   double sum = 0.0;
   int count = 0;
   for (std::size_t k = 0; k < recording.steps(); ++k) {
@@ -25,7 +25,7 @@ class ForcesOf : public InEveryEngine {};
 TEST_P(ForcesOf, TheGroundCarriesTheWeightMinusTheLift) {
   Scenario lifted = standing(6.0);
   lifted.forces = {{.time = 2.0, .duration = 4.0, .force = {0.0, 0.0, 20.0}}};
-  const recordings::Recording recording = play(lifted, GetParam());
+  const logs::Recording recording = play(lifted, GetParam());
   EXPECT_NEAR(mean_load(recording, 1.0, 2.0), mass * g, 1e-3 * mass * g);
   EXPECT_NEAR(mean_load(recording, 4.0, 6.0), mass * g - 20.0, 1e-3 * mass * g);
 }
@@ -47,7 +47,7 @@ TEST_P(ForcesOf, AForceBeyondTheWeightThrowsTheRobotUpByTheSurplus) {
   Scenario thrown = standing(0.9);
   const double force = 80.0;
   thrown.forces = {{.time = 0.5, .duration = 0.3, .force = {0.0, 0.0, force}}};
-  const recordings::Recording recording = play(thrown, GetParam());
+  const logs::Recording recording = play(thrown, GetParam());
   // Momentum from the force minus gravity. Contact ends at once; the soft ground adds some.
   const double rise = recording.truth.back().base_linear_velocity.z();
   const double expected = (force * 0.3 / mass) - g * (0.9 - 0.5);
@@ -58,7 +58,7 @@ TEST_P(ForcesOf, TheTetherCarriesTheHangingRobot) {
   Scenario hung = scenario_called("hang");
   hung.end.duration = 6.0;
   hung.velocity.clear();
-  const recordings::Recording recording = play(hung, GetParam());
+  const logs::Recording recording = play(hung, GetParam());
   // At rest the rope's elongation is the weight over its stiffness.
   const models::GroundTruth& end = recording.truth.back();
   const policies::Tether& tether = *hung.tether;

@@ -144,9 +144,8 @@ struct Played {
 };
 
 Played play(const GeneratedScenario& drawn, const std::string& engine) {
-  const recordings::Recording recording =
-      scenarios::play(perturbed(read(drawn), 1, 0), engine, 1, 0);
-  Played played{recording.info.outcome == recordings::Outcome::finished, 0.0};
+  const logs::Recording recording = scenarios::play(perturbed(read(drawn), 1, 0), engine, 1, 0);
+  Played played{recording.info.outcome == logs::Outcome::finished, 0.0};
   for (const double flight : flights(recording, 0.01)) played.in_the_air += flight;
   return played;
 }

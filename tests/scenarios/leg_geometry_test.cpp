@@ -12,7 +12,7 @@
 #include "core/files.hpp"
 #include "core/resources.hpp"
 #include "estimator/decision/leg_features.hpp"
-#include "recordings/signals_from.hpp"
+#include "logs/signals_from.hpp"
 #include "tests/scratch_folder.hpp"
 #include "tests/simulators/upkie.hpp"
 
@@ -112,7 +112,7 @@ TEST(LegGeometry, GivesNoGroundReactionForFreelySpinningWheels) {
           action.servo[models::index(wheel)].feedforward_torque = torque;
         }
         simulator->step(action);
-        const Signals signals = recordings::signals_from(simulator->observation(), 0.0);
+        const Signals signals = logs::signals_from(simulator->observation(), 0.0);
         const LegSignals& leg = signals.leg[0];
         const double reaction = extractor
                                     .update(leg, foot_jacobian(geometry, leg, false),

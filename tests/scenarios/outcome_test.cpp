@@ -18,8 +18,8 @@ class OutcomeOf : public InEveryEngine {};
 TEST_P(OutcomeOf, ARobotPushedOverIsAFall) {
   Scenario pushed = standing(10.0);
   pushed.forces = {{.time = 0.5, .duration = 0.5, .force = {0.0, 60.0, 0.0}}};
-  const recordings::Recording recording = play(pushed, GetParam());
-  EXPECT_EQ(recording.info.outcome, recordings::Outcome::fell);
+  const logs::Recording recording = play(pushed, GetParam());
+  EXPECT_EQ(recording.info.outcome, logs::Outcome::fell);
   EXPECT_LT(recording.observation.back().time, 3.0);
   EXPECT_GT(recording.observation.back().time, 0.5);
 }
@@ -28,20 +28,20 @@ TEST_P(OutcomeOf, ARobotThatCannotBalanceFalls) {
   Scenario limp = standing(10.0);
   limp.balancer.max_velocity = 0.0;
   limp.forces = {{.time = 0.2, .duration = 0.1, .force = {10.0, 0.0, 0.0}}};
-  EXPECT_EQ(play(limp, GetParam()).info.outcome, recordings::Outcome::fell);
+  EXPECT_EQ(play(limp, GetParam()).info.outcome, logs::Outcome::fell);
 }
 
 TEST_P(OutcomeOf, NotArrivingInTimeIsATimeout) {
   Scenario slow = standing(1.0);
   slow.end.x = 5.0;
-  const recordings::Recording recording = play(slow, GetParam());
-  EXPECT_EQ(recording.info.outcome, recordings::Outcome::timed_out);
+  const logs::Recording recording = play(slow, GetParam());
+  EXPECT_EQ(recording.info.outcome, logs::Outcome::timed_out);
   EXPECT_NEAR(recording.observation.back().time, 1.0, 1e-9);
   EXPECT_EQ(recording.steps(), 1001U);
 }
 
 TEST_P(OutcomeOf, WithoutFinishLineTheDurationIsTheEnd) {
-  EXPECT_EQ(play(standing(0.5), GetParam()).info.outcome, recordings::Outcome::finished);
+  EXPECT_EQ(play(standing(0.5), GetParam()).info.outcome, logs::Outcome::finished);
 }
 
 TEST_P(OutcomeOf, TheRunFinishesAfterTheSettlingTime) {
@@ -49,8 +49,8 @@ TEST_P(OutcomeOf, TheRunFinishesAfterTheSettlingTime) {
   driving.velocity = {{0.2, 0.5, 0.0}};
   driving.end.x = 0.5;
   driving.end.settle = 0.7;
-  const recordings::Recording recording = play(driving, GetParam());
-  EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished);
+  const logs::Recording recording = play(driving, GetParam());
+  EXPECT_EQ(recording.info.outcome, logs::Outcome::finished);
   std::size_t passed = 0;
   while (recording.truth[passed].base_position.x() <= 0.5) ++passed;
   EXPECT_NEAR(recording.observation.back().time - recording.observation[passed].time, 0.7, 1e-6);
@@ -59,14 +59,14 @@ TEST_P(OutcomeOf, TheRunFinishesAfterTheSettlingTime) {
 TEST_P(OutcomeOf, AnAbsurdForceIsADivergence) {
   Scenario absurd = standing(5.0);
   absurd.forces = {{.time = 0.1, .duration = 1.0, .force = {0.0, 0.0, 1e9}}};
-  const recordings::Recording recording = play(absurd, GetParam());
-  EXPECT_EQ(recording.info.outcome, recordings::Outcome::diverged);
+  const logs::Recording recording = play(absurd, GetParam());
+  EXPECT_EQ(recording.info.outcome, logs::Outcome::diverged);
   EXPECT_LT(recording.observation.back().time, 0.3);
 }
 
 TEST_P(OutcomeOf, AStoppedRunHasNoOutcome) {
   int reports = 0;
-  const recordings::Recording recording = play(standing(10.0), GetParam(), 3, 4, [&](double time) {
+  const logs::Recording recording = play(standing(10.0), GetParam(), 3, 4, [&](double time) {
     ++reports;
     return time < 1.0;
   });
@@ -80,8 +80,8 @@ TEST_P(OutcomeOf, AStoppedRunHasNoOutcome) {
 TEST_P(OutcomeOf, TheRecordedScenarioRepeatsTheRun) {
   Scenario scenario = perturbed(scenario_called("push_off"), 11, 2);
   scenario.end.duration = 2.0;
-  const recordings::Recording first = play(scenario, GetParam());
-  const recordings::Recording again = play(
+  const logs::Recording first = play(scenario, GetParam());
+  const logs::Recording again = play(
       scenario_from_yaml(YamlDocument::parse(first.info.scenario_yaml, "recorded")), GetParam());
   ASSERT_EQ(again.steps(), first.steps());
   EXPECT_EQ(again.truth.back().base_position, first.truth.back().base_position);
@@ -149,8 +149,8 @@ TEST_P(Ending, OfARobotThatFallsThroughTheGroundIsNoRun) {
       model->mj->geom_conaffinity[geom] = has_bits ? 8 : 0;
     }
     const auto simulator = make_simulator(scenario, GetParam(), model);
-    const recordings::Recording recording = play(scenario, *simulator);
-    EXPECT_EQ(recording.info.outcome, recordings::Outcome::left_terrain);
+    const logs::Recording recording = play(scenario, *simulator);
+    EXPECT_EQ(recording.info.outcome, logs::Outcome::left_terrain);
     EXPECT_LT(recording.observation.back().time, 1.0);
     EXPECT_THAT(ending_text(recording, scenario.end),
                 MatchesRegex("left the terrain after 0[.][0-9]+ s: .*below the floor"));
@@ -159,7 +159,7 @@ TEST_P(Ending, OfARobotThatFallsThroughTheGroundIsNoRun) {
 
 TEST_P(Ending, OfAStoppedRunIsNoOutcome) {
   const Scenario scenario = standing(5.0);
-  const recordings::Recording recording =
+  const logs::Recording recording =
       play(scenario, GetParam(), 0, 0, [](double time) { return time < 1.0; });
   EXPECT_THAT(ending_text(recording, scenario.end), StartsWith("stopped after 1"));
 }
@@ -168,10 +168,9 @@ INSTANTIATE_TEST_SUITE_P(Engine, Ending, ::testing::ValuesIn(simulators::simulat
                          engine_name);
 
 TEST(Outcomes, HaveTextsThatAreReadBack) {
-  for (const auto outcome :
-       {recordings::Outcome::finished, recordings::Outcome::timed_out, recordings::Outcome::fell,
-        recordings::Outcome::diverged, recordings::Outcome::left_terrain}) {
-    EXPECT_EQ(recordings::outcome_from_text(recordings::to_text(outcome)), outcome);
+  for (const auto outcome : {logs::Outcome::finished, logs::Outcome::timed_out, logs::Outcome::fell,
+                             logs::Outcome::diverged, logs::Outcome::left_terrain}) {
+    EXPECT_EQ(logs::outcome_from_text(logs::to_text(outcome)), outcome);
   }
 }
 

@@ -182,8 +182,7 @@ TEST_P(StraightRobot, BendsNoKneeBackwardsWhileItMoves) {
     Scenario scenario = with_robot(name, "upkie_straight_actuated.yaml");
     scenario.end.duration = 5.0;
     for (int run = 0; run < 4; ++run) {
-      const recordings::Recording recording =
-          play(perturbed(scenario, 11, run), GetParam(), 11, run);
+      const logs::Recording recording = play(perturbed(scenario, 11, run), GetParam(), 11, run);
       double lowest = 1e9;
       for (const models::Observation& observation : recording.observation) {
         lowest =

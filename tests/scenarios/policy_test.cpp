@@ -11,8 +11,8 @@
 namespace touchdown::scenarios {
 namespace {
 
+using logs::Outcome;
 using policies::PolicyConfig;
-using recordings::Outcome;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -55,8 +55,8 @@ TEST_P(Policies, ASoftLanderFinishesWhereTheBalancerDoes) {
 TEST_P(Policies, AreDeterministic) {
   Scenario scenario = high_steps(0.5);
   scenario.policy = soft("support_force", 0.005);
-  const recordings::Recording once = play(scenario, GetParam());
-  const recordings::Recording again = play(scenario, GetParam());
+  const logs::Recording once = play(scenario, GetParam());
+  const logs::Recording again = play(scenario, GetParam());
   ASSERT_EQ(once.steps(), again.steps());
   EXPECT_EQ(once.truth.back().base_position, again.truth.back().base_position);
 }

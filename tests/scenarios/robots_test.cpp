@@ -4,8 +4,8 @@
 
 #include "core/files.hpp"
 #include "core/resources.hpp"
+#include "logs/log/recording_file.hpp"
 #include "policies/wheeled_pendulum.hpp"
-#include "recordings/log/recording_file.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/robot_check.hpp"
 #include "scenarios/scenario_file.hpp"
@@ -46,8 +46,8 @@ class Robot : public ::testing::TestWithParam<RobotAndEngine> {
 TEST_P(Robot, StandsWhereItStarted) {
   Scenario scenario = of_this_robot("one_step");
   scenario.end.duration = 2.0;
-  const recordings::Recording recording = play(scenario, engine());
-  EXPECT_EQ(recording.info.outcome, recordings::Outcome::timed_out);
+  const logs::Recording recording = play(scenario, engine());
+  EXPECT_EQ(recording.info.outcome, logs::Outcome::timed_out);
   const double start = recording.truth.front().base_position.x();
   for (std::size_t k = 300; k < recording.steps(); ++k) {
     const models::GroundTruth& truth = recording.truth[k];
@@ -62,15 +62,15 @@ TEST_P(Robot, ComesDownAStep) {
   scenario.start.x = 2.3;
   scenario.velocity.front().time = 0.1;
   scenario.end.settle = 0.3;
-  const recordings::Recording recording = play(scenario, engine());
-  EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished);
+  const logs::Recording recording = play(scenario, engine());
+  EXPECT_EQ(recording.info.outcome, logs::Outcome::finished);
   EXPECT_GE(flights(recording, 0.1).size(), 1U);
 }
 
 TEST_P(Robot, IsLiftedOffTheGroundForAnyMass) {
   Scenario scenario = of_this_robot("lift_slowly");
   scenario.end.duration = 2.5;
-  const recordings::Recording recording = play(perturbed(scenario, 7, 0), engine());
+  const logs::Recording recording = play(perturbed(scenario, 7, 0), engine());
   EXPECT_GE(flights(recording, 0.1).size(), 1U);
 }
 
@@ -134,7 +134,7 @@ class LargeRobot : public InEveryEngine {
     write_atomically(folder_ / "large.yaml", "mjcf: strong.xml\nmass: 4\nlegs: {length: 2}\n");
   }
 
-  recordings::Outcome standing_with(const std::string& gains) const {
+  logs::Outcome standing_with(const std::string& gains) const {
     const std::string text = "name: large\nrobot: " + (folder_ / "large.yaml").string() +
                              "\nend: {duration: 4}\nbalancer: {gains: " + gains + "}\n";
     return *play(complete_scenario(YamlDocument::parse(text, "large")), GetParam()).info.outcome;
@@ -144,8 +144,8 @@ class LargeRobot : public InEveryEngine {
 };
 
 TEST_P(LargeRobot, StandsWithItsOwnGainsAndFallsWithUpkies) {
-  EXPECT_EQ(standing_with("lqr"), recordings::Outcome::finished);
-  EXPECT_EQ(standing_with("touchdown"), recordings::Outcome::fell);
+  EXPECT_EQ(standing_with("lqr"), logs::Outcome::finished);
+  EXPECT_EQ(standing_with("touchdown"), logs::Outcome::fell);
 }
 
 INSTANTIATE_TEST_SUITE_P(Engine, LargeRobot, ::testing::ValuesIn(simulators::simulator_names()),
@@ -173,8 +173,8 @@ Drop drop_of(const std::string& robot, const std::string& engine) {
   stair.terrain.start_x = -1.0;
   stair.terrain.pieces = {models::Flat{1.6}, models::StairFlight{.count = 1, .run = 3.0}};
   stair.velocity = {{.time = 0.3, .velocity = 0.6}};
-  const recordings::Recording recording = play(stair, engine);
-  EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished);
+  const logs::Recording recording = play(stair, engine);
+  EXPECT_EQ(recording.info.outcome, logs::Outcome::finished);
   Drop drop{.flights = flights(recording, 0.02)};
   for (const models::Observation& observation : recording.observation) {
     drop.peak = std::max(drop.peak, models::vertical_acceleration(observation.imu));
@@ -207,7 +207,7 @@ class HeldJoints : public InEveryEngine {
   }
 
   /// Lets the robot stand. `push`: a force to the left after 0.1 s (N).
-  static recordings::Recording stand(const std::string& robot, double seconds, double push = 0.0) {
+  static logs::Recording stand(const std::string& robot, double seconds, double push = 0.0) {
     Scenario scenario = standing(seconds);
     if (push > 0.0) {
       scenario.forces = {{.time = 0.1, .duration = 0.3, .force = Eigen::Vector3d(0.0, push, 0.0)}};
@@ -229,7 +229,7 @@ TEST_P(HeldJoints, FollowTheLawOfTheirServos) {
            {"ref=\"-3\" range=\"-3.5 -2.5\"", "held_servo: {kp: 150, kd: 3}\n", -3.0, 150.0, 3.0,
             40.0},
            {"", "held_servo: {kp: 150, kd: 3, maximum_torque: 0.5}\n", 0.0, 150.0, 3.0, 0.5}}) {
-    const recordings::Recording run = stand(robot(rolling_upkie(joint), keys), 0.5, 12.0);
+    const logs::Recording run = stand(robot(rolling_upkie(joint), keys), 0.5, 12.0);
     ASSERT_GT(run.steps(), 100U);
     double moved = 0.0;
     for (std::size_t k = 1; k < run.steps(); ++k) {
@@ -248,10 +248,10 @@ TEST_P(HeldJoints, FollowTheLawOfTheirServos) {
 
 TEST_P(HeldJoints, AreLikeRigidLegsIfTheirServosAreStiff) {
   const std::string stiff = "held_servo: {kp: 20000, kd: 200, maximum_torque: 10000}\n";
-  const recordings::Recording held = stand(robot(rolling_upkie(), stiff), 2.0);
+  const logs::Recording held = stand(robot(rolling_upkie(), stiff), 2.0);
   const std::string rigid = std::regex_replace(
       rolling_upkie("", ""), std::regex("<joint name=\"(left|right)_roll\"[^>]*>"), "");
-  const recordings::Recording fixed = stand(folder_.write("rigid.xml", rigid).string(), 2.0);
+  const logs::Recording fixed = stand(folder_.write("rigid.xml", rigid).string(), 2.0);
   ASSERT_EQ(held.steps(), fixed.steps());
   for (std::size_t k = 0; k < held.steps(); ++k) {
     ASSERT_LT((held.truth[k].base_position - fixed.truth[k].base_position).norm(), 2e-3) << k;
@@ -260,9 +260,9 @@ TEST_P(HeldJoints, AreLikeRigidLegsIfTheirServosAreStiff) {
 }
 
 TEST_P(HeldJoints, AreWrittenToTheRecording) {
-  const recordings::Recording run = stand(robot(rolling_upkie()), 0.1);
-  recordings::write_recording(run, folder_ / "run.mpack");
-  const recordings::Recording read = recordings::read_recording(folder_ / "run.mpack");
+  const logs::Recording run = stand(robot(rolling_upkie()), 0.1);
+  logs::write_recording(run, folder_ / "run.mpack");
+  const logs::Recording read = logs::read_recording(folder_ / "run.mpack");
   EXPECT_EQ(read.truth.back().held[1].position, run.truth.back().held[1].position);
   EXPECT_EQ(read.truth.back().held[1].torque, run.truth.back().held[1].torque);
 }
@@ -271,8 +271,8 @@ TEST_P(HeldJoints, AreTheSameAfterEveryReset) {
   Scenario scenario = standing(0.2);
   scenario.robot = robot(rolling_upkie("frictionloss=\"0.1\" damping=\"0.1\" armature=\"0.002\""));
   const auto simulator = make_simulator(scenario, GetParam());
-  const recordings::Recording first = play(scenario, *simulator, 0, 0);
-  const recordings::Recording second = play(scenario, *simulator, 0, 0);
+  const logs::Recording first = play(scenario, *simulator, 0, 0);
+  const logs::Recording second = play(scenario, *simulator, 0, 0);
   ASSERT_EQ(first.steps(), second.steps());
   EXPECT_EQ(first.truth.back().held[0].position, second.truth.back().held[0].position);
   EXPECT_EQ(first.truth.back().base_position, second.truth.back().base_position);

@@ -43,7 +43,7 @@ TEST_P(RolloutTest, RepeatsWhatWasCommandedDuringTheRun) {
   // Through the file's text, as a recording keeps it.
   const Scenario repeated =
       scenario_from_yaml(YamlDocument::parse(to_yaml(driven.scenario()), "driven"));
-  const recordings::Recording again = play(repeated, GetParam());
+  const logs::Recording again = play(repeated, GetParam());
   ASSERT_EQ(again.steps(), path.size());
   for (std::size_t k = 0; k < path.size(); ++k) {
     ASSERT_EQ(again.truth[k].base_position, path[k]) << "step " << k;
@@ -107,7 +107,7 @@ TEST_P(RolloutTest, GivesTheContactSourceTheActionOfTheStepBefore) {
       const auto simulator = make_simulator(scenario, GetParam());
       for (int attempt = 0; attempt < 2; ++attempt) {  // the second on a simulator that was used
         given.clear();
-        const recordings::Recording run = play(scenario, *simulator, 0, 0, {}, source);
+        const logs::Recording run = play(scenario, *simulator, 0, 0, {}, source);
         ASSERT_EQ(given.size(), run.steps());
         EXPECT_FALSE(given.front());
         for (std::size_t k = 1; k < given.size(); ++k) {
@@ -139,12 +139,12 @@ TEST_P(RolloutTest, RepeatsRecordedContactOfThePolicy) {
     return contact;
   };
   const auto simulator = make_simulator(scenario, GetParam());
-  const recordings::Recording first = play(scenario, *simulator, 0, 0, {}, source);
+  const logs::Recording first = play(scenario, *simulator, 0, 0, {}, source);
   Scenario repeated = scenario;
   repeated.policy.contact = "script";
   repeated.policy.contact_script = script;
   repeated = scenario_from_yaml(YamlDocument::parse(to_yaml(repeated), "repeated"));
-  const recordings::Recording again = play(repeated, GetParam());
+  const logs::Recording again = play(repeated, GetParam());
   ASSERT_EQ(again.steps(), first.steps());
   EXPECT_EQ(again.truth.back().base_position, first.truth.back().base_position);
   EXPECT_NE(play(scenario, GetParam()).truth.back().base_position,

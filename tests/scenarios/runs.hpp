@@ -32,7 +32,7 @@ inline bool in_contact(const models::GroundTruth& truth, std::size_t wheel) {
 }
 
 /// Durations of the phases without contact of both wheels that last at least `shortest` (s).
-inline std::vector<double> flights(const recordings::Recording& recording, double shortest) {
+inline std::vector<double> flights(const logs::Recording& recording, double shortest) {
   std::vector<double> durations;
   std::size_t steps = 0;
   for (std::size_t k = 1; k < recording.steps(); ++k) {  // no force has acted yet at step 0

@@ -9,26 +9,26 @@ class ScenarioFile : public InEveryEngine {};
 TEST_P(ScenarioFile, StairsGiveSevenFlights) {
   const Scenario stairs = scenario_called("stairs");
   for (int run = 0; run < 8; ++run) {
-    const recordings::Recording recording = play(perturbed(stairs, 7, run), GetParam(), 7, run);
-    EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished) << "run " << run;
+    const logs::Recording recording = play(perturbed(stairs, 7, run), GetParam(), 7, run);
+    EXPECT_EQ(recording.info.outcome, logs::Outcome::finished) << "run " << run;
     EXPECT_EQ(flights(recording, 0.05).size(), 7U) << "run " << run;
     EXPECT_GT(recording.truth.back().base_position.x(), stairs.end.x);
   }
 }
 
 TEST_P(ScenarioFile, TheAuthorsStairsEndInALongerFlight) {
-  const recordings::Recording recording =
+  const logs::Recording recording =
       play(perturbed(scenario_called("stairs_authors"), 7, 0), GetParam(), 7, 0);
-  EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished);
+  EXPECT_EQ(recording.info.outcome, logs::Outcome::finished);
   const std::vector<double> durations = flights(recording, 0.05);
   ASSERT_EQ(durations.size(), 7U);
   for (std::size_t i = 0; i < 6; ++i) EXPECT_LT(durations[i], durations[6] - 0.02);
 }
 
 TEST_P(ScenarioFile, TheCourseGivesTenFlightsInFiveLaps) {
-  const recordings::Recording recording =
+  const logs::Recording recording =
       play(perturbed(scenario_called("course"), 7, 0), GetParam(), 7, 0);
-  EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished);
+  EXPECT_EQ(recording.info.outcome, logs::Outcome::finished);
   const std::vector<double> durations = flights(recording, 0.02);
   ASSERT_EQ(durations.size(), 10U);
   for (std::size_t i = 0; i < 10; i += 2) {  // a small drop, a large one
@@ -40,9 +40,8 @@ TEST_P(ScenarioFile, TheCourseGivesTenFlightsInFiveLaps) {
 
 TEST_P(ScenarioFile, HangingIsNeverContact) {
   for (int run = 0; run < 2; ++run) {
-    const recordings::Recording recording =
-        play(perturbed(scenario_called("hang"), 7, run), GetParam());
-    EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished);
+    const logs::Recording recording = play(perturbed(scenario_called("hang"), 7, run), GetParam());
+    EXPECT_EQ(recording.info.outcome, logs::Outcome::finished);
     for (const models::GroundTruth& truth : recording.truth) {
       ASSERT_EQ(truth.wheel_normal_force, (std::array<double, 2>{0.0, 0.0}));
     }
@@ -50,8 +49,8 @@ TEST_P(ScenarioFile, HangingIsNeverContact) {
 }
 
 /// Both wheels on the ground, from 0.3 s to the end.
-void expect_contact(const recordings::Recording& recording, double longest_gap) {
-  EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished);
+void expect_contact(const logs::Recording& recording, double longest_gap) {
+  EXPECT_EQ(recording.info.outcome, logs::Outcome::finished);
   for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
     double gap = 0.0;
     for (std::size_t k = 0; k < recording.steps(); ++k) {
@@ -87,7 +86,7 @@ Scenario crouching(const std::string& name, int run) {
 TEST_P(ScenarioFile, RoamingAndCrouchingStaysUprightAndInContact) {
   for (int run = 0; run < 2; ++run) {
     const Scenario scenario = crouching("roam_crouching", run);
-    const recordings::Recording recording = play(scenario, GetParam());
+    const logs::Recording recording = play(scenario, GetParam());
     expect_contact(recording, 0.0);
     // At the end the hip is at its last command, if there was time to reach it.
     const policies::CrouchCommand& last = *policies::crouch_at(scenario.crouch, 5.0);
@@ -98,8 +97,8 @@ TEST_P(ScenarioFile, RoamingAndCrouchingStaysUprightAndInContact) {
 }
 
 TEST_P(ScenarioFile, HangingAndCrouchingIsNeverContact) {
-  const recordings::Recording recording = play(crouching("hang_crouching", 0), GetParam());
-  EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished);
+  const logs::Recording recording = play(crouching("hang_crouching", 0), GetParam());
+  EXPECT_EQ(recording.info.outcome, logs::Outcome::finished);
   for (const models::GroundTruth& truth : recording.truth) {
     ASSERT_EQ(truth.wheel_normal_force, (std::array<double, 2>{0.0, 0.0}));
   }
@@ -108,8 +107,8 @@ TEST_P(ScenarioFile, HangingAndCrouchingIsNeverContact) {
 TEST_P(ScenarioFile, WhenPushedOffAskewOneWheelLeavesFirst) {
   Scenario askew = scenario_called("push_off");
   askew.start.yaw = 0.5;
-  const recordings::Recording recording = play(askew, GetParam());
-  EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished);
+  const logs::Recording recording = play(askew, GetParam());
+  EXPECT_EQ(recording.info.outcome, logs::Outcome::finished);
   EXPECT_EQ(flights(recording, 0.05).size(), 1U);
   // The robot heads left, so the right wheel reaches the edge first.
   int right_alone_off = 0;
@@ -122,9 +121,8 @@ TEST_P(ScenarioFile, WhenPushedOffAskewOneWheelLeavesFirst) {
 }
 
 TEST_P(ScenarioFile, LiftingTakesTheRobotOffTheFloorAndPutsItBack) {
-  const recordings::Recording recording =
-      play(perturbed(scenario_called("lift"), 7, 0), GetParam());
-  EXPECT_EQ(recording.info.outcome, recordings::Outcome::finished);
+  const logs::Recording recording = play(perturbed(scenario_called("lift"), 7, 0), GetParam());
+  EXPECT_EQ(recording.info.outcome, logs::Outcome::finished);
   EXPECT_EQ(recording.period(), 0.005);
   EXPECT_GE(flights(recording, 0.1).size(), 4U);
   EXPECT_TRUE(in_contact(recording.truth.back(), 0));
@@ -133,8 +131,8 @@ TEST_P(ScenarioFile, LiftingTakesTheRobotOffTheFloorAndPutsItBack) {
 TEST_P(ScenarioFile, TheSameRunGivesTheSameBits) {
   const Scenario run = perturbed(scenario_called("stairs"), 7, 1);
   const auto simulator = make_simulator(run, GetParam());
-  const recordings::Recording first = play(run, GetParam());
-  for (const recordings::Recording& again :
+  const logs::Recording first = play(run, GetParam());
+  for (const logs::Recording& again :
        {play(run, GetParam()), play(run, *simulator), play(run, *simulator)}) {
     EXPECT_EQ(again.info.outcome, first.info.outcome);
     ASSERT_EQ(again.steps(), first.steps());

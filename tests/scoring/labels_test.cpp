@@ -100,7 +100,7 @@ TEST(ContactLabels, NeedForceAboveTheThreshold) {
 }
 
 TEST(ContactLabels, RefuseARecordingWithoutGroundTruth) {
-  recordings::Recording recording;
+  logs::Recording recording;
   recording.observation.resize(3);
   EXPECT_THROW(contact_labels(recording, {}), InputError);
 }

@@ -1,4 +1,4 @@
-#include "training/history.hpp"
+#include "apps/training/history.hpp"
 
 #include <fstream>
 

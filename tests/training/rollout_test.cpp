@@ -1,4 +1,4 @@
-#include "training/rollout.hpp"
+#include "apps/training/rollout.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -157,7 +157,7 @@ TEST(Rollout, AveragesAccelerationsOverTheNetworksStep) {
   const EpisodeBatch batch = roll_out(c, scenes, 7, 0, 1, should_continue);
   scenarios::Scenario drawn = scenarios::perturbed(scenes.scenes[0].scenario, 7, 0);
   drawn.end.duration = 0.2;
-  const recordings::Recording run = scenarios::play(drawn, "bullet", 7, 0);
+  const logs::Recording run = scenarios::play(drawn, "bullet", 7, 0);
   ASSERT_GE(run.steps(), 200U);
   for (std::size_t step = 1; step < 40; ++step) {
     double mean = 0.0;
@@ -193,7 +193,7 @@ TEST(Rollout, AppliesSensorsAndTheNoiseShare) {
   EXPECT_GT(std::abs(deviation(shared, 0, 4) - deviation(shared, 4, 4)), 0.05)
       << "the share differs by run";
   c.noise.acceleration = 0.0;
-  c.sensors = TOUCHDOWN_SOURCE_DIR "/sensors/upkie.yaml";
+  c.sensors = TOUCHDOWN_SOURCE_DIR "/noise/profiles/upkie.yaml";
   const EpisodeBatch reported = roll_out(c, scene(c), 1, 0, 8, should_continue);
   EXPECT_GT(deviation(reported, 0, 8), 0.01);
   EXPECT_EQ(reported.contact, clean.contact) << "labels are those of the truth";

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <random>
 
+#include "apps/training/rollout.hpp"
 #include "estimator/neural/network.hpp"
-#include "training/rollout.hpp"
 
 namespace touchdown::training::test {
 

@@ -1,4 +1,4 @@
-#include "training/train.hpp"
+#include "apps/training/train.hpp"
 
 #include <atomic>
 #include <chrono>
@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/fingerprint.hpp"
-#include "recordings/model_file.hpp"
+#include "logs/model_file.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::training {

@@ -1,4 +1,4 @@
-#include "training/trainer.hpp"
+#include "apps/training/trainer.hpp"
 
 #include <atomic>
 #include <cmath>
@@ -8,11 +8,11 @@
 
 #include <gmock/gmock.h>
 
+#include "apps/training/train.hpp"
 #include "core/error.hpp"
 #include "estimator/neural/forward.hpp"
 #include "tests/scratch_folder.hpp"
 #include "toy_episodes.hpp"
-#include "training/train.hpp"
 
 namespace touchdown::training {
 namespace {

@@ -1,4 +1,4 @@
-#include "training/config/training.hpp"
+#include "apps/training/config/training.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 
 #include "examples/upkie_observer/TouchdownObserver.h"
 #include "examples/upkie_observer/compiled_model.h"
-#include "recordings/model_file.hpp"
+#include "logs/model_file.hpp"
 #include "tests/estimator/models/models.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -46,7 +46,7 @@ void observe(const Signals& s, Dictionary& observation) {
 class UpkiesObserver : public ::testing::Test {
  protected:
   UpkiesObserver() {
-    recordings::write_npz(test::fitted_model("robust"), folder_ / "m.npz");
+    logs::write_npz(test::fitted_model("robust"), folder_ / "m.npz");
     params_.model = (folder_ / "m.npz").string();
   }
 

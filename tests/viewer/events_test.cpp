@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "viewer/watch.hpp"
+#include "apps/viewer/watch.hpp"
 
 namespace touchdown::viewer {
 namespace {

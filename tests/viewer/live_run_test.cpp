@@ -1,10 +1,10 @@
-#include "viewer/live_run.hpp"
+#include "apps/viewer/live_run.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
-#include "recordings/log/recording_file.hpp"
+#include "logs/log/recording_file.hpp"
 #include "scenarios/engine.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -27,8 +27,8 @@ std::vector<experiments::LogEstimator> some_estimators() {
   return estimators;
 }
 
-std::string bytes_of(const recordings::Recording& recording, const ScratchFolder& folder) {
-  recordings::write_recording(recording, folder / "some.mpack");
+std::string bytes_of(const logs::Recording& recording, const ScratchFolder& folder) {
+  logs::write_recording(recording, folder / "some.mpack");
   return read_file(folder / "some.mpack");
 }
 
@@ -63,7 +63,7 @@ void use(LiveRun& run, std::uint64_t step) {
       break;
     case 1500:
       settings.contact_source = 1;  // the truth
-      settings.sensors = noise::find_sensor_profile("sensors/upkie.yaml");
+      settings.sensors = noise::find_sensor_profile("noise/profiles/upkie.yaml");
       run.change(settings);
       run.hop();
       break;
@@ -82,13 +82,13 @@ TEST_P(LiveRunTest, RepeatsThroughTheEngineToTheByte) {
     use(run, step);
     run.step();
   }
-  const recordings::Recording driven = run.recording();
+  const logs::Recording driven = run.recording();
   ASSERT_GT(driven.steps(), 1000u);
   const scenarios::Scenario scenario =
       scenarios::scenario_from_yaml(YamlDocument::parse(driven.info.scenario_yaml, "driven"));
   EXPECT_GT(scenario.forces.size(), 40u);
   EXPECT_GT(scenario.policy.contact_script.size(), 1u);
-  const recordings::Recording again =
+  const logs::Recording again =
       scenarios::play(scenario, GetParam(), driven.info.seed, driven.info.run);
   EXPECT_EQ(bytes_of(driven, folder), bytes_of(again, folder));
 }
@@ -174,7 +174,7 @@ TEST(RealTimeLoop, EndsWithARobotThatFell) {
   scene.scenario.forces = {{.time = 0.0, .duration = 0.5, .force = {0.0, 60.0, 0.0}}};
   RealTimeLoop loop(std::make_unique<LiveRun>(scene, none, LiveSettings{}, false));
   while (!loop.state().outcome) std::this_thread::yield();
-  EXPECT_EQ(loop.state().outcome, recordings::Outcome::fell);
+  EXPECT_EQ(loop.state().outcome, logs::Outcome::fell);
   const std::uint64_t steps = loop.state().steps;
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   EXPECT_EQ(loop.state().steps, steps);

@@ -1,4 +1,4 @@
-#include "viewer/panel.hpp"
+#include "apps/viewer/panel.hpp"
 
 #include <gtest/gtest.h>
 

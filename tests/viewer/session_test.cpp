@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
-#include "recordings/log/recording_file.hpp"
+#include "logs/log/recording_file.hpp"
 #include "scenarios/scenario.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -58,24 +58,24 @@ TEST(WatchSession, LiftsDrivesAndSwitchesAndTheRecordingsRepeat) {
                       quoted(lifted)),
             0)
       << text(folder, "err");
-  const auto scenario_of = [](const recordings::Recording& recording) {
+  const auto scenario_of = [](const logs::Recording& recording) {
     return scenarios::scenario_from_yaml(
         YamlDocument::parse(recording.info.scenario_yaml, recording.info.scenario));
   };
 
-  const recordings::Recording lift = recordings::read_recording(lifted);
+  const logs::Recording lift = logs::read_recording(lifted);
   double highest = 0.0;
   for (const models::GroundTruth& truth : lift.truth) {
     highest = std::max(highest, truth.base_position.z());
   }
   EXPECT_GT(highest, lift.truth.front().base_position.z() + 0.1) << "the drag did not lift";
   EXPECT_FALSE(scenario_of(lift).forces.empty());
-  const scenarios::Scenario drive = scenario_of(recordings::read_recording(driven));
+  const scenarios::Scenario drive = scenario_of(logs::read_recording(driven));
   EXPECT_FALSE(drive.velocity.empty()) << "no drive";
   EXPECT_FALSE(drive.crouch.empty()) << "no crouch and no hop";
   EXPECT_FALSE(drive.policy.contact_script.empty()) << "no contact of an estimator";
-  EXPECT_EQ(recordings::read_recording(driven).info.simulator, "mujoco");
-  EXPECT_EQ(recordings::read_recording(in_bullet).info.simulator, "bullet");
+  EXPECT_EQ(logs::read_recording(driven).info.simulator, "mujoco");
+  EXPECT_EQ(logs::read_recording(in_bullet).info.simulator, "bullet");
 
   for (const auto& path : {lifted, driven, in_bullet}) {
     EXPECT_THAT(text(folder, "out"), HasSubstr(path.string()));

@@ -3,7 +3,7 @@
 #include "core/error.hpp"
 #include "experiments/estimators/entries.hpp"
 #include "experiments/signals/run_signals.hpp"
-#include "recordings/model_file.hpp"
+#include "logs/model_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -15,7 +15,7 @@ TEST(DecisionNetworkEntry, KeepsItsWeightsToTheBitInAFile) {
   const EstimatorEntry entry = decision_network_entry();
   const RunSignals run = synthetic_run(1'000'000, 1500);
   const Model fitted = entry.fit(entry, {.whole = {&run}});
-  recordings::save_model(fitted, folder / "m.npz");
+  logs::save_model(fitted, folder / "m.npz");
   const Model read = load_model(folder / "m.npz");
   EXPECT_EQ(read.arrays, fitted.arrays);
   EXPECT_EQ(estimator_of(read), "decision_network");

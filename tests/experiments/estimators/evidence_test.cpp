@@ -6,7 +6,7 @@
 #include "estimator/models/parameters.hpp"
 #include "experiments/estimators/entries.hpp"
 #include "experiments/signals/run_signals.hpp"
-#include "recordings/model_file.hpp"
+#include "logs/model_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -19,7 +19,7 @@ TEST(EvidenceEntries, KeepTheirCurvesToTheBitInAFile) {
   const RunSignals other = synthetic_run(3, 1500);
   for (const EstimatorEntry& entry : {evidence_curves_entry(), quiet_evidence_curves_entry()}) {
     const Model fitted = entry.fit(entry, {.whole = {&run}});
-    recordings::save_model(fitted, folder / "m.npz");
+    logs::save_model(fitted, folder / "m.npz");
     const Model read = load_model(folder / "m.npz");
     EXPECT_EQ(read.arrays, fitted.arrays);
     EXPECT_EQ(estimator_of(read), entry.name);

@@ -7,7 +7,7 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
-#include "recordings/model_file.hpp"
+#include "logs/model_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -31,7 +31,7 @@ TEST(FittedModel, GivesTheSameBeliefsAfterReadingItsFile) {
   for (const std::string& name : fitted_estimators()) {
     const EstimatorEntry& entry = any_estimator_entry(name);
     const Model& fitted = models.at("mujoco").at(name);
-    recordings::save_model(fitted, folder / "m.npz");
+    logs::save_model(fitted, folder / "m.npz");
     const Model read = load_model(folder / "m.npz");
     const auto p_contact_of = [&](const Model& model) {
       return predict(*entry.make(entry, {.model = &model}), run, noise, {})[0].p_contact;

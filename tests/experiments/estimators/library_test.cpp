@@ -13,7 +13,7 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/submissions/export.hpp"
-#include "recordings/model_file.hpp"
+#include "logs/model_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -45,7 +45,7 @@ TEST(LoadedEstimator, EqualsItsEntryToTheBit) {
   for (const std::string& name : installed_estimators()) {
     const EstimatorEntry& entry = any_estimator_entry(name);
     const std::filesystem::path file = folder / (name + ".npz");
-    recordings::save_model(models.at("mujoco").at(name), file);
+    logs::save_model(models.at("mujoco").at(name), file);
     const Model read = load_model(file);
     EXPECT_EQ(p_contact_of(*load_estimator(file), run),
               p_contact_of(*entry.make(entry, {.model = &read}), run))

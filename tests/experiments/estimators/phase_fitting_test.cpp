@@ -56,7 +56,7 @@ TEST(PhaseFitting, SkipsTheBeginningAndRecordsItsProvenance) {
 }
 
 TEST(PhaseFitting, DetectsTethers) {
-  recordings::RecordingInfo info;
+  logs::RecordingInfo info;
   EXPECT_FALSE(may_be_held(info));
   info.scenario_yaml = "name: stairs\nterrain: {friction: 1}\n";
   EXPECT_FALSE(may_be_held(info));

@@ -28,7 +28,7 @@ std::map<std::string, std::map<double, Recall>> recall_on_robot_like_scenes() {
                               ", runs: 4, perturbed: true}\n"
                               "test: {scenarios: " +
                               scenes +
-                              ", runs: 3}\nsensors: sensors/upkie.yaml\n"
+                              ", runs: 3}\nsensors: noise/profiles/upkie.yaml\n"
                               "noise: {torque: [0.0, 0.25, 1.0], accelerometer: [0.0]}\n"
                               "recordings: none\nvideo: {enabled: false}\n",
                           "robot_like.yaml"));

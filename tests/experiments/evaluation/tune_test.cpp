@@ -11,7 +11,7 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/logs/estimator.hpp"
-#include "recordings/model_file.hpp"
+#include "logs/model_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -206,7 +206,7 @@ TEST(Tune, SetsTheHyperparametersOfLogEstimators) {
   const FittedModels models = fit_models(tuned_experiment({"force_kinematics"}, 1),
                                          pointers_to(fitted_runs(2)), {}, {}, chosen);
   const std::filesystem::path file = folder / "model.npz";
-  recordings::save_model(models.at("mujoco").at("force_kinematics"), file);
+  logs::save_model(models.at("mujoco").at("force_kinematics"), file);
   EXPECT_EQ(log_estimator({.model = file}).entry.chosen("threshold"), 0.25);
   EXPECT_EQ(estimator_entry("force_kinematics").chosen("threshold"), 0.5);
 }

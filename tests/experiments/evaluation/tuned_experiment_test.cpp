@@ -97,7 +97,7 @@ TEST_F(TunedExperiment, WithDefaultsAloneEqualsNoTuning) {
 
 TEST_F(TunedExperiment, SharesChoicesWithOtherSensorsUnlessTunedEverywhere) {
   const std::string harsh =
-      "benchmark.sensors=[" + std::string(TOUCHDOWN_SOURCE_DIR) + "/sensors/harsh.yaml]";
+      "benchmark.sensors=[" + std::string(TOUCHDOWN_SOURCE_DIR) + "/noise/profiles/harsh.yaml]";
   const auto fits_in = [&](const std::string& name) {
     const Table table = from_csv(text(name, "tables/tuning.csv"));
     std::set<std::string> fits;

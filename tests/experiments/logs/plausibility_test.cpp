@@ -13,15 +13,15 @@
 #include <gtest/gtest.h>
 
 #include "core/resources.hpp"
+#include "logs/plausibility/check.hpp"
 #include "models/robot_model.hpp"
 #include "noise/reported_signals.hpp"
 #include "noise/sensor_profile.hpp"
-#include "recordings/plausibility/check.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/generation/generate.hpp"
 #include "scenarios/leg_geometry.hpp"
 
-namespace touchdown::recordings {
+namespace touchdown::logs {
 namespace {
 
 using ::testing::Contains;
@@ -39,7 +39,7 @@ std::vector<std::string> findings_about(const std::string& scenario, const std::
   const scenarios::Scenario rollout =
       scenarios::find_scenario("scenarios/" + scenario + ".yaml", robot);
   Recording run = scenarios::play(rollout, simulator);
-  noise::report_through(noise::find_sensor_profile("sensors/" + sensors + ".yaml"),
+  noise::report_through(noise::find_sensor_profile("noise/profiles/" + sensors + ".yaml"),
                         {.seed = 7, .run = 0}, run.period(), run.observation);
   PlausibilityCheck check(run.period(), facts);
   for (const models::Observation& record : run.observation) check.add(record);
@@ -51,7 +51,7 @@ Records reported(const std::string& scenario, const std::string& simulator,
                  const std::string& sensors) {
   const scenarios::Scenario rollout = scenarios::find_scenario("scenarios/" + scenario + ".yaml");
   Recording run = scenarios::play(rollout, simulator);
-  noise::report_through(noise::find_sensor_profile("sensors/" + sensors + ".yaml"),
+  noise::report_through(noise::find_sensor_profile("noise/profiles/" + sensors + ".yaml"),
                         {.seed = 7, .run = 0}, run.period(), run.observation);
   return run.observation;
 }
@@ -413,4 +413,4 @@ TEST(PlausibilityCheck, HasNoFindingsWithoutRecords) {
 }
 
 }  // namespace
-}  // namespace touchdown::recordings
+}  // namespace touchdown::logs

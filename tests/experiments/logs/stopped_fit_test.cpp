@@ -4,7 +4,7 @@
 
 #include "core/error.hpp"
 #include "experiments/logs/fit.hpp"
-#include "recordings/log/recording_file.hpp"
+#include "logs/log/recording_file.hpp"
 #include "tests/cli/synthetic_log.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -21,7 +21,7 @@ Model endless(const EstimatorEntry& /*entry*/, const FitRuns& runs) {
 
 TEST(FitToLogs, StopsWhileItComputes) {
   const ScratchFolder folder;
-  recordings::write_recording(test::synthetic_log(2.0), folder / "a.mpack");
+  logs::write_recording(test::synthetic_log(2.0), folder / "a.mpack");
   const std::vector<FitLog> logs = {{.path = folder / "a.mpack"}};
   const LogFitConfig config{.labels = {}, .stop = &stop};
   LogFitReport report;

@@ -98,7 +98,7 @@ TEST(TrainingSegments, HaveRunsForEveryEstimatorWithSegments) {
   }
 }
 
-Rollout run(const std::string& file, recordings::Outcome outcome, const std::string& ending) {
+Rollout run(const std::string& file, logs::Outcome outcome, const std::string& ending) {
   Rollout run;
   run.plan.file = file;
   run.report.outcome = outcome;
@@ -115,7 +115,7 @@ TEST(FailuresText, NamesTheFirstAndCountsTheOthers) {
 
 /// The same simulated run, with the errors of three sensor profiles, is three runs of a plan.
 TEST(UnusedRuns, HaveOneLineForEachRecording) {
-  using recordings::Outcome;
+  using logs::Outcome;
   const Rollout fallen = run("mujoco_stairs_fit_001.mpack", Outcome::fell, "fell after 13.6 s");
   const Rollout upright = run("mujoco_stairs_fit_000.mpack", Outcome::finished, "");
   const Rollout diverged =

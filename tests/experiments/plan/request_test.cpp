@@ -83,7 +83,7 @@ RunRequest request_with(const std::string& sensors) {
 
 TEST(RequestedSensors, MakeTheSameRequestIfIdealAsNone) {
   const RunRequest none = request_with("");
-  const RunRequest ideal = request_with("sensors/ideal.yaml");
+  const RunRequest ideal = request_with("noise/profiles/ideal.yaml");
   EXPECT_EQ(none.id, ideal.id);
   EXPECT_EQ(to_yaml(none.experiment), to_yaml(ideal.experiment));
   EXPECT_EQ(setup_caption(ideal.experiment), "");
@@ -114,9 +114,9 @@ TEST(RequestedSensors, AreReadFromTheCopiesInTheRunDirectory) {
 }
 
 TEST(RequestedSensors, GiveARunTheSameErrorsInBothEngines) {
-  RunRequest request = request_with("sensors/harsh.yaml");
-  recordings::Recording first, again, other;
-  for (recordings::Recording* recording : {&first, &again, &other}) {
+  RunRequest request = request_with("noise/profiles/harsh.yaml");
+  logs::Recording first, again, other;
+  for (logs::Recording* recording : {&first, &again, &other}) {
     recording->observation.resize(20);
     recording->action.resize(20);
     for (models::Action& action : recording->action) action.servo[1].position = 0.5;
@@ -132,10 +132,10 @@ TEST(RequestedSensors, GiveARunTheSameErrorsInBothEngines) {
   EXPECT_EQ(first.action[7].servo[1].position, again.action[7].servo[1].position);
   EXPECT_NE(first.action[7].servo[1].position, other.action[7].servo[1].position);
   EXPECT_NE(first.action[7].servo[1].position, 0.5);
-  EXPECT_EQ(setup_caption(request.experiment), "; sensors as in sensors/harsh.yaml");
+  EXPECT_EQ(setup_caption(request.experiment), "; sensors as in noise/profiles/harsh.yaml");
   request.experiment.robot = "models/upkie_heavy.yaml";
   EXPECT_EQ(setup_caption(request.experiment),
-            "; robot as in models/upkie_heavy.yaml; sensors as in sensors/harsh.yaml");
+            "; robot as in models/upkie_heavy.yaml; sensors as in noise/profiles/harsh.yaml");
 }
 
 }  // namespace

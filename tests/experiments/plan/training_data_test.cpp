@@ -72,7 +72,7 @@ TEST(TrainingSegments, ComeFromTheFirstGoodRunsOfTheirEntryAndEngine) {
   runs[5] = run_of(0, 20, 100, "bullet");
   runs[6] = run_of(0, 30, 100);
   runs[6].plan.role = RunRole::test;
-  runs[1].report.outcome = recordings::Outcome::fell;
+  runs[1].report.outcome = logs::Outcome::fell;
   const std::vector<TrainingSegments> segments = {
       {.scenario = "a", .runs = 2, .after = 0.0, .length = 1.0},
       {.scenario = "b", .runs = 2, .after = 0.0, .length = 1.0}};
@@ -102,7 +102,7 @@ TEST(TrainingSegments, DoNotDependOnTheOrderInWhichRunsAreThere) {
     Rollouts runs;
     for (std::size_t i = 0; i < 6; ++i) runs[i] = run_of(0, static_cast<std::int64_t>(i), 1000);
     for (std::size_t i = 6; i < 8; ++i) runs[i] = run_of(1, static_cast<std::int64_t>(i), 1000);
-    runs[2].report.outcome = recordings::Outcome::fell;  // the offset of later runs moves
+    runs[2].report.outcome = logs::Outcome::fell;  // the offset of later runs moves
     EXPECT_THAT(begins(cut_in_order(order, "mujoco", segments, runs)),
                 ElementsAre(100, 450, 800, 100, 450, 0, 700));
   }

@@ -26,8 +26,8 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 /// The ground truth of a synthetic run's base: half a millimetre higher at every step.
-recordings::Recording rising(const RunSignals& run) {
-  recordings::Recording recording;
+logs::Recording rising(const RunSignals& run) {
+  logs::Recording recording;
   recording.info = run.info;
   for (std::size_t k = 0; k < run.steps(); ++k) {
     models::GroundTruth truth;

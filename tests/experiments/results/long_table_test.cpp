@@ -153,7 +153,7 @@ class Results : public ::testing::Test {
                 "], runs: 2}\nnoise: {torque: [0, 1]}\nhighlights: [{torque: 0, accelerometer: 0}, "
                 "{torque: 1, accelerometer: 0}]\nrecordings: none\nvideo: {enabled: false}\n"
                 "benchmark: {robots: [models/upkie_actuated.yaml], sensors: "
-                "[sensors/harsh.yaml]}\nmoments: true\n"
+                "[noise/profiles/harsh.yaml]}\nmoments: true\n"
                 "odometry: {}\noperating_points: {}\nclosed_loop: {runs: 1, contact: [truth, "
                 "support_force], scenes: [{scenario: " +
                 step + ", key: terrain.pieces.1.step.drop, values: [0.1, 0.2]}]}\n",

@@ -24,7 +24,7 @@ TEST(SummaryFile, ReadsBackAsWrittenAndRoundedAsTheTables) {
   const Difference difference{"mujoco", {1.0, 5.0}, "robust", "phase", score.metric};
   const ScratchFolder folder;
   const std::vector<RunSummary> runs = {
-      {RunRole::fit, "bullet", 1000000, "a.mpack", recordings::Outcome::fell, 3}};
+      {RunRole::fit, "bullet", 1000000, "a.mpack", logs::Outcome::fell, 3}};
   write_summary({runs, {cell}, {score}, {difference}}, folder.path());
   const std::string written = read_file(folder / "tables/summary.json");
   const Summary read = read_summary(folder.path());
@@ -33,7 +33,7 @@ TEST(SummaryFile, ReadsBackAsWrittenAndRoundedAsTheTables) {
 
   EXPECT_EQ(read.runs.at(0).role, RunRole::fit);
   EXPECT_EQ(read.runs.at(0).run, 1000000);
-  EXPECT_EQ(read.runs.at(0).outcome, recordings::Outcome::fell);
+  EXPECT_EQ(read.runs.at(0).outcome, logs::Outcome::fell);
   EXPECT_EQ(read.cells.at(0).condition.fit_simulator, "bullet");
   EXPECT_EQ(read.cells.at(0).condition.test_simulator, "mujoco");
   EXPECT_TRUE(std::isnan(read.cells.at(0).cell.torque));

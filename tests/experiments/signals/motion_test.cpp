@@ -65,7 +65,7 @@ TEST_P(Driven, OdometryFollowsTheRobot) {
   scenario.velocity = {{0.5, 0.5, 0.3}};
   scenario.end.duration = 6.0;
   const auto scene = scenarios::compile_scene(scenario);
-  const recordings::Recording recording =
+  const logs::Recording recording =
       scenarios::play(scenario, *scenarios::make_simulator(scenario, engine, scene));
   RunSignals run = signals_of(recording, {}, {}, scoring::SampleUnit::run);
   run.motion = std::make_shared<RunMotion>(motion_of(recording, *scene));

@@ -4,14 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/signals_from.hpp"
+#include "logs/signals_from.hpp"
 
 namespace touchdown::experiments {
 namespace {
 
 /// A run with tilting attitude and changing torques, in contact except for steps 40 to 79.
-recordings::Recording wobbling_run() {
-  recordings::Recording recording;
+logs::Recording wobbling_run() {
+  logs::Recording recording;
   for (int k = 0; k < 100; ++k) {
     models::Observation observation;
     observation.time = 1e-3 * k;
@@ -34,13 +34,13 @@ recordings::Recording wobbling_run() {
 TEST(RunSignals, HaveTheCommandOfThePreviousStep) {
   const RunSignals run = signals_of(wobbling_run(), {}, {}, scoring::SampleUnit::run);
   EXPECT_EQ(run.signals[0].ground_velocity_command, 0.0);
-  EXPECT_NEAR(run.signals[61].ground_velocity_command, 60 * recordings::upkie_wheel_radius, 1e-12);
+  EXPECT_NEAR(run.signals[61].ground_velocity_command, 60 * logs::upkie_wheel_radius, 1e-12);
   EXPECT_EQ(scoring::flights(run.contact[0]),
             (std::vector<scoring::Flight>{{.takeoff = 40, .landing = 80}}));
 }
 
 TEST(RunSignals, WithScaledUnitNoiseEqualNoisySensors) {
-  const recordings::Recording recording = wobbling_run();
+  const logs::Recording recording = wobbling_run();
   const RunSignals run = signals_of(recording, {}, {}, scoring::SampleUnit::run);
   const noise::NoiseKey key{.seed = 5, .run = 2};
   const noise::SensorNoise levels{.knee_torque = 0.5,
@@ -53,8 +53,8 @@ TEST(RunSignals, WithScaledUnitNoiseEqualNoisySensors) {
   for (std::size_t k = 0; k < run.steps(); ++k) {
     const Signals scaled = noisy(run, noise, levels, k);
     const Signals reported =
-        recordings::signals_from(noise::with_noise(recording.observation[k], key, k, levels),
-                                 run.signals[k].ground_velocity_command);
+        logs::signals_from(noise::with_noise(recording.observation[k], key, k, levels),
+                           run.signals[k].ground_velocity_command);
     for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
       EXPECT_NEAR(scaled.leg[leg].knee.torque, reported.leg[leg].knee.torque, 1e-12);
       EXPECT_NEAR(scaled.leg[leg].wheel.torque, reported.leg[leg].wheel.torque, 1e-12);
@@ -83,7 +83,7 @@ TEST(RunSignals, WithoutNoiseAreTheCleanOnes) {
 
 /// A run in which the IMU takes every attitude.
 RunSignals tumbling_run(std::size_t steps) {
-  recordings::Recording recording;
+  logs::Recording recording;
   for (std::size_t i = 0; i < steps; ++i) {
     const auto t = static_cast<double>(i);
     models::Observation o;
@@ -140,7 +140,7 @@ TEST(NoiseRun, OfAnEmptyRunIsEmpty) {
 }
 
 TEST(RunSignals, HaveTheTargetsOfThePreviousStep) {
-  recordings::Recording recording = wobbling_run();
+  logs::Recording recording = wobbling_run();
   for (std::size_t k = 0; k < recording.steps(); ++k) {
     const auto time = static_cast<double>(k);
     recording.action[k].servo[4] = {0.1, time, 0.2, 2.0, 3.0, 16.0};

@@ -46,7 +46,7 @@ class Benchmark : public ::testing::Test {
     result = new ExperimentResult(
         run_experiment(with_benchmark(*folder,
                                       "{robots: [models/upkie_actuated.yaml], sensors: "
-                                      "[sensors/harsh.yaml]}"),
+                                      "[noise/profiles/harsh.yaml]}"),
                        options));
     table = from_csv(read_file(*folder / "run/tables/benchmark.csv"));
   }
@@ -197,7 +197,8 @@ TEST(ABenchmark, ResamplesFitsAndRunsTogether) {
 
 TEST(ABenchmark, SimulatesARobotOnceForAllItsSensors) {
   const ScratchFolder folder;
-  const RunRequest request = request_of(with_benchmark(folder, "{sensors: [sensors/harsh.yaml]}"));
+  const RunRequest request =
+      request_of(with_benchmark(folder, "{sensors: [noise/profiles/harsh.yaml]}"));
   const Plan plan = whole_plan(request);
   const auto harsh = benchmark_setups(request, plan).at(1);
   const auto own = plan.runs_in(0);
@@ -219,7 +220,7 @@ TEST(ABenchmark, HasTheSameTablesWhetherItKeepsSignalsInMemoryOrNot) {
   const auto run = [&](const std::string& name, bool has_films, const std::string& more) {
     Experiment experiment = with_benchmark(folder,
                                            "{robots: [models/upkie_heavy.yaml], sensors: "
-                                           "[sensors/upkie.yaml], refits: 1, clips: true}" +
+                                           "[noise/profiles/upkie.yaml], refits: 1, clips: true}" +
                                                more);
     experiment.video.enabled = has_films;
     const Plan plan = whole_plan(request_of(experiment));
@@ -329,14 +330,14 @@ TEST(ABenchmark, RefusesRobotsAndSensorsWithEqualNames) {
   const auto planned = [&](const std::string& benchmark) {
     (void)whole_plan(request_of(with_benchmark(folder, benchmark)));
   };
-  EXPECT_THAT([&] { planned("{sensors: [sensors/ideal.yaml]}"); },
+  EXPECT_THAT([&] { planned("{sensors: [noise/profiles/ideal.yaml]}"); },
               ThrowsMessage<InputError>(
                   HasSubstr("benchmark.sensors: 'ideal' is there already: the experiment's own")));
   EXPECT_THAT([&] { planned("{robots: [models/upkie.xml]}"); },
               ThrowsMessage<InputError>(HasSubstr("benchmark.robots: 'upkie' is there already")));
-  EXPECT_THAT([&] { planned("{sensors: [sensors/harsh.yaml, sensors/harsh.yaml]}"); },
+  EXPECT_THAT([&] { planned("{sensors: [noise/profiles/harsh.yaml, noise/profiles/harsh.yaml]}"); },
               ThrowsMessage<InputError>(HasSubstr("small.yaml:10:22: benchmark.sensors")));
-  EXPECT_THAT([&] { planned("{sensor: [sensors/harsh.yaml]}"); },
+  EXPECT_THAT([&] { planned("{sensor: [noise/profiles/harsh.yaml]}"); },
               ThrowsMessage<InputError>(HasSubstr("did you mean 'sensors'?")));
   EXPECT_THAT([&] { planned("{robots: [models/upkie_actuatd.yaml]}"); },
               ThrowsMessage<InputError>(HasSubstr("upkie_actuated.yaml")));

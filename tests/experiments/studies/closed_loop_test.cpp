@@ -34,7 +34,7 @@ using ::testing::Not;
 using ::testing::ThrowsMessage;
 
 Experiment with_closed_loop(const ScratchFolder& folder, const std::string& section,
-                            const std::string& sensors = "sensors/upkie.yaml",
+                            const std::string& sensors = "noise/profiles/upkie.yaml",
                             const std::string& estimators = "[support_force, robust]") {
   const std::string step = folder.write("small_step.yaml", small_step_scene).string();
   return experiment_from_yaml(
@@ -151,7 +151,8 @@ TEST(ClosedLoop, ContactSourcesDecideAsInOfflineEvaluation) {
   const std::map<std::string, FittedModel> models = {{"support_force", {}},
                                                      {"evidence_curves", model_by_servo_load()}};
   for (const auto& [name, model] : models) {
-    for (const char* sensors : {"sensors/upkie.yaml", "sensors/harsh.yaml", "sensors/ideal.yaml"}) {
+    for (const char* sensors :
+         {"noise/profiles/upkie.yaml", "noise/profiles/harsh.yaml", "noise/profiles/ideal.yaml"}) {
       const RunRequest request = request_of(
           with_closed_loop(folder,
                            of_steps(folder, ", noise: [{torque: 0.3, accelerometer: 1.0}]") +
@@ -163,7 +164,7 @@ TEST(ClosedLoop, ContactSourcesDecideAsInOfflineEvaluation) {
       const FittedModels fitted = {{cell.simulator, {{name, model}}}};
       const ClosedLoopRun loop =
           run_closed_loop(request, cell, 1, fitted, scenes, [] { return true; });
-      recordings::Recording reported = loop.recording;
+      logs::Recording reported = loop.recording;
       report_through_sensors(profile_of(request.sensors, experiment.sensors), experiment, 1,
                              reported);
       const RunSignals run =
@@ -241,9 +242,9 @@ using RecordedContact = std::array<scoring::ContactSequence, models::wheel_count
 
 /// A robot that glides level at .5 m/s with wheels that turn at `wheel_speed`, m/s along the
 /// ground: 100 ms on it, 100 ms off it, 100 ms on it.
-recordings::Recording gliding(double wheel_speed) {
-  recordings::Recording recording;
-  recording.info.outcome = recordings::Outcome::finished;
+logs::Recording gliding(double wheel_speed) {
+  logs::Recording recording;
+  recording.info.outcome = logs::Outcome::finished;
   for (int k = 0; k < 300; ++k) {
     models::Observation observation;
     observation.time = 1e-3 * k;
@@ -270,12 +271,12 @@ RecordedContact true_contact() {
   return trace;
 }
 
-ClosedLoopMetrics metrics_of(const recordings::Recording& recording, const RecordedContact& trace) {
+ClosedLoopMetrics metrics_of(const logs::Recording& recording, const RecordedContact& trace) {
   return closed_loop_metrics_of(recording, trace, odometry::upkie(), {}, {.skip = 0.0});
 }
 
 TEST(TyreSpeeds, AreThoseOfTheWheelsOverTheGround) {
-  const recordings::Recording run = gliding(0.8);
+  const logs::Recording run = gliding(0.8);
   for (const double speed : tyre_speeds(run.observation[0], run.truth[0], odometry::upkie())) {
     EXPECT_NEAR(speed, 0.3, 1e-12);
   }
@@ -320,7 +321,7 @@ TEST(ClosedLoopMetrics, CountsFalseTakeoffsOfTheRobot) {
 }
 
 TEST(ClosedLoopMetrics, TakesNoHopForALanding) {
-  recordings::Recording run = gliding(0.8);
+  logs::Recording run = gliding(0.8);
   for (int k = 100; k < 160; ++k) {  // 40 ms are left
     run.truth[static_cast<std::size_t>(k)].wheel_normal_force = {26.0, 26.0};
   }
@@ -330,8 +331,8 @@ TEST(ClosedLoopMetrics, TakesNoHopForALanding) {
 }
 
 TEST(ClosedLoopMetrics, AddsUp) {
-  recordings::Recording fallen = gliding(0.4);
-  fallen.info.outcome = recordings::Outcome::fell;
+  logs::Recording fallen = gliding(0.4);
+  fallen.info.outcome = logs::Outcome::fell;
   ClosedLoopMetrics sum = metrics_of(gliding(0.8), true_contact());
   sum += metrics_of(fallen, true_contact());
   EXPECT_EQ(sum.runs, 2);

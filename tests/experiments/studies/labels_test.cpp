@@ -7,7 +7,7 @@
 #include "core/files.hpp"
 #include "core/table.hpp"
 #include "experiments/run_experiment.hpp"
-#include "recordings/log/recording_file.hpp"
+#include "logs/log/recording_file.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -41,8 +41,8 @@ class LabelSensitivity : public ::testing::Test {
     double all = 0.0;
     for (const Rollout& rollout : result.runs) {
       if (rollout.plan.role != RunRole::test) continue;
-      const recordings::Recording recording =
-          recordings::read_recording(result.directory.file("recordings", rollout.plan.file));
+      const logs::Recording recording =
+          logs::read_recording(result.directory.file("recordings", rollout.plan.file));
       for (std::size_t k = 300; k < recording.steps(); ++k) {
         for (const double force : recording.truth[k].wheel_normal_force) {
           in_contact += force > threshold ? 1.0 : 0.0;

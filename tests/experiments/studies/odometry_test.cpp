@@ -21,7 +21,7 @@ using ::testing::UnorderedElementsAre;
 Experiment with_odometry(const ScratchFolder& folder, const std::string& more) {
   const std::string step = folder.write("small_step.yaml", small_step_scene).string();
   return experiment_from_yaml(YamlDocument::parse(
-      "name: small\nestimators: [support_force, robust]\nsensors: sensors/upkie.yaml\nfit: "
+      "name: small\nestimators: [support_force, robust]\nsensors: noise/profiles/upkie.yaml\nfit: "
       "{scenarios: [" +
           step + "]}\ntest: {scenarios: [" + step +
           "], runs: 2}\nrecordings: none\nvideo: {enabled: false}\n" + more,
@@ -57,7 +57,7 @@ scoring::Trajectory read_tum(const std::filesystem::path& file) {
 }
 
 const char* const odometry_section =
-    "odometry: {delay: [0.1]}\nbenchmark: {sensors: [sensors/ideal.yaml]}\n";
+    "odometry: {delay: [0.1]}\nbenchmark: {sensors: [noise/profiles/ideal.yaml]}\n";
 
 TEST(OdometryStudy, ScoresOdometryWithEveryEstimatorAndTheTruth) {
   const ScratchFolder folder;

@@ -16,8 +16,8 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 /// Beliefs about both wheels at these times.
-recordings::Beliefs beliefs_at(const std::vector<double>& times, const std::vector<double>& p) {
-  recordings::Beliefs beliefs;
+logs::Beliefs beliefs_at(const std::vector<double>& times, const std::vector<double>& p) {
+  logs::Beliefs beliefs;
   beliefs.file = "a.npz";
   beliefs.time = times;
   for (std::size_t w = 0; w < models::wheel_count; ++w) {
@@ -50,7 +50,7 @@ TEST(SubmittedPrediction, NeedsNoBeliefWhereThereIsNoRecord) {
 
 TEST(SubmittedPrediction, KeepsDecisionsThatDifferFromTheProbabilities) {
   const RunSignals run = synthetic_run(1, 1);
-  recordings::Beliefs beliefs = beliefs_at({0.0}, {0.9});
+  logs::Beliefs beliefs = beliefs_at({0.0}, {0.9});
   beliefs.contact[1] = {0};
   const auto submitted = prediction_of(beliefs, run);
   EXPECT_THAT(submitted.prediction[0].contact, ElementsAre(1));

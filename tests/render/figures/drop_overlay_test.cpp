@@ -17,8 +17,8 @@ namespace {
 using ::testing::HasSubstr;
 
 /// 1.5 s at 1 kHz; both wheels leave the ground at `takeoff` for 200 ms and fall freely.
-recordings::Recording dropped(const std::string& simulator, std::size_t takeoff) {
-  recordings::Recording recording;
+logs::Recording dropped(const std::string& simulator, std::size_t takeoff) {
+  logs::Recording recording;
   recording.info.simulator = simulator;
   for (std::size_t k = 0; k < 1500; ++k) {
     const bool flies = k >= takeoff && k < takeoff + 200;

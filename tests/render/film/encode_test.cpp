@@ -47,7 +47,7 @@ CaughtError error_of(const Work& work) {
 TEST(VideoEncoder, AMissingCodecIsOneClearErrorAndLeavesNothing) {
   const ScratchFolder folder;
   const models::RobotModel robot = models::compile_robot_model(upkie_mjcf, staged_terrain());
-  const recordings::Recording run = staged_run(0.5);
+  const logs::Recording run = staged_run(0.5);
   const VideoOptions options = {{.width = 320, .height = 180, .encoder = "libx264_is_not_here"}};
   const CaughtError error = error_of([&] {
     render_video({{robot, run, {}}}, options, folder / "x.mp4");

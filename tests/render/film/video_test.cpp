@@ -51,7 +51,7 @@ class Video : public ::testing::Test {
   }
 
   const models::RobotModel robot_ = models::compile_robot_model(upkie_mjcf, staged_terrain());
-  const recordings::Recording run_ = staged_run(3.0);
+  const logs::Recording run_ = staged_run(3.0);
   const std::vector<BeliefTrack> beliefs_ = {staged_beliefs(run_, "robust"),
                                              staged_beliefs(run_, "paper", 2, 0.01f)};
   const VideoOptions small_ = {{.width = 320, .height = 180}, VideoQuality::draft, 1.9, 2.3};
@@ -84,7 +84,7 @@ TEST_F(Video, IsAnMp4WithItsIndexInFrontAndTheSameBytesEveryTime) {
 
 /// Films of one pass: one of each run, as alone, and a small one of both.
 TEST_F(Video, SeveralFilmsAreThoseThatAreMadeAlone) {
-  const recordings::Recording shorter = staged_run(2.1, "bullet");
+  const logs::Recording shorter = staged_run(2.1, "bullet");
   const std::vector<BeliefTrack> beliefs = {staged_beliefs(shorter, "robust")};
   const std::vector<VideoSource> sources = {{robot_, run_, beliefs_}, {robot_, shorter, beliefs}};
   VideoOptions small = small_;
@@ -159,7 +159,7 @@ TEST_F(Video, SlowMotionHasMoreFrames) {
 }
 
 TEST_F(Video, SideBySideLastsAsLongAsTheLongerRun) {
-  const recordings::Recording shorter = staged_run(1.0, "bullet");
+  const logs::Recording shorter = staged_run(1.0, "bullet");
   const std::vector<BeliefTrack> beliefs = {staged_beliefs(shorter, "robust")};
   VideoOptions options = small_;
   options.from = 0.5;
@@ -173,7 +173,7 @@ TEST_F(Video, SideBySideLastsAsLongAsTheLongerRun) {
 
 TEST_F(Video, FourRunsStandInRowsOfTwo) {
   const VideoSource source{robot_, run_, beliefs_};
-  const recordings::Recording later = staged_run(2.0);  // waits at its end
+  const logs::Recording later = staged_run(2.0);  // waits at its end
   const std::vector<BeliefTrack> no_beliefs;
   const VideoSource waiting{robot_, later, no_beliefs};
   FramePainter painter({source, waiting, source, source}, {{.width = 320, .height = 180}}, false);
@@ -195,20 +195,20 @@ TEST_F(Video, MoreThanFourRunsAreRefused) {
 }
 
 TEST_F(Video, ARobotsLogWithoutGroundTruthCanBeFilmed) {
-  recordings::Recording log = run_;
+  logs::Recording log = run_;
   log.truth.clear();
   log.info.simulator.clear();
   EXPECT_GT(render_video({{robot_, log, {}}}, small_, folder_ / "log.mp4").frames, 0);
 }
 
 TEST_F(Video, ADivergedRunCanBeFilmed) {
-  recordings::Recording diverged = run_;
+  logs::Recording diverged = run_;
   for (std::size_t k = 2000; k < diverged.steps(); ++k) {
     diverged.truth[k].base_position.x() = std::numeric_limits<double>::quiet_NaN();
     diverged.truth[k].base_orientation.coeffs().setConstant(std::nan(""));
     for (models::ServoReading& servo : diverged.observation[k].servo) servo.position = std::nan("");
   }
-  diverged.info.outcome = recordings::Outcome::diverged;
+  diverged.info.outcome = logs::Outcome::diverged;
   EXPECT_GT(render_video({{robot_, diverged, {}}}, small_, folder_ / "nan.mp4").frames, 0);
 }
 
@@ -250,7 +250,7 @@ TEST_F(Video, WrongRequestsAreNamed) {
       ThrowsMessage<InputError>(HasSubstr("robust")));
   EXPECT_THAT(
       [&] {
-        render_video({{robot_, recordings::Recording{}, {}}}, small_, folder_ / "x.mp4");
+        render_video({{robot_, logs::Recording{}, {}}}, small_, folder_ / "x.mp4");
       },
       ThrowsMessage<InputError>(HasSubstr("empty")));
   EXPECT_EQ(files(), 0u);

@@ -5,7 +5,7 @@
 
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "recordings/signals_from.hpp"
+#include "logs/signals_from.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/generation/generate.hpp"
 #include "scenarios/leg_geometry.hpp"
@@ -18,14 +18,14 @@ using ::testing::ElementsAreArray;
 using ::testing::Not;
 
 /// p(contact) of the left wheel by an estimator that knows these legs.
-std::vector<float> left_beliefs(const std::string& name, const recordings::Recording& recording,
+std::vector<float> left_beliefs(const std::string& name, const logs::Recording& recording,
                                 const LegGeometry& legs) {
   const experiments::EstimatorEntry& entry = experiments::estimator_entry(name);
   const auto estimator = entry.make(entry, {.sample_rate = 1.0 / recording.period(), .legs = legs});
   std::vector<float> beliefs;
   for (std::size_t k = 0; k < recording.steps(); ++k) {
-    const Signals signals = recordings::signals_from(recording.observation[k],
-                                                     k > 0 ? &recording.action[k - 1] : nullptr);
+    const Signals signals =
+        logs::signals_from(recording.observation[k], k > 0 ? &recording.action[k - 1] : nullptr);
     beliefs.push_back(static_cast<float>(estimator->update(signals).wheel[0].p_contact));
   }
   return beliefs;
@@ -37,7 +37,7 @@ TEST(FilmedRun, GivesEstimatorsTheLegsOfItsRobot) {
     document.override_value("robot=models/" + robot + ".yaml");
     document.override_value("end.duration=3.0");
     const scenarios::Scenario scenario = scenarios::complete_scenario(document);
-    const recordings::Recording recording = scenarios::play(scenario, "mujoco");
+    const logs::Recording recording = scenarios::play(scenario, "mujoco");
     const LegGeometry legs =
         scenarios::leg_geometry(*scenarios::CompiledScenes().as_described(scenario));
     for (const std::string estimator : {"support_force", "shipped"}) {

@@ -58,7 +58,7 @@ Eigen::Vector3d position_in(const Json& run, std::size_t bodies, std::size_t fra
 class ReplayData : public ::testing::Test {
  protected:
   const models::RobotModel robot_ = models::compile_robot_model(upkie_mjcf, staged_terrain());
-  const recordings::Recording run_ = staged_run(3.0);
+  const logs::Recording run_ = staged_run(3.0);
   const std::vector<BeliefTrack> beliefs_ = {staged_beliefs(run_, "robust"),
                                              staged_beliefs(run_, "paper", 2, 0.01f)};
 };
@@ -118,7 +118,7 @@ TEST_F(ReplayData, BeliefsAndContactAreThoseOfTheirSteps) {
 }
 
 TEST_F(ReplayData, LongRunsAreCutAndScenesAreSharedByEngines) {
-  recordings::Recording longer = run_;
+  logs::Recording longer = run_;
   while (longer.steps() < 70'000) {
     longer.observation.insert(longer.observation.end(), run_.observation.begin(),
                               run_.observation.end());
@@ -135,13 +135,13 @@ TEST_F(ReplayData, LongRunsAreCutAndScenesAreSharedByEngines) {
 }
 
 TEST_F(ReplayData, DivergedAndTinyRunsAreReplayed) {
-  recordings::Recording diverged = run_;
+  logs::Recording diverged = run_;
   for (std::size_t k = 2000; k < diverged.steps(); ++k) {
     diverged.truth[k].base_position.x() = std::nan("");
     diverged.truth[k].base_orientation.coeffs().setConstant(std::nan(""));
     for (models::ServoReading& servo : diverged.observation[k].servo) servo.position = std::nan("");
   }
-  recordings::Recording tiny = staged_run(0.0);
+  logs::Recording tiny = staged_run(0.0);
   ASSERT_EQ(tiny.steps(), 1U);
   std::vector<BeliefTrack> unknown = {staged_beliefs(diverged, "unknown")};
   unknown[0].p_contact[0].assign(diverged.steps(), std::nanf(""));

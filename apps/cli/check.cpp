@@ -1,0 +1,267 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "apps/cli/verb.hpp"
+#include "core/error.hpp"
+#include "core/program.hpp"
+#include "core/resources.hpp"
+#include "core/table.hpp"
+#include "experiments/logs/log_steps.hpp"
+#include "experiments/logs/robot.hpp"
+#include "logs/log/byte_source.hpp"
+#include "logs/log/reader.hpp"
+#include "logs/mapping/conversion.hpp"
+#include "scenarios/robot_check.hpp"
+
+namespace touchdown::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+using scenarios::CheckedHeldJoint;
+using scenarios::CheckedJoint;
+using scenarios::CheckedStand;
+using scenarios::RobotCheck;
+
+/// Without the digits that come from the arithmetic.
+double rounded(double value) { return std::round(1e6 * value) / 1e6 + 0.0; }
+
+std::string vector_text(const Eigen::Vector3d& v) {
+  return fmt::format("({:g} {:g} {:g})", rounded(v.x()), rounded(v.y()), rounded(v.z()));
+}
+
+std::string range_text(const CheckedJoint& joint) {
+  if (!joint.is_limited) return "none";
+  return fmt::format("{:g} to {:g}", rounded(joint.low), rounded(joint.high));
+}
+
+std::string joints_text(const RobotCheck& check) {
+  Table table{{"servo", "joint", "axis in the base", "sign", "zero (rad)", "range (rad)",
+               "limit (N·m)", "actuator"},
+              {}};
+  for (const CheckedJoint& joint : check.joints) {
+    table.rows.push_back({joint.servo, joint.joint, vector_text(joint.axis),
+                          joint.is_reversed ? "reversed" : "kept",
+                          fmt::format("{:g}", rounded(joint.zero)), range_text(joint),
+                          fmt::format("{:g}", joint.torque_limit),
+                          joint.actuator.empty() ? "ideal" : joint.actuator});
+  }
+  return to_text(table);
+}
+
+std::string text_of(const CheckedHeldJoint& held) {
+  return fmt::format(
+      "held: joint '{}' at {:g} rad by a servo of {:g} N·m/rad (from {}), {:g} N·m·s/rad and at "
+      "most "
+      "{:g} N·m{}\n",
+      held.joint, rounded(held.reference), rounded(held.kp), held.kp_source, rounded(held.kd),
+      held.torque_limit, held.actuator.empty() ? "" : "; " + held.actuator);
+}
+
+std::string text_of(const std::string& path, const RobotCheck& check) {
+  std::string text;
+  if (!check.joints.empty()) {
+    text += fmt::format(
+        "{}: {}, {:g} kg, legs {:g} and {:g} kg, wheel radius {:g} m, track {:g} m, IMU at {} m\n{}"
+        "stance: hip {:g}, knee {:g} rad; a load of 1 N gives {:.4f} N·m at the knee\n",
+        path, check.name, rounded(check.mass), rounded(check.leg_mass[0]),
+        rounded(check.leg_mass[1]), rounded(check.wheel_radius), rounded(check.track),
+        vector_text(check.imu), joints_text(check), rounded(check.hip), rounded(check.knee),
+        check.lever);
+  }
+  for (const CheckedHeldJoint& held : check.held) text += text_of(held);
+  for (const std::string& ignored : check.ignored) text += "ignored: " + ignored + "\n";
+  for (const std::string& difference : check.differences) {
+    text += "engines differ: " + difference + "\n";
+  }
+  for (const CheckedStand& stand : check.stands) {
+    text += fmt::format(
+        "{}: {}, moved {:.2f} m, {:.1f} N on the left tyre, {:.1f} N on the right{}\n",
+        stand.engine, stand.ending, stand.moved, stand.load[0], stand.load[1],
+        check.held.empty() ? "" : fmt::format(", held joints within {:.3f} rad", stand.given_way));
+  }
+  for (const std::string& complaint : check.complaints) text += "complaint: " + complaint + "\n";
+  return text;
+}
+
+Json json_of(const Eigen::Vector3d& v) { return {rounded(v.x()), rounded(v.y()), rounded(v.z())}; }
+
+Json json_of(const CheckedJoint& joint) {
+  Json json = {{"servo", joint.servo},
+               {"joint", joint.joint},
+               {"axis_in_base", json_of(joint.axis)},
+               {"is_reversed", joint.is_reversed},
+               {"zero_rad", rounded(joint.zero)},
+               {"torque_limit_nm", joint.torque_limit},
+               {"actuator", joint.actuator}};
+  json["range_rad"] =
+      joint.is_limited ? Json{rounded(joint.low), rounded(joint.high)} : Json(nullptr);
+  return json;
+}
+
+Json json_of(const CheckedHeldJoint& held) {
+  return {{"joint", held.joint},      {"reference_rad", rounded(held.reference)},
+          {"kp", rounded(held.kp)},   {"kp_source", held.kp_source},
+          {"kd", rounded(held.kd)},   {"torque_limit_nm", held.torque_limit},
+          {"actuator", held.actuator}};
+}
+
+Json json_of(const std::string& path, const RobotCheck& check) {
+  Json json = {{"file", path},
+               {"is_usable", check.complaints.empty()},
+               {"complaints", check.complaints},
+               {"name", check.name},
+               {"mass_kg", rounded(check.mass)},
+               {"leg_mass_kg", {rounded(check.leg_mass[0]), rounded(check.leg_mass[1])}},
+               {"wheel_radius_m", rounded(check.wheel_radius)},
+               {"track_m", rounded(check.track)},
+               {"imu_m", json_of(check.imu)},
+               {"stance_rad", {{"hip", rounded(check.hip)}, {"knee", rounded(check.knee)}}},
+               {"knee_lever_m", rounded(check.lever)},
+               {"joints", Json::array()},
+               {"held", Json::array()},
+               {"ignored", check.ignored},
+               {"differences", check.differences},
+               {"stands", Json::array()}};
+  for (const CheckedJoint& joint : check.joints) json["joints"].push_back(json_of(joint));
+  for (const CheckedHeldJoint& held : check.held) json["held"].push_back(json_of(held));
+  for (const CheckedStand& stand : check.stands) {
+    json["stands"].push_back({{"engine", stand.engine},
+                              {"stands", stand.stands},
+                              {"ending", stand.ending},
+                              {"moved_m", rounded(stand.moved)},
+                              {"held_given_way_rad", rounded(stand.given_way)},
+                              {"load_n", {rounded(stand.load[0]), rounded(stand.load[1])}}});
+  }
+  return json;
+}
+
+/// Whether a file describes a robot, by its extension: .xml, .urdf, .yaml, .yml.
+bool is_robot_file(const std::string& path) {
+  constexpr std::array extensions = {".xml", ".urdf", ".yaml", ".yml"};
+  const std::string extension = std::filesystem::path(path).extension().string();
+  return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+}
+
+/// Checks one robot and prints what was read, what is ignored and how it stands, as text or as
+/// JSON. Returns the number of complaints. Errors: `Stopped`.
+std::size_t check_robot(const std::string& path, bool as_json, const CliSession& session) {
+  const RobotCheck check =
+      scenarios::check_robot(find_resource(path), [&] { return !*session.stop; });
+  print(as_json ? json_of(path, check).dump(1) + "\n" : text_of(path, check));
+  return check.complaints.size();
+}
+
+/// Checks one log and prints its rate, its length and what is implausible about it, one line each.
+/// `mapping` is the mapping file of another robot's log or bag; empty for a log in Upkie's layout.
+/// Returns the number of findings. Errors: `InputError` for a log that cannot be read.
+std::size_t check_log(const std::string& path, const std::string& mapping,
+                      const experiments::LogRobot& robot, const CliSession& session) {
+  std::optional<logs::MappedLog> mapped;
+  if (!mapping.empty()) {
+    mapped.emplace(path, mapping, [&] {
+      if (*session.stop) throw Stopped("stopped");
+    });
+    print_warnings(mapped->warnings());
+  }
+  logs::LogReader reader(
+      logs::file_source(mapped ? mapped->path() : std::filesystem::path(path), session.stop),
+      path == "-" ? "standard input" : path);
+  experiments::LogSteps log(reader, nullptr, experiments::checked_robot(robot, reader.info()));
+  std::int64_t steps = 0;
+  double last = 0.0;
+  while (const experiments::LogStep* step = log.next()) {
+    ++steps;
+    last = step->signals.time;
+  }
+  if (*session.stop) throw Stopped("stopped");
+  print_warnings(reader.warnings());
+  const std::vector<std::string> findings = log.findings();
+  std::string text =
+      fmt::format("{}: {} records at {:.6g} Hz, up to {:.3f} s: {}\n", reader.name(), steps,
+                  log.sample_rate(), last, findings.empty() ? "plausible" : "check it");
+  for (const std::string& finding : findings) text += fmt::format("  {}\n", finding);
+  print(text);
+  return findings.size();
+}
+
+struct CheckFlags {
+  std::vector<std::string> files;
+  std::string mapping;
+  std::string robot;
+  bool strict = false;
+  bool json = false;
+};
+
+/// What the checks found: complaints about robots always count, findings about logs if --strict.
+struct Found {
+  std::size_t complaints = 0;
+  std::size_t findings = 0;
+};
+
+/// The type of a file follows from its extension; with a mapping all files are logs.
+void check_file(const std::string& file, const CheckFlags& flags, const CliSession& session,
+                Found& found) {
+  if (flags.mapping.empty() && is_robot_file(file)) {
+    found.complaints += check_robot(file, flags.json, session);
+    return;
+  }
+  if (flags.json) throw InputError(fmt::format("{}: --json is for robots", file));
+  found.findings +=
+      check_log(file, flags.mapping, experiments::robot_of_file(flags.robot), session);
+}
+
+void check(const CheckFlags& flags, const CliSession& session) {
+  const bool is_live = std::find(flags.files.begin(), flags.files.end(), "-") != flags.files.end();
+  if (is_live && !flags.mapping.empty()) {
+    throw InputError("--mapping: expected a file or a bag, found standard input");
+  }
+  Found found;
+  for (const std::string& file : flags.files) check_file(file, flags, session, found);
+  const std::size_t all = found.complaints + (flags.strict ? found.findings : 0);
+  if (all > 0) throw Error(fmt::format("check: {} finding{}", all, all == 1 ? "" : "s"));
+}
+
+}  // namespace
+
+void add_check(CLI::App& program, const CliSession& session) {
+  Verb verb(program, "check",
+            "touchdown check models/upkie.xml\n"
+            "touchdown check robot.mpack --robot my_robot.xml --strict\n"
+            "touchdown check rosbag2_2026_03_01/ --mapping robot.yaml\n\n"
+            "Checks robots and logs. Of a robot it prints what was read from its file, what is\n"
+            "ignored, where the engines differ, and how it stands for two seconds in each. The\n"
+            "exit code is 1 if it cannot be simulated. Of a log it checks whether the signals can\n"
+            "be those of a wheeled biped: clock, units, signs, axes, gravity, loads, dead\n"
+            "channels. It prints one line per finding, with its likely cause. With --mapping it\n"
+            "reads another robot's logs: ROS 2 bags, CSV or NumPy arrays.");
+  const auto flags = std::make_shared<CheckFlags>();
+  verb.option("file", &flags->files,
+              "Robots: MJCF files, or YAML files about an MJCF or URDF. Logs in Upkie's layout, "
+              "or in another one with --mapping; - is standard input")
+      .value_name("FILE")
+      .required();
+  verb.option("--mapping", &flags->mapping,
+              "Maps the columns or topics of the logs to signals, as for `touchdown export`")
+      .value_name("FILE.yaml");
+  verb.option("--robot", &flags->robot,
+              "File of the robot that recorded the logs: gives weight, legs and ranges of joints\n"
+              "(default: that of a simulated log, else Upkie's)")
+      .value_name("FILE");
+  verb.flag("--strict", &flags->strict, "Exit with code 1 if there is a finding about a log");
+  verb.flag("--json", &flags->json, "Print JSON about robots");
+  verb.action([flags, &session] { check(*flags, session); });
+}
+
+}  // namespace touchdown::cli

@@ -1,0 +1,324 @@
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "apps/cli/estimate_outputs.hpp"
+#include "apps/cli/verb.hpp"
+#include "core/error.hpp"
+#include "core/program.hpp"
+#include "core/progress.hpp"
+#include "experiments/logs/estimator.hpp"
+#include "experiments/logs/log_steps.hpp"
+#include "experiments/logs/summary.hpp"
+#include "experiments/plan/rollouts.hpp"
+#include "logs/log/annotator.hpp"
+#include "logs/log/byte_source.hpp"
+#include "logs/mapping/conversion.hpp"
+#include "render/figures/log_figure.hpp"
+#include "scenarios/scenario.hpp"
+
+namespace touchdown::cli {
+
+namespace {
+
+/// The time interval of the figure (s).
+struct DrawnPart {
+  double from = -std::numeric_limits<double>::infinity();
+  double to = std::numeric_limits<double>::infinity();
+};
+
+struct EstimateFlags {
+  std::vector<std::string> logs;
+  std::vector<std::string> labels;
+  std::string mapping;
+  std::string model;
+  std::string estimator;
+  std::string robot;
+  bool transfer = false;
+  bool strict = false;
+  std::vector<std::string> hyperparameters;
+  std::vector<std::string> outputs;
+  std::string figure;
+  DrawnPart drawn;
+};
+
+/// Writes the beliefs about one log: table, annotated log, figure and summary.
+class BeliefWriter {
+ public:
+  /// A null stream means no such output. Streams must outlive this object.
+  BeliefWriter(std::ostream* csv, std::ostream* mpack, const std::optional<DrawnPart>& drawn)
+      : drawn_(drawn) {
+    if (csv != nullptr) csv_.emplace(*csv);
+    if (mpack != nullptr) annotator_.emplace(*mpack);
+  }
+
+  /// Call it before the first step, once the log's rate is known.
+  void begin(const experiments::LogSteps& log, bool labelled) {
+    summary_.emplace(log.period(), scoring::ScoringConfig{});
+    score_.emplace(log.period_us(), labels_, scoring::ScoringConfig{}, labelled);
+  }
+
+  /// Adds one step of `reader` and the estimator's belief after it.
+  void add(const logs::LogReader& reader, const experiments::LogStep& step,
+           const ContactEstimator& estimator, const Belief& belief) {
+    const double time = step.signals.time;
+    summary_->add(time, belief);
+    score_->add(step, belief);
+    if (!csv_ && !annotator_ && !drawn_) return;
+    const Evidence evidence = estimator.evidence();
+    if (csv_) csv_->write(time, belief, evidence);
+    if (annotator_) {
+      annotator_->copy(reader.skipped());
+      annotator_->annotate(reader.record(), belief, evidence);
+    }
+    if (drawn_ && time >= drawn_->from && time <= drawn_->to) {
+      draw(step, belief, evidence);
+    }
+  }
+
+  /// Writes the buffered lines of the table.
+  void flush() {
+    if (csv_) csv_->flush();
+  }
+
+  /// Call it at the end of the log, with the number of findings about it. Returns the summary.
+  std::string finish(const logs::LogReader& reader, std::size_t findings) {
+    flush();
+    if (annotator_) annotator_->copy(reader.skipped());
+    return summary_->text(score_->finish(), reader.start_time(), findings);
+  }
+
+  std::int64_t steps() const { return summary_->steps(); }
+  std::int64_t valid_steps() const { return summary_->valid_steps(); }
+  double duration() const { return summary_->duration(); }
+  const render::LogTrace& trace() const { return trace_; }
+
+ private:
+  void draw(const experiments::LogStep& step, const Belief& belief, const Evidence& evidence) {
+    render::LogTraceStep drawn = render::log_trace_step(step.signals, belief, evidence);
+    if (step.normal_force) {
+      drawn.true_contact = {(*step.normal_force)[0] > labels_.force_threshold,
+                            (*step.normal_force)[1] > labels_.force_threshold};
+    }
+    trace_.add(drawn);
+  }
+
+  scoring::LabelConfig labels_;
+  std::optional<experiments::BeliefCsv> csv_;
+  std::optional<logs::LogAnnotator> annotator_;
+  std::optional<DrawnPart> drawn_;
+  std::optional<experiments::LogSummary> summary_;
+  std::optional<experiments::LogScore> score_;
+  render::LogTrace trace_;
+};
+
+std::string model_line(const experiments::LogEstimator& chosen) {
+  const std::string text = chosen.model_text();
+  return text.empty() ? "" : fmt::format("{:<12} {}\n", "model", text);
+}
+
+std::string gravity_line(const experiments::LogSteps& log) {
+  if (log.upside_down() == 0) return {};
+  return fmt::format(
+      "{:<12} at {} steps the IMU's orientation contradicts gravity: is it upside down, or a "
+      "quaternion of another order than w x y z?\n",
+      "imu", log.upside_down());
+}
+
+/// A simulated run that failed: its scores are not those of a robot that drives.
+std::string outcome_line(const logs::RecordingInfo& info, double duration) {
+  if (!info.outcome || !experiments::is_failure(*info.outcome)) return {};
+  return fmt::format("{:<12} {} after {:.3f} s: studies do not score such runs\n", "run",
+                     scenarios::outcome_text(*info.outcome), duration);
+}
+
+/// The result about one log.
+struct Evaluation {
+  std::string summary;
+  std::vector<std::string> findings;  ///< what is implausible about the log
+};
+
+/// Errors: `Error` for a log without a step with usable signals: no belief is about it.
+void require_valid_steps(const logs::LogReader& reader, const BeliefWriter& writer,
+                         const std::vector<std::string>& findings) {
+  if (writer.valid_steps() > 0 || writer.steps() == 0) return;
+  throw Error(fmt::format("{}: none of its {} steps has usable signals{}", reader.name(),
+                          writer.steps(),
+                          findings.empty() ? "" : fmt::format(": {}", findings.front())));
+}
+
+/// Runs the estimator over the log.
+Evaluation evaluate(logs::LogReader& reader, const experiments::LogEstimator& chosen,
+                    const logs::ContactIntervals* labels, BeliefWriter& writer) {
+  experiments::LogSteps log(reader, labels,
+                            experiments::checked_robot(chosen.request.robot, reader.info()));
+  const std::unique_ptr<ContactEstimator> estimator = chosen.make(log.sample_rate(), reader.info());
+  writer.begin(log, labels != nullptr);
+  try {
+    while (const experiments::LogStep* step = log.next()) {
+      writer.add(reader, *step, *estimator, estimator->update(step->signals));
+    }
+  } catch (const InputError&) {
+    writer.flush();  // the beliefs of a live stream before the error
+    throw;
+  }
+  std::vector<std::string> findings = log.findings();
+  const std::string summary = writer.finish(reader, findings.size());
+  require_valid_steps(reader, writer, findings);
+  return {fmt::format("{}: {} steps, {:.3f} s at {:.6g} Hz, {}\n", reader.name(), writer.steps(),
+                      writer.duration(), log.sample_rate(), chosen.entry.title) +
+              outcome_line(reader.info(), writer.duration()) + summary + gravity_line(log) +
+              model_line(chosen),
+          std::move(findings)};
+}
+
+/// Prints to standard output, or to standard error if the table goes to standard output.
+void print_text(const EstimateOutputs& outputs, const std::string& text) {
+  if (outputs.prints_csv()) {
+    print_message(text);
+  } else {
+    print("{}", text);
+  }
+}
+
+/// Returns the number of findings.
+std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* labels,
+                         const experiments::LogEstimator& estimator, const EstimateFlags& flags,
+                         const EstimateOutputs& outputs, const CliSession& session) {
+  std::string summary;
+  std::size_t findings = 0;
+  write_outputs(outputs, [&](std::ostream* csv, std::ostream* mpack) {
+    BeliefWriter writer(csv, mpack,
+                        flags.figure.empty() ? std::nullopt : std::optional(flags.drawn));
+    const bool live = path == "-";
+    std::optional<logs::MappedLog> mapped;
+    if (!flags.mapping.empty()) {
+      mapped.emplace(path, flags.mapping, [&] {
+        if (*session.stop) throw Stopped("stopped; nothing was written");
+      });
+      print_warnings(mapped->warnings());
+    }
+    const std::string log = mapped ? mapped->path().string() : path;
+    // A reader of a live stream gets every line before the program waits for the next record.
+    const logs::ByteSource source =
+        [&, bytes = logs::file_source(log, session.stop)](std::span<char> buffer) {
+          if (outputs.prints_csv()) writer.flush();
+          return bytes(buffer);
+        };
+    logs::LogReader reader(source, live ? "standard input" : path);
+    const Evaluation evaluation = evaluate(reader, estimator, labels, writer);
+    summary = evaluation.summary;
+    findings = evaluation.findings.size();
+    if (*session.stop && !live) throw Stopped("stopped; nothing was written");
+    print_warnings(reader.warnings());
+    for (const std::string& finding : evaluation.findings) {
+      print_message(fmt::format("touchdown: {}: {}\n", reader.name(), finding));
+    }
+    if (!outputs.figure.empty()) {
+      if (writer.trace().bins().empty()) {
+        throw InputError("--figure: there is no step between --from and --to");
+      }
+      const render::Figure figure = render::draw_log(
+          writer.trace(), fmt::format("{}, {}", reader.name(), estimator.entry.title),
+          outputs.figure);
+      summary += fmt::format("{:<12} {}\n", "figure", figure.png.string());
+    }
+  });
+  if (!outputs.csv.empty() && !outputs.prints_csv()) {
+    summary += fmt::format("{:<12} {}\n", "beliefs", outputs.csv.string());
+  }
+  if (!outputs.mpack.empty()) summary += fmt::format("{:<12} {}\n", "log", outputs.mpack.string());
+  print_text(outputs, summary);
+  return findings;
+}
+
+void estimate(const EstimateFlags& flags, const CliSession& session) {
+  const bool is_live = std::find(flags.logs.begin(), flags.logs.end(), "-") != flags.logs.end();
+  if (is_live && !flags.mapping.empty()) {
+    throw InputError("--mapping: expected a file or a bag, found standard input");
+  }
+  const experiments::LogEstimator estimator = experiments::log_estimator(
+      {flags.estimator, flags.model, experiments::robot_called(flags.robot), flags.transfer,
+       experiments::hyperparameters_of(flags.hyperparameters)});
+  const std::vector<EstimateOutputs> outputs =
+      estimate_outputs(flags.logs, flags.model, flags.labels, flags.outputs, flags.figure);
+  const std::vector<logs::ContactIntervals> labels =
+      logs::read_contact_intervals(flags.labels, flags.logs.size());
+  std::size_t findings = 0;
+  for (std::size_t i = 0; i < flags.logs.size(); ++i) {
+    if (i > 0) print_text(outputs[i], "\n");
+    findings += estimate_log(flags.logs[i], labels.empty() ? nullptr : &labels[i], estimator, flags,
+                             outputs[i], session);
+  }
+  if (flags.strict && findings > 0) {
+    throw Error(fmt::format("--strict: {} finding{} about the signals", findings,
+                            findings == 1 ? "" : "s"));
+  }
+}
+
+}  // namespace
+
+void add_estimate(CLI::App& program, const CliSession& session) {
+  Verb verb(
+      program, "estimate",
+      "touchdown estimate robot.mpack\n"
+      "touchdown estimate robot.mpack --model model.npz -o beliefs.csv --figure beliefs.png\n"
+      "… | touchdown estimate - --model model.npz\n"
+      "touchdown estimate rosbag2_2026_03_01/ --mapping robot.yaml --model model.npz\n\n"
+      "Estimates from Upkie's logs which wheels are in contact. With - it reads a live\n"
+      "stream from standard input and prints one line per record. With --mapping it reads\n"
+      "another robot's logs: ROS 2 bags, CSV or NumPy arrays. Signals that are not plausible\n"
+      "(`touchdown check`) are named above the result.");
+  const auto flags = std::make_shared<EstimateFlags>();
+  verb.option("log", &flags->logs,
+              "Logs in Upkie's layout, or in another one with --mapping; - is standard input")
+      .value_name("LOG")
+      .required();
+  verb.option("--labels", &flags->labels,
+              "Ground truth for intervals of each LOG, in the order of the logs: rows "
+              "start,end,contact or start,end,left,right. Only these intervals are scored")
+      .value_name("FILE.csv");
+  verb.option("--mapping", &flags->mapping,
+              "Maps the columns or topics of the logs to signals, as for `touchdown export`")
+      .value_name("FILE.yaml");
+  verb.option(
+          "--model", &flags->model,
+          "Model that `touchdown fit` wrote (default: the shipped one, models/evidence_curves.npz)")
+      .value_name("FILE.npz");
+  verb.option("--estimator", &flags->estimator,
+              "Estimator from `touchdown list` (default: the one that the model was fitted for)");
+  verb.option(
+          "--robot", &flags->robot,
+          "Robot that recorded the logs (default: that of a simulated log); it must be the\n"
+          "model's. Its file gives the leg geometry to estimators that compute loads (default:\n"
+          "that of a simulated log, else the model's)")
+      .value_name("NAME|FILE");
+  verb.option(
+          "--set", &flags->hyperparameters,
+          "Run the estimator with another value of a hyperparameter than its model's, for example\n"
+          "leave_below=0.25")
+      .value_name("NAME=NUMBER")
+      .one_at_a_time();
+  verb.flag("--transfer", &flags->transfer,
+            "Use a model at another rate or on another robot than it was fitted for");
+  verb.flag("--strict", &flags->strict,
+            "Exit with code 1 if the signals of a log are not plausible");
+  verb.option("-o,--output", &flags->outputs,
+              "Beliefs as FILE.csv, or the log with beliefs in it as FILE.mpack, or both; - "
+              "prints the table. With several logs, each file's name begins with the log's name")
+      .value_name("FILE")
+      .one_at_a_time();
+  verb.option("--figure", &flags->figure, "Figure of signals and beliefs over time")
+      .value_name("FILE.png");
+  verb.option("--from", &flags->drawn.from, "Start of the figure in the log's time (s)");
+  verb.option("--to", &flags->drawn.to, "End of the figure in the log's time (s)");
+  verb.action([flags, &session] { estimate(*flags, session); });
+}
+
+}  // namespace touchdown::cli

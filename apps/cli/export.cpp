@@ -1,0 +1,341 @@
+#include "experiments/submissions/export.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "apps/cli/verb.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/program.hpp"
+#include "core/progress.hpp"
+#include "core/resources.hpp"
+#include "experiments/logs/estimator.hpp"
+#include "experiments/logs/log_steps.hpp"
+#include "experiments/logs/robot.hpp"
+#include "logs/log/mcap.hpp"
+#include "logs/log/recording_file.hpp"
+#include "logs/mapping/conversion.hpp"
+#include "logs/model_file.hpp"
+#include "render/report/filmed_run.hpp"
+#include "render/report/mcap.hpp"
+
+namespace touchdown::cli {
+
+namespace {
+
+/// Files of the conversion of a log in another layout.
+struct ExportedLog {
+  std::string log;         ///< .csv, .npz, a ROS 2 bag, or the folder of several sources
+  std::string mapping;     ///< .yaml
+  std::string output;      ///< .mpack
+  std::string labels;      ///< .csv, or empty
+  bool is_strict = false;  ///< whether implausible signals are an error
+};
+
+void check_files(const ExportedLog& files) {
+  require_extension(files.output, {".mpack"}, "a log");
+  std::vector<std::filesystem::path> outputs = {files.output};
+  if (!files.labels.empty()) outputs.emplace_back(files.labels);
+  check_outputs({{files.log, "log"}, {files.mapping, "mapping"}}, outputs);
+}
+
+void check_stop(const CliSession& session) {
+  if (*session.stop) throw Stopped("stopped; nothing was written");
+}
+
+/// Prints what is implausible about the signals of the written log, one line each. Returns their
+/// number.
+std::size_t report_findings(const ExportedLog& files, const CliSession& session) {
+  logs::LogReader reader(files.output, session.stop);
+  std::vector<std::string> findings;
+  try {
+    experiments::LogSteps log(reader, nullptr, experiments::checked_robot({}, reader.info()));
+    while (log.next() != nullptr) check_stop(session);
+    findings = log.findings();
+  } catch (const InputError& error) {
+    findings = {error.what()};  // no estimator can read the log
+  }
+  for (const std::string& finding : findings) {
+    print_message(fmt::format("touchdown: {}: {}\n", files.log, finding));
+  }
+  return findings.size();
+}
+
+/// Errors: `InputError` for a log without contact labels.
+std::string labels_text(const ExportedLog& files, const logs::ConvertedLog& log) {
+  if (log.contact.intervals.empty()) {
+    throw InputError(fmt::format(
+        "--labels: {} has no contact labels: expected a section 'contact' in {}, and numbers",
+        files.log, files.mapping));
+  }
+  return logs::to_csv(log.contact);
+}
+
+/// A log with the robot to draw: the one of a recording, or the named one on flat ground. Nothing
+/// for a log without either, and for a live stream.
+std::optional<render::FilmedRun> drawable(const std::string& log, const std::string& robot,
+                                          const logs::RecordingInfo& info,
+                                          const CliSession& session) {
+  if (log == "-") return std::nullopt;
+  std::vector<std::string> warnings;  // the reader of the log prints them
+  if (!robot.empty()) {
+    logs::LogReader reader(log, session.stop);
+    return render::FilmedRun{models::compile_robot_model(find_resource(robot), {}),
+                             logs::read_recording(reader, &warnings),
+                             {},
+                             {}};
+  }
+  if (info.scenario_yaml.empty()) return std::nullopt;
+  return render::filmed_recording(log, warnings, session.stop);
+}
+
+/// Converts the log to Upkie's layout, writes its contact column as labels and prints a summary.
+/// Errors: `InputError`; nothing is written then.
+void export_log(const ExportedLog& files, const CliSession& session) {
+  check_files(files);
+  logs::ConvertedLog log;
+  write_stream_atomically(files.output, [&](std::ostream& stream) {
+    log = logs::convert_log(
+        files.log, files.mapping, stream, [&] { check_stop(session); }, !files.labels.empty());
+    stream.flush();  // labels only beside a whole log
+    if (!stream) return;
+    if (!files.labels.empty()) write_atomically(files.labels, labels_text(files, log));
+  });
+  print_warnings(logs::warnings_of(log, files.log));
+  const std::size_t findings = report_findings(files, session);
+  print("log       {}, {} records, from {:.3f} to {:.3f} s of {}\n", files.output, log.rows,
+        log.start, log.end, files.log);
+  if (!files.labels.empty()) {
+    print("labels    {}, {} intervals\n", files.labels, log.contact.intervals.size());
+  }
+  print("next      touchdown estimate {}{}\n", files.output,
+        files.labels.empty() ? "" : fmt::format(" --labels {}", files.labels));
+  if (files.is_strict && findings > 0) {
+    throw Error(fmt::format("--strict: {} finding{} about the signals", findings,
+                            findings == 1 ? "" : "s"));
+  }
+}
+
+/// Writes a log, with the beliefs in it, as an MCAP file and prints a summary. If the log contains
+/// its scene, or a `robot` is named, the file shows it too (render/mcap/scene.hpp). Errors: as
+/// above.
+void export_mcap(const std::string& log, const std::string& robot, const std::string& output,
+                 const CliSession& session) {
+  check_outputs({{log, "log"}}, {output});
+  logs::LogReader reader(log, session.stop);
+  std::uint64_t rows = 0;
+  const std::optional<render::FilmedRun> run = drawable(log, robot, reader.info(), session);
+  check_stop(session);
+  write_stream_atomically(output, [&](std::ostream& stream) {
+    rows = run ? render::write_mcap_with_scene(reader, stream, run->robot, run->recording)
+               : logs::write_mcap(reader, stream);
+    check_stop(session);
+  });
+  print_warnings(reader.warnings());
+  print("log       {}, {} records, {:.1f} MB\n", output, rows,
+        1e-6 * static_cast<double>(size_of_file(output)));
+}
+
+struct ExportFlags {
+  std::string source;
+  std::string folder;
+  experiments::BenchmarkPart part;
+  bool dry_run = false;
+  std::string output;
+  std::string mapping;
+  std::string labels;
+  bool strict = false;
+  ModelUse use;
+  std::vector<std::string> configuration;  ///< key=value
+};
+
+/// A C++ identifier from the header's file name. Errors: `InputError` if the extension is not a
+/// header's.
+std::string name_of(const std::filesystem::path& header) {
+  const std::string extension = header.extension().string();
+  if (extension != ".hpp" && extension != ".h") {
+    throw InputError(
+        fmt::format("-o: {}: expected a header, FILE.hpp, or a model, FILE.npz", header.string()));
+  }
+  std::string name = header.stem().string();
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return std::isdigit(static_cast<unsigned char>(name.front())) != 0 ? "model_" + name : name;
+}
+
+/// Errors: `InputError` for an assignment that is not key=value.
+ConfigurationText configuration_of(const std::vector<std::string>& assignments) {
+  ConfigurationText configuration;
+  for (const std::string& one : assignments) {
+    const std::size_t equals = one.find('=');
+    if (equals == 0 || equals == std::string::npos) {
+      throw InputError(fmt::format("--set: {}: expected NAME=VALUE, as in leave_below=0.25", one));
+    }
+    configuration[one.substr(0, equals)] = one.substr(equals + 1);
+  }
+  return configuration;
+}
+
+/// The intended use of the model according to the flags.
+ModelUse use_of(const ExportFlags& flags) {
+  ModelUse use = flags.use;
+  if (!flags.part.robots.empty()) {
+    const experiments::LogRobot robot = experiments::robot_called(flags.part.robots.front());
+    use.robot = robot.name;
+    use.geometry = robot.legs;
+  }
+  use.configuration = configuration_of(flags.configuration);
+  return use;
+}
+
+void export_header(const std::filesystem::path& model, const ExportFlags& flags) {
+  const std::string name = name_of(flags.output);
+  const std::string text = logs::header_of_model(logs::load_model_for(model, use_of(flags)),
+                                                 model.filename().string(), name);
+  write_atomically(flags.output, text);
+  print("header    {}, {:.2f} MB\n", flags.output, 1e-6 * static_cast<double>(text.size()));
+  print("next      #include \"{}\"; touchdown::make_estimator(touchdown::compiled::{})\n",
+        std::filesystem::path(flags.output).filename().string(), name);
+}
+
+void export_model(const ExportFlags& flags) {
+  const std::filesystem::path model = find_resource(flags.source);
+  check_outputs({{model.string(), "model"}}, {flags.output});
+  if (std::filesystem::path(flags.output).extension() != ".npz") {
+    return export_header(model, flags);
+  }
+  const Model adapted = logs::load_model_for(model, use_of(flags));
+  logs::save_model(adapted, flags.output);
+  const ModelMetadata& metadata = *adapted.metadata;
+  print("model     {}, for '{}' at {:.6g} Hz on {}, fingerprint {}\n", flags.output,
+        metadata.estimator, metadata.sample_rate, experiments::robot_text(metadata.robot),
+        metadata.fingerprint);
+  print("next      touchdown estimate LOG --model {}\n", flags.output);
+}
+
+void export_benchmark(const ExportFlags& flags, const CliSession& session) {
+  const experiments::ExportRequest request{flags.source, flags.folder, flags.part};
+  if (flags.dry_run) {
+    print("{}", experiments::export_outline(request));
+    return;
+  }
+  const experiments::ExportReport report = experiments::export_benchmark(
+      request, {.out = {}, .command = session.command, .stop = session.stop});
+  if (!report.failed.empty()) {
+    print_message(
+        fmt::format("touchdown: {} runs fell and are not scored, so they are left out: {}\n",
+                    report.failed.size(), fmt::join(report.failed, ", ")));
+  }
+  print("signals   {} files, {:.1f} MB, in {}\n", report.files,
+        1e-6 * static_cast<double>(report.bytes), flags.folder);
+  print("read      {0}/README.md, {0}/index.csv\n", flags.folder);
+  print("next      touchdown score RUN --beliefs FOLDER --name NAME\n");
+}
+
+void export_source(const ExportFlags& flags, const CliSession& session) {
+  if (flags.output.empty() == flags.folder.empty()) {
+    throw InputError(
+        "export: expected either --benchmark DIR, for a benchmark's signals, or -o FILE.hpp or "
+        "FILE.npz, for a model, or --mapping FILE.yaml -o FILE.mpack, for a log in another layout, "
+        "or -o FILE.mcap, for a log in Upkie's layout");
+  }
+  if (flags.mapping.empty() && !flags.labels.empty()) {
+    throw InputError("--labels: expected --mapping FILE.yaml, which names the contact columns");
+  }
+  if (flags.mapping.empty() && std::filesystem::path(flags.output).extension() == ".mpack") {
+    throw InputError(
+        fmt::format("-o: {}: expected --mapping FILE.yaml, which describes the columns of {}",
+                    flags.output, flags.source));
+  }
+  if (!flags.mapping.empty() && !flags.folder.empty()) {
+    throw InputError("--mapping: expected -o FILE.mpack, for a log in another layout");
+  }
+  if (!flags.mapping.empty()) {
+    export_log({flags.source, flags.mapping, flags.output, flags.labels, flags.strict}, session);
+  } else if (std::filesystem::path(flags.output).extension() == ".mcap") {
+    export_mcap(flags.source, flags.part.robots.empty() ? "" : flags.part.robots.front(),
+                flags.output, session);
+  } else if (!flags.output.empty()) {
+    export_model(flags);
+  } else {
+    export_benchmark(flags, session);
+  }
+}
+
+}  // namespace
+
+void add_export(CLI::App& program, const CliSession& session) {
+  Verb verb(
+      program, "export",
+      "touchdown export --benchmark signals experiments/benchmark.yaml\n"
+      "touchdown export --benchmark signals runs/benchmark/latest --robot upkie\n"
+      "touchdown export model.npz -o model.hpp\n"
+      "touchdown export models/evidence_curves.npz --robot my_robot.xml -o mine.npz\n"
+      "touchdown export robot.csv --mapping robot.yaml -o robot.mpack\n"
+      "touchdown export rosbag2_2026_03_01/ --mapping robot.yaml -o robot.mpack\n"
+      "touchdown export robot.mpack -o robot.mcap\n\n"
+      "Exports a benchmark's signals, a model or a log. A benchmark's signals are for an\n"
+      "external estimator in any language; `touchdown score` scores its beliefs. A model becomes\n"
+      "a C++ header for a robot without files, or another model file. That file can contain\n"
+      "another robot's leg geometry or other hyperparameters, so that users need not set them.\n"
+      "A log of another robot, as CSV, NumPy arrays or a ROS 2 bag, becomes a log in Upkie's\n"
+      "layout, which all other commands read. A log in Upkie's layout, with the beliefs of "
+      "`estimate`,\n"
+      "becomes an MCAP file for Foxglove.");
+  const auto flags = std::make_shared<ExportFlags>();
+  verb.option("source", &flags->source,
+              "Experiment file with a section `benchmark`, or its run directory; or a model that "
+              "`touchdown fit` wrote; or a log as .csv, .npz or .mpack, or a ROS 2 bag (its "
+              "folder, .mcap "
+              "or .db3)")
+      .value_name("RUN_OR_EXPERIMENT_OR_MODEL_OR_LOG")
+      .required();
+  verb.option("--benchmark", &flags->folder, "New or empty folder for a benchmark's signals")
+      .value_name("DIR");
+  verb.option("-o,--output", &flags->output,
+              "Model as FILE.hpp or FILE.npz, or log as FILE.mpack or FILE.mcap")
+      .value_name("FILE");
+  verb.option("--mapping", &flags->mapping,
+              "Maps the columns of the log to signals, with units, signs and order")
+      .value_name("FILE.yaml");
+  verb.option(
+          "--labels", &flags->labels,
+          "With --mapping: writes the log's contact labels as start,end,left,right, for `fit` and "
+          "`estimate`")
+      .value_name("FILE.csv");
+  verb.flag("--strict", &flags->strict,
+            "With --mapping: exit with code 1 if the signals of the log are not plausible");
+  verb.option("--estimator", &flags->use.estimator,
+              "For a model without metadata: the estimator that it was fitted for");
+  verb.option("--rate", &flags->use.sample_rate,
+              "For a model without metadata: the rate that it was fitted at (Hz)")
+      .between(1.0, 1e6);
+  verb.option("--robot", &flags->part.robots,
+              "Export only this robot, as the benchmark's table names it. For a model: the robot\n"
+              "that it is for. Its file gives the leg geometry to an estimator that computes "
+              "loads. For\n"
+              "a log as FILE.mcap: the robot to show, if the log does not contain it")
+      .value_name("NAME|FILE")
+      .one_at_a_time();
+  verb.option(
+          "--set", &flags->configuration,
+          "Export the model with another value of a hyperparameter, for example leave_below=0.25")
+      .value_name("NAME=VALUE")
+      .one_at_a_time();
+  verb.option("--sensors", &flags->part.sensors,
+              "Export only these sensors, as the benchmark's table names them")
+      .value_name("NAME")
+      .one_at_a_time();
+  verb.option("--simulator", &flags->part.simulators, "Export only this physics engine")
+      .value_name("NAME")
+      .one_at_a_time();
+  verb.flag("--dry-run", &flags->dry_run, "Only show the number of files and their size");
+  verb.action([flags, &session] { export_source(*flags, session); });
+}
+
+}  // namespace touchdown::cli

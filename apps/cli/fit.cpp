@@ -1,0 +1,251 @@
+#include "experiments/logs/fit.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "apps/cli/verb.hpp"
+#include "core/error.hpp"
+#include "core/program.hpp"
+#include "core/progress.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/logs/fit.hpp"
+#include "logs/model_file.hpp"
+
+namespace touchdown::cli {
+
+namespace {
+
+struct FitFlags {
+  std::vector<std::string> logs;
+  std::vector<std::string> contact;
+  std::vector<std::string> no_contact;
+  std::vector<std::string> labels;
+  std::string output;
+  std::string estimator;
+  std::vector<std::string> hyperparameters;
+  experiments::LogFitConfig config;
+  std::string robot;
+  std::vector<int> grid;
+  std::vector<double> bandwidth;
+  std::vector<double> bandwidth_floor;
+  std::vector<double> knee_range;
+  std::vector<double> wheel_range;
+};
+
+TorqueBandwidth bandwidth_from(const std::vector<double>& values, const char* flag) {
+  if (!(values[0] >= 0.0 && values[1] >= 0.0)) {
+    throw InputError(fmt::format("{}: expected two widths that are not negative (N·m)", flag));
+  }
+  return {values[0], values[1]};
+}
+
+std::pair<double, double> range_from(const std::vector<double>& values, const char* flag) {
+  if (!(values[0] < values[1])) {
+    throw InputError(fmt::format("{}: expected a lower and a higher torque (N·m)", flag));
+  }
+  return {values[0], values[1]};
+}
+
+/// Errors: `InputError` for a log that is named twice: it would count twice, or be both classes.
+void require_different(const std::vector<experiments::FitLog>& logs) {
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    for (std::size_t j = i + 1; j < logs.size(); ++j) {
+      std::error_code error;
+      const bool is_same = logs[i].path == logs[j].path ||
+                           std::filesystem::equivalent(logs[i].path, logs[j].path, error);
+      if (!is_same) continue;
+      throw InputError(
+          logs[i].contact != logs[j].contact
+              ? fmt::format("fit: {} is named twice, once as --contact, once as "
+                            "--no-contact or with labels: one log is one of them",
+                            logs[j].path.string())
+              : fmt::format("fit: {} is named twice: it would count twice", logs[j].path.string()));
+    }
+  }
+}
+
+std::vector<experiments::FitLog> logs_of(const FitFlags& flags) {
+  std::vector<experiments::FitLog> logs;
+  for (const std::string& path : flags.logs) logs.push_back({path, {}});
+  auto labels = logs::read_contact_intervals(flags.labels, logs.size());
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    logs[i].labels = std::make_shared<const logs::ContactIntervals>(std::move(labels[i]));
+  }
+  for (const std::string& path : flags.contact) logs.push_back({path, true});
+  for (const std::string& path : flags.no_contact) logs.push_back({path, false});
+  if (logs.empty()) throw InputError("fit: a log is missing: touchdown fit LOG -o model.npz");
+  return logs;
+}
+
+bool shapes_densities(const FitFlags& flags) {
+  return !flags.grid.empty() || !flags.bandwidth.empty() || !flags.bandwidth_floor.empty() ||
+         !flags.knee_range.empty() || !flags.wheel_range.empty();
+}
+
+/// Applies the flags for densities to the estimator. Errors: `InputError` for an estimator without
+/// them.
+void shape_densities(experiments::EstimatorEntry& entry, const FitFlags& flags) {
+  if (!entry.config) {
+    if (!shapes_densities(flags)) return;
+    throw InputError(
+        fmt::format("fit: --grid, --bandwidth, --bandwidth-floor, --knee-range and "
+                    "--wheel-range are not for {}",
+                    fmt::format("'{}'", entry.name)));
+  }
+  MeasurementFitConfig& fit = entry.config->measurement.fit;
+  if (!flags.grid.empty()) {
+    fit.knee_count = flags.grid[0];
+    fit.wheel_count = flags.grid[1];
+  }
+  if (!flags.bandwidth.empty()) fit.bandwidth = bandwidth_from(flags.bandwidth, "--bandwidth");
+  if (!flags.bandwidth_floor.empty()) {
+    fit.bandwidth_floor = bandwidth_from(flags.bandwidth_floor, "--bandwidth-floor");
+  }
+  if (!flags.knee_range.empty()) fit.knee_range = range_from(flags.knee_range, "--knee-range");
+  if (!flags.wheel_range.empty()) fit.wheel_range = range_from(flags.wheel_range, "--wheel-range");
+}
+
+/// The estimator to fit: the recommended one, or with flags that shape densities, the recommended
+/// one of those that have them.
+std::string estimator_of(const FitFlags& flags) {
+  if (!flags.estimator.empty()) return flags.estimator;
+  return shapes_densities(flags) ? "robust" : "evidence_curves";
+}
+
+/// "robust, reference, … or phase".
+std::string fitted_estimators() {
+  std::vector<std::string> names;
+  for (const experiments::EstimatorEntry& entry : experiments::estimator_entries()) {
+    if (entry.fits()) names.push_back(entry.name);
+  }
+  const std::string last = names.back();
+  names.pop_back();
+  return fmt::format("{} or {}", fmt::join(names, ", "), last);
+}
+
+/// The flags must outlive the verb.
+void add_fit_flags(Verb& verb, FitFlags& flags) {
+  verb.option("log", &flags.logs, "Logs with ground truth: recordings of simulated runs")
+      .value_name("LOG");
+  verb.option("--contact", &flags.contact, "Logs in which both wheels are in contact all the time")
+      .value_name("LOG");
+  verb.option("--no-contact", &flags.no_contact, "Logs in which neither wheel is ever in contact")
+      .value_name("LOG");
+  verb.option("--labels", &flags.labels,
+              "Contact intervals of each LOG, in the order of the logs: rows start,end,contact or "
+              "start,end,left,right")
+      .value_name("FILE.csv");
+  verb.option("-o,--output", &flags.output, "Model to write").value_name("FILE.npz").required();
+  verb.option("--estimator", &flags.estimator,
+              "Estimator: " + fitted_estimators() +
+                  " (default: evidence_curves; robust with flags for densities)");
+  verb.option("--set", &flags.hyperparameters,
+              "Run and fit the estimator with another value of a hyperparameter, for example\n"
+              "leave_below=0.25")
+      .value_name("NAME=NUMBER")
+      .one_at_a_time();
+  verb.flag("--servo-load", &flags.config.servo_load,
+            "Give networks and evidence curves the load by the laws of the servos: for logs with "
+            "the\ncommands of hips and knees (action.servo)");
+  verb.option(
+          "--robot", &flags.robot,
+          "Robot that recorded the logs, for the model's metadata (default: that of simulated\n"
+          "logs). Its file gives the leg geometry to estimators that compute loads (default: each\n"
+          "simulated log's own, else Upkie's)")
+      .value_name("NAME|FILE");
+  verb.option("--skip", &flags.config.skip,
+              "Time at the beginning of each log that is not used (s)")
+      .between(0.0, 1e5)
+      .shows_default();
+  verb.option("--force-threshold", &flags.config.labels.force_threshold,
+              "Ground truth: a wheel is in contact above this normal force (N)")
+      .between(0.0, 1e4)
+      .shows_default();
+  verb.option("--debounce", &flags.config.labels.debounce,
+              "Ground truth: shorter states are merged into their neighbours (s)")
+      .between(0.0, 10.0)
+      .shows_default();
+  verb.option("--grid", &flags.grid, "Grid points along knee and wheel torque (200 200)")
+      .takes(2)
+      .between(2, 5000);
+  verb.option("--bandwidth", &flags.bandwidth,
+              "Bandwidths of knee and wheel instead of Scott's rule (N·m)")
+      .takes(2);
+  verb.option("--bandwidth-floor", &flags.bandwidth_floor,
+              "Lower limits of Scott's bandwidths of knee and wheel (N·m)")
+      .takes(2);
+  verb.option("--knee-range", &flags.knee_range, "Knee torques at the ends of the grid (N·m)")
+      .takes(2);
+  verb.option("--wheel-range", &flags.wheel_range, "Wheel torques at the ends of the grid (N·m)")
+      .takes(2);
+}
+
+void show_samples(const experiments::LogFitReport& report, bool with_bandwidth) {
+  for (const bool contact : {true, false}) {
+    const std::size_t i = contact ? 1 : 0;
+    print("{:<12} {} samples of both legs", contact ? "contact" : "no contact", report.samples[i]);
+    if (with_bandwidth) {
+      print(", bandwidth {:.4g} N·m (knee), {:.4g} N·m (wheel)", report.bandwidth[i].knee,
+            report.bandwidth[i].wheel);
+    }
+    print("\n");
+  }
+}
+
+void fit(const FitFlags& flags, const CliSession& session) {
+  experiments::EstimatorEntry entry = experiments::estimator_entry(estimator_of(flags));
+  const std::vector<experiments::FitLog> logs = logs_of(flags);
+  if (!entry.fits()) {
+    throw InputError(fmt::format(
+        "--estimator: '{}' is not fitted{}: expected {}", entry.name,
+        entry.trained_by.empty() ? "" : fmt::format(" ({} trains it)", entry.trained_by),
+        fitted_estimators()));
+  }
+  shape_densities(entry, flags);
+  experiments::LogFitConfig config = flags.config;
+  config.stop = session.stop;
+  config.hyperparameters = experiments::hyperparameters_of(flags.hyperparameters);
+  config.robot = experiments::robot_called(flags.robot);
+  std::vector<InputFile> inputs;
+  for (const experiments::FitLog& log : logs) inputs.push_back({log.path, "log"});
+  for (const std::string& labels : flags.labels) inputs.push_back({labels, "file of labels"});
+  check_outputs(inputs, {flags.output});
+  require_extension(flags.output, {".npz"}, "a model");
+  require_different(logs);
+  experiments::LogFitReport report;
+  logs::save_model(experiments::fit_to_logs(entry, logs, config, report), flags.output);
+  print_warnings(report.warnings);
+  if (report.unusable > 0) {
+    print_message(fmt::format(
+        "touchdown: {} samples of a leg are not finite, or beyond what a sensor measures, and were "
+        "left out\n",
+        report.unusable));
+  }
+  print("{}: {}, {:.3f} s of {} {}\n", flags.output, entry.title, report.seconds, logs.size(),
+        logs.size() == 1 ? "log" : "logs");
+  show_samples(report, entry.config.has_value());
+  print("{:<12} touchdown estimate LOG --model {} --estimator {}\n", "next", flags.output,
+        entry.name);
+}
+
+}  // namespace
+
+void add_fit(CLI::App& program, const CliSession& session) {
+  Verb verb(
+      program, "fit",
+      "touchdown fit stairs.mpack -o model.npz\n"
+      "touchdown fit --contact rolling.mpack --no-contact hanging.mpack -o model.npz\n"
+      "touchdown fit robot.mpack --labels robot.csv -o model.npz\n\n"
+      "Fits an estimator's model to logs: simulated logs with ground truth, or a robot's logs. A\n"
+      "robot's log is in contact all the time, never in contact, or labelled by hand.");
+  const auto flags = std::make_shared<FitFlags>();
+  add_fit_flags(verb, *flags);
+  verb.action([flags, &session] { fit(*flags, session); });
+}
+
+}  // namespace touchdown::cli

@@ -1,0 +1,187 @@
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "apps/python/arrays.hpp"
+#include "apps/python/long_call.hpp"
+#include "apps/python/module.hpp"
+#include "apps/python/signal_arrays.hpp"
+#include "core/error.hpp"
+#include "core/resources.hpp"
+#include "core/yaml.hpp"
+#include "experiments/config/yaml_kind.hpp"
+#include "experiments/estimators/entry.hpp"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/run_experiment.hpp"
+#include "experiments/studies/experiment_file.hpp"
+
+namespace touchdown::python {
+
+namespace {
+
+/// Entries of an experiment's estimators that are written in Python. Each is described by a dict of
+/// its `name`, `title`, `summary`, the names of its `sensors`, its `revision`, and `make`, which
+/// makes an instance. The experiment calls `run` of an instance from any thread, with the signals
+/// of a whole run.
+std::vector<experiments::EstimatorEntry> external_estimators_of(const pybind11::list& described);
+
+/// A Python object that threads without Python's lock may copy and destroy.
+std::shared_ptr<const py::object> shared(py::object object) {
+  return {new py::object(std::move(object)), [](const py::object* last) {
+            const py::gil_scoped_acquire locked;
+            delete last;
+          }};
+}
+
+struct NamedSensor {
+  const char* name;
+  bool experiments::Sensors::*member;
+};
+
+constexpr std::array<NamedSensor, 6> named_sensors = {
+    {{"hip_torque", &experiments::Sensors::hip_torque},
+     {"knee_torque", &experiments::Sensors::knee_torque},
+     {"wheel_torque", &experiments::Sensors::wheel_torque},
+     {"acceleration", &experiments::Sensors::acceleration},
+     {"joint_position", &experiments::Sensors::joint_position},
+     {"joint_velocity", &experiments::Sensors::joint_velocity}}};
+
+experiments::Sensors sensors_of(const std::vector<std::string>& names, const std::string& source) {
+  experiments::Sensors sensors;
+  std::vector<std::string> known;
+  for (const NamedSensor& sensor : named_sensors) known.emplace_back(sensor.name);
+  for (const std::string& name : names) {
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end()) {
+      throw InputError(fmt::format("{}: sensors: '{}' is not one of {}{}", source, name,
+                                   fmt::join(known, ", "), did_you_mean(name, known)));
+    }
+    sensors.*named_sensors[static_cast<std::size_t>(found - known.begin())].member = true;
+  }
+  return sensors;
+}
+
+/// Wraps `run` of a Python estimator for an experiment.
+experiments::WholeRunEstimator whole_run_of(const py::object& estimator, const std::string& name,
+                                            double sample_rate) {
+  return [kept = shared(estimator), name, sample_rate](std::span<const Signals> steps) {
+    const py::gil_scoped_acquire locked;
+    py::dict signals = arrays_of(std::vector<Signals>(steps.begin(), steps.end()));
+    signals["sample_rate"] = sample_rate;
+    return beliefs_of(kept->attr("run")(signals), steps.size(), name);
+  };
+}
+
+experiments::EstimatorEntry entry_of(const py::dict& described) {
+  experiments::EstimatorEntry entry;
+  entry.name = described["name"].cast<std::string>();
+  entry.title = described["title"].cast<std::string>();
+  entry.summary = described["summary"].cast<std::string>();
+  entry.revision = described["revision"].cast<std::string>();
+  entry.sensors = sensors_of(described["sensors"].cast<std::vector<std::string>>(), entry.name);
+  entry.whole_run = [make = shared(described["make"]),
+                     name = entry.name](const experiments::EstimatorSetup& setup) {
+    const py::gil_scoped_acquire locked;
+    return whole_run_of((*make)(), name, setup.sample_rate);
+  };
+  return entry;
+}
+
+std::vector<experiments::EstimatorEntry> external_estimators_of(const py::list& described) {
+  std::vector<experiments::EstimatorEntry> entries;
+  for (const py::handle& one : described) entries.push_back(entry_of(one.cast<py::dict>()));
+  return entries;
+}
+
+namespace py = pybind11;
+namespace fs = std::filesystem;
+
+/// An experiment as given by a caller: a file, or the text of one.
+struct ExperimentRequest {
+  fs::path file;
+  std::optional<std::string> text;
+  std::vector<std::string> assignments;
+};
+
+YamlDocument document_of(const ExperimentRequest& request) {
+  YamlDocument document = request.text ? YamlDocument::parse(*request.text, request.file)
+                                       : YamlDocument::load(find_resource(request.file));
+  for (const std::string& assignment : request.assignments) document.override_value(assignment);
+  experiments::require_yaml_kind(document, experiments::YamlKind::experiment);
+  return document;
+}
+
+/// Names of an experiment's estimators that are written in Python, each with its place in the file.
+std::vector<std::pair<std::string, std::string>> python_estimators(
+    const ExperimentRequest& request) {
+  std::vector<std::pair<std::string, std::string>> names;
+  const YamlDocument document = document_of(request);
+  const YAML::Node given = document.root()["estimators"];
+  if (!given || !given.IsSequence()) return names;
+  for (const auto& item : given) {
+    if (item.IsScalar() && item.Scalar().starts_with(experiments::python_prefix)) {
+      names.emplace_back(item.Scalar(), document.place_of(item, "estimators"));
+    }
+  }
+  return names;
+}
+
+struct Finished {
+  fs::path directory;
+  std::string id;
+  std::vector<std::string> studies;
+  std::vector<std::string> failed_demands;
+};
+
+py::dict run(const ExperimentRequest& request, const fs::path& out, bool overwrite,
+             const std::string& command, const py::list& external_estimators) {
+  const std::vector<experiments::EstimatorEntry> external =
+      external_estimators_of(external_estimators);
+  const Finished finished = long_call([&](const std::atomic<bool>& stop) {
+    const YamlDocument document = document_of(request);
+    const experiments::Experiment experiment =
+        experiments::experiment_from_yaml(document, external);
+    experiments::require_files(document);
+    const experiments::ExperimentResult result = experiments::run_experiment(
+        experiment, {.out = out, .command = command, .stop = &stop, .overwrite = overwrite});
+    return Finished{result.directory.path(), result.id, result.studies, result.failed_demands};
+  });
+  py::dict about;
+  about["path"] = finished.directory;
+  about["id"] = finished.id;
+  about["studies"] = finished.studies;
+  about["failed_demands"] = finished.failed_demands;
+  return about;
+}
+
+}  // namespace
+
+void add_experiments(py::module_& module) {
+  using namespace py::literals;  // NOLINT(google-build-using-namespace)
+  module.def(
+      "python_estimators",
+      [](const fs::path& experiment, const std::optional<std::string>& text,
+         const std::vector<std::string>& assignments) {
+        return python_estimators({experiment, text, assignments});
+      },
+      "experiment"_a, "text"_a, "assignments"_a);
+  module.def(
+      "run",
+      [](const fs::path& experiment, const std::optional<std::string>& text,
+         const std::vector<std::string>& assignments, const fs::path& out, bool overwrite,
+         const std::string& command, const py::list& external_estimators) {
+        return run({experiment, text, assignments}, out, overwrite, command, external_estimators);
+      },
+      "experiment"_a, "text"_a, "assignments"_a, "out"_a, "overwrite"_a, "command"_a,
+      "external_estimators"_a);
+}
+
+}  // namespace touchdown::python

@@ -1,0 +1,237 @@
+#include "apps/python/signal_arrays.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "estimator/record.hpp"
+#include "logs/sample_times.hpp"
+
+namespace touchdown::python {
+
+namespace {
+
+constexpr std::size_t joint_count = 6;
+
+/// Sets hip, knee and wheel of the left leg, then of the right one, to `joint(index)`.
+template <typename Joint>
+void set_joints(Signals& signals, const Joint& joint) {
+  std::size_t index = 0;
+  for (LegSignals& leg : signals.leg) {
+    leg.hip = joint(index++);
+    leg.knee = joint(index++);
+    leg.wheel = joint(index++);
+  }
+}
+
+/// The arrays of targets, by member of `JointTarget`.
+struct TargetArray {
+  const char* name;
+  double JointTarget::*member;
+};
+constexpr std::array<TargetArray, 5> target_arrays = {
+    {{"target_position", &JointTarget::position},
+     {"target_velocity", &JointTarget::velocity},
+     {"target_torque", &JointTarget::feedforward_torque},
+     {"target_kp", &JointTarget::kp},
+     {"target_kd", &JointTarget::kd}}};
+
+/// Sets one member of all targets to `number(index)`.
+template <typename Number>
+void set_targets(Signals& signals, double JointTarget::*member, const Number& number) {
+  std::size_t index = 0;
+  for (LegTargets& leg : signals.target) {
+    for (JointTarget* joint : {&leg.hip, &leg.knee, &leg.wheel}) joint->*member = number(index++);
+  }
+}
+
+/// Whether the three arrays view one row of joints with the layout of `Signals`, as those of a
+/// recording do. Such rows are copied at once.
+bool have_layout_of_signals(const StepArray& position, const StepArray& velocity,
+                            const StepArray& torque) {
+  static_assert(sizeof(Signals::leg) == joint_count * sizeof(JointSignals));
+  const auto is_member = [&](const StepArray& column, std::size_t offset) {
+    return column.row(0) == position.row(0) + offset &&
+           column.item_bytes() == sizeof(JointSignals) &&
+           column.step_bytes() == position.step_bytes();
+  };
+  return is_member(position, offsetof(JointSignals, position)) &&
+         is_member(velocity, offsetof(JointSignals, velocity)) &&
+         is_member(torque, offsetof(JointSignals, torque));
+}
+
+/// `count` numbers of one step, by name; nothing if they are missing and not needed.
+std::optional<StepArray> numbers_of(const py::object& step, const char* name, std::size_t count,
+                                    bool is_needed) {
+  const auto expected = [&] {
+    return count == 1 ? std::string("a number") : fmt::format("{} numbers", count);
+  };
+  if (!step.contains(name)) {
+    if (!is_needed) return std::nullopt;
+    throw InputError(fmt::format("signals: '{}' is missing: expected {}", name, expected()));
+  }
+  auto array = StepArray::Array::ensure(step[name]);
+  if (!array || array.size() != static_cast<py::ssize_t>(count) || array.ndim() > 1) {
+    throw InputError(fmt::format("signals: '{}': expected {}", name, expected()));
+  }
+  return StepArray(StepArray::Array(array.reshape({static_cast<py::ssize_t>(count)})));
+}
+
+/// Whether the vertical acceleration follows from acceleration and orientation.
+bool is_derived(const py::object& arrays, const SignalNeeds& needs, const AssemblyConfig& imu) {
+  if (!needs.acceleration) return false;
+  if (imu.acceleration == AccelerationSource::proper) return true;
+  return !arrays.contains("vertical_acceleration") && arrays.contains("orientation");
+}
+
+/// Turns the vectors of the IMU into Upkie's axes, and sets the accelerations from the one of the
+/// IMU and its orientation (w x y z), if there is one.
+void convert_imu(Signals& signals, const std::optional<std::array<double, 4>>& orientation,
+                 const AssemblyConfig& config) {
+  RobotRecord record{.angular_velocity = signals.angular_velocity,
+                     .linear_acceleration = signals.linear_acceleration,
+                     .proper_acceleration = signals.linear_acceleration};
+  if (orientation) record.orientation = *orientation;
+  const ImuSignals imu = imu_of(record, config);
+  signals.angular_velocity = imu.angular_velocity;
+  // Gravity stays where no estimator needs the vertical acceleration.
+  signals.linear_acceleration = orientation ? imu.linear_acceleration : imu.proper_acceleration;
+  if (orientation) {
+    signals.vertical_acceleration = upward(imu.orientation, imu.linear_acceleration);
+  }
+}
+
+}  // namespace
+
+std::optional<StepArray> SignalArrays::column(const char* name, std::size_t columns,
+                                              bool is_needed) {
+  if (!is_needed && !map_.has(name)) return std::nullopt;
+  return map_.column(name, columns);
+}
+
+SignalArrays::SignalArrays(const py::object& arrays, const SignalNeeds& needs, AssemblyConfig imu)
+    : map_(arrays, "signals"), imu_(std::move(imu)), time_(map_.column("time")) {
+  const bool derives = is_derived(arrays, needs, imu_);
+  position_ = column("position", joint_count, needs.position);
+  velocity_ = column("velocity", joint_count, needs.velocity);
+  torque_ = column("torque", joint_count, needs.torque);
+  linear_acceleration_ = column("linear_acceleration", 3, needs.acceleration_vector || derives);
+  angular_velocity_ = column("angular_velocity", 3, needs.angular_velocity);
+  if (derives) {
+    orientation_.emplace(map_.column("orientation", 4));
+  } else {
+    vertical_acceleration_ = column("vertical_acceleration", 0, needs.acceleration);
+  }
+  ground_velocity_command_ = column("ground_velocity_command", 0, needs.command);
+  for (std::size_t i = 0; i < target_.size(); ++i) {
+    target_[i] = column(target_arrays[i].name, joint_count, false);
+  }
+  if (map_.has("has_record")) has_record_.emplace(map_.column("has_record"));
+  has_layout_of_signals_ =
+      position_ && velocity_ && torque_ && have_layout_of_signals(*position_, *velocity_, *torque_);
+}
+
+Signals SignalArrays::at(std::size_t step) const {
+  Signals signals;
+  signals.time = time_(step);
+  const auto number = [&](const std::optional<StepArray>& array, std::size_t item) {
+    return array ? (*array)(step, item) : 0.0;
+  };
+  if (has_layout_of_signals_) {
+    std::memcpy(signals.leg.data(), position_->row(step), sizeof signals.leg);
+  } else {
+    set_joints(signals, [&](std::size_t i) {
+      return JointSignals{number(position_, i), number(velocity_, i), number(torque_, i)};
+    });
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    signals.linear_acceleration[static_cast<int>(i)] = number(linear_acceleration_, i);
+    signals.angular_velocity[static_cast<int>(i)] = number(angular_velocity_, i);
+  }
+  signals.vertical_acceleration = number(vertical_acceleration_, 0);
+  signals.ground_velocity_command = number(ground_velocity_command_, 0);
+  for (std::size_t m = 0; m < target_.size(); ++m) {
+    if (!target_[m]) continue;
+    set_targets(signals, target_arrays[m].member,
+                [&](std::size_t i) { return (*target_[m])(step, i); });
+  }
+  const auto q = [&](std::size_t i) { return (*orientation_)(step, i); };
+  convert_imu(signals,
+              orientation_ ? std::optional(std::array{q(0), q(1), q(2), q(3)}) : std::nullopt,
+              imu_);
+  return signals;
+}
+
+std::optional<double> SignalArrays::period() const {
+  constexpr std::size_t most = 1000;
+  std::vector<double> times;
+  for (std::size_t k = 0; k < std::min(steps(), most); ++k) times.push_back(time_(k));
+  return logs::typical_step(times);
+}
+
+Signals signals_of_step(const py::object& step, const SignalNeeds& needs,
+                        const AssemblyConfig& imu) {
+  Signals signals;
+  signals.time = (*numbers_of(step, "time", 1, true))(0);
+  const auto position = numbers_of(step, "position", joint_count, needs.position);
+  const auto velocity = numbers_of(step, "velocity", joint_count, needs.velocity);
+  const auto torque = numbers_of(step, "torque", joint_count, needs.torque);
+  const auto number = [](const std::optional<StepArray>& array, std::size_t i) {
+    return array ? (*array)(i) : 0.0;
+  };
+  set_joints(signals, [&](std::size_t i) {
+    return JointSignals{number(position, i), number(velocity, i), number(torque, i)};
+  });
+  const bool derives = is_derived(step, needs, imu);
+  const auto linear =
+      numbers_of(step, "linear_acceleration", 3, needs.acceleration_vector || derives);
+  const auto angular = numbers_of(step, "angular_velocity", 3, needs.angular_velocity);
+  signals.linear_acceleration = {number(linear, 0), number(linear, 1), number(linear, 2)};
+  signals.angular_velocity = {number(angular, 0), number(angular, 1), number(angular, 2)};
+  if (derives) {
+    const StepArray q = *numbers_of(step, "orientation", 4, true);
+    convert_imu(signals, std::array{q(0), q(1), q(2), q(3)}, imu);
+  } else {
+    convert_imu(signals, std::nullopt, imu);
+    signals.vertical_acceleration =
+        number(numbers_of(step, "vertical_acceleration", 1, needs.acceleration), 0);
+  }
+  signals.ground_velocity_command =
+      number(numbers_of(step, "ground_velocity_command", 1, needs.command), 0);
+  for (const auto& [name, member] : target_arrays) {
+    const auto target = numbers_of(step, name, joint_count, false);
+    if (target) set_targets(signals, member, [&](std::size_t i) { return (*target)(i); });
+  }
+  return signals;
+}
+
+py::dict arrays_of(std::vector<Signals> steps) {
+  // Six joints at equal distances, so that one array can view them all.
+  static_assert(sizeof(LegSignals) == 3 * sizeof(JointSignals));
+  SharedRows<Signals> rows(std::move(steps));
+  Signals& first = rows.front();
+  JointSignals& joint = first.leg[0].hip;
+  py::dict arrays;
+  arrays["time"] = rows.view(&first.time);
+  arrays["position"] = rows.view(&joint.position, joint_count, sizeof(JointSignals));
+  arrays["velocity"] = rows.view(&joint.velocity, joint_count, sizeof(JointSignals));
+  arrays["torque"] = rows.view(&joint.torque, joint_count, sizeof(JointSignals));
+  arrays["linear_acceleration"] = rows.view(first.linear_acceleration.data(), 3);
+  arrays["angular_velocity"] = rows.view(first.angular_velocity.data(), 3);
+  arrays["vertical_acceleration"] = rows.view(&first.vertical_acceleration);
+  arrays["ground_velocity_command"] = rows.view(&first.ground_velocity_command);
+  static_assert(sizeof(LegTargets) == 3 * sizeof(JointTarget));
+  JointTarget& target = first.target[0].hip;
+  for (const auto& [name, member] : target_arrays) {
+    arrays[name] = rows.view(&(target.*member), joint_count, sizeof(JointTarget));
+  }
+  return arrays;
+}
+
+}  // namespace touchdown::python

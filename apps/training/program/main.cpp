@@ -1,0 +1,95 @@
+#include <filesystem>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "apps/training/train.hpp"
+#include "core/error.hpp"
+#include "core/program.hpp"
+#include "core/resources.hpp"
+#include "experiments/config/yaml_kind.hpp"
+
+namespace touchdown::training {
+
+namespace {
+
+struct Flags {
+  std::string file;
+  std::vector<std::string> overrides;
+};
+
+int run(const Flags& flags, const TrainingRequest& request) {
+  const std::filesystem::path file = find_resource(flags.file);
+  if (!request.network.empty()) {
+    const std::filesystem::path network = request.network;
+    check_outputs({{file, "training file"}},
+                  {network, std::filesystem::path(network).replace_extension("json")});
+  }
+  YamlDocument document = YamlDocument::load(file);
+  for (const std::string& assignment : flags.overrides) document.override_value(assignment);
+  experiments::require_yaml_kind(document, experiments::YamlKind::training);
+  const TrainingResult result = train(training_from_yaml(document), request);
+  const IterationRecord& chosen = result.history[result.chosen];
+  print("network   {}, of iteration {} of {}, validation loss {:.4f}\n",
+        (request.network.empty() ? result.network : request.network).string(), chosen.iteration,
+        result.history.size(), chosen.validation.total);
+  print("results   {}\n", result.directory.string());
+  if (!result.figure.empty()) print("figure    {}\n", result.figure.string());
+  return good;
+}
+
+int run_program(int argc, char** argv) {
+  TrainingRequest request;
+  request.command = "touchdown train";
+  for (int i = 1; i < argc; ++i) request.command += fmt::format(" {}", argv[i]);
+
+  CLI::App program(
+      "touchdown train experiments/nmn.yaml\n\n"
+      "Trains the neural measurement network on simulated data.",
+      "touchdown train");
+  Flags flags;
+  program.add_option("training", flags.file, "Training file")->required();
+  program
+      .add_option("-o,--output", request.network, "Also write the weights here, with a manifest")
+      ->type_name("FILE.npz");
+  program.add_option("--out", request.out, "Run directory (default: runs/<name>/<id>)")
+      ->type_name("DIR");
+  program.add_option("--threads", request.threads, "Threads (default: one per core)")
+      ->check(CLI::PositiveNumber);
+  program
+      .add_option("--set", flags.overrides,
+                  "Change a value of the file, for example optimiser.iterations=20")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& success) {  // --help
+    return print_answer(program, success);
+  } catch (const CLI::ParseError& error) {
+    return complain(fmt::format("train: {}", refused_words(program, error.what())), wrong_request);
+  }
+  try {
+    request.stop = &stop_on_interrupt();
+    return run(flags, request);
+  } catch (const InputError& error) {
+    return complain(error.what(), wrong_request);
+  } catch (const Stopped&) {
+    return complain(
+        "stopped; finished iterations are saved, and the same command continues from there",
+        failed);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    return complain(error.what(), failed);
+  }
+}
+
+}  // namespace
+
+}  // namespace touchdown::training
+
+int main(int argc, char** argv) {
+  touchdown::stop_on_interrupt();
+  touchdown::open_standard_streams();
+  return touchdown::finished([&] { return touchdown::training::run_program(argc, argv); });
+}

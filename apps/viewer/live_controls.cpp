@@ -1,0 +1,189 @@
+#include "apps/viewer/live_controls.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "logs/log/recording_file.hpp"
+#include "scenarios/scenario.hpp"
+
+namespace touchdown::viewer {
+
+namespace {
+
+constexpr double largest_velocity = 1.5;  // m/s
+constexpr double largest_yaw_rate = 2.0;  // rad/s
+constexpr double largest_crouch = 1.2;    // rad
+constexpr double slowest = 1.0 / 64, fastest = 4.0;
+
+/// `run.mpack`, then `run_2.mpack`, …
+std::filesystem::path numbered(const std::filesystem::path& path, std::size_t number) {
+  if (number == 1) return path;
+  std::filesystem::path result = path;
+  result.replace_filename(
+      fmt::format("{}_{}{}", path.stem().string(), number, path.extension().string()));
+  return result;
+}
+
+}  // namespace
+
+LiveRange range_of(LiveNumber number) {
+  constexpr std::array<LiveRange, live_numbers> ranges = {
+      LiveRange{0.25, 10.0} /* N·m */, LiveRange{1.0, 50.0} /* m/s² */, LiveRange{0.01, 0.2} /* s */
+  };
+  return ranges[static_cast<std::size_t>(number)];
+}
+
+LiveControls::LiveControls(LiveRequest request, std::function<void()> started)
+    : request_(std::move(request)),
+      started_(std::move(started)),
+      settings_(request_.settings),
+      loop_(make_run()) {
+  take_over();
+}
+
+std::unique_ptr<LiveRun> LiveControls::make_run() {
+  return std::make_unique<LiveRun>(request_.scene, request_.estimators, settings_,
+                                   !request_.record.empty());
+}
+
+/// Takes over what the run in the loop consists of.
+void LiveControls::take_over() {
+  estimators_.clear();
+  loop_.use([&](const LiveRun& run) {
+    simulator_ = &run.simulator();
+    for (const LiveEstimator& estimator : run.estimators()) estimators_.push_back(estimator.title);
+    sources_ = run.contact_sources();
+    settings_ = run.settings();
+  });
+}
+
+std::string LiveControls::sensors_name() const {
+  return request_.sensors.empty() ? "ideal" : request_.sensors[sensors_].first;
+}
+
+double LiveControls::value(LiveNumber number) const {
+  switch (number) {
+    case LiveNumber::torque_noise:
+      return settings_.noise.knee_torque;
+    case LiveNumber::acceleration_noise:
+      return settings_.noise.acceleration;
+    case LiveNumber::contact_delay:
+      break;
+  }
+  return settings_.contact_delay;
+}
+
+void LiveControls::set(LiveNumber number, double value) {
+  value = std::clamp(value, 0.0, range_of(number).most);
+  change([&](LiveSettings& settings) {
+    switch (number) {
+      case LiveNumber::torque_noise:
+        settings.noise.knee_torque = settings.noise.hip_torque = settings.noise.wheel_torque =
+            value;
+        break;
+      case LiveNumber::acceleration_noise:
+        settings.noise.acceleration = value;
+        break;
+      case LiveNumber::contact_delay:
+        settings.contact_delay = value;
+        break;
+    }
+  });
+}
+
+void LiveControls::change(const std::function<void(LiveSettings&)>& action) {
+  action(settings_);
+  loop_.use([&](LiveRun& run) {
+    run.change(settings_);
+    settings_ = run.settings();
+  });
+}
+
+void LiveControls::drive(LiveRun& run, double velocity, double yaw_rate) {
+  run.drive(std::clamp(velocity, -largest_velocity, largest_velocity),
+            std::clamp(yaw_rate, -largest_yaw_rate, largest_yaw_rate));
+}
+
+void LiveControls::drive_faster(double velocity, double yaw_rate) {
+  loop_.use(
+      [&](LiveRun& run) { drive(run, run.velocity() + velocity, run.yaw_rate() + yaw_rate); });
+}
+
+void LiveControls::stop_driving() {
+  loop_.use([&](LiveRun& run) { drive(run, 0.0, 0.0); });
+}
+
+void LiveControls::crouch_lower(double hip) {
+  loop_.use([&](LiveRun& run) { run.crouch(std::clamp(run.hip() + hip, 0.0, largest_crouch)); });
+}
+
+void LiveControls::hop() {
+  loop_.use([](LiveRun& run) { run.hop(); });
+}
+
+void LiveControls::drag(const std::optional<Drag>& drag) {
+  loop_.use([&](LiveRun& run) { run.drag(drag); });
+}
+
+void LiveControls::pause(bool paused) {
+  is_paused_ = paused;
+  loop_.set_paused(paused);
+}
+
+void LiveControls::step(int count) {
+  if (!is_paused_) pause(true);
+  loop_.step(count);
+}
+
+void LiveControls::scale_speed(double factor) {
+  speed_ = std::clamp(factor * speed_, slowest, fastest);
+  loop_.set_speed(speed_);
+}
+
+void LiveControls::restart() {
+  save();
+  const std::unique_ptr<LiveRun> old = loop_.replace(make_run());
+  take_over();
+  started_();
+}
+
+void LiveControls::start_next_draw() {
+  ++request_.scene.run;
+  restart();
+}
+
+void LiveControls::change_engine() {
+  request_.scene.engine = request_.scene.engine == "mujoco" ? "bullet" : "mujoco";
+  restart();
+}
+
+void LiveControls::next_contact_source() {
+  change([&](LiveSettings& settings) {
+    settings.contact_source = (settings.contact_source + 1) % sources_.size();
+  });
+}
+
+void LiveControls::next_sensors() {
+  if (request_.sensors.empty()) return;
+  sensors_ = (sensors_ + 1) % request_.sensors.size();
+  change([&](LiveSettings& settings) { settings.sensors = request_.sensors[sensors_].second; });
+}
+
+void LiveControls::save() {
+  if (request_.record.empty()) return;
+  std::optional<logs::Recording> recording;
+  scenarios::End end;
+  loop_.use([&](const LiveRun& run) {
+    recording = run.recording();
+    end = run.scene().scenario.end;
+  });
+  if (recording->steps() == 0) return;
+  const auto path = numbered(request_.record, saved_.size() + 1);
+  logs::write_recording(*recording, path);
+  saved_.push_back(fmt::format("{}: {}", path.string(), scenarios::ending_text(*recording, end)));
+}
+
+}  // namespace touchdown::viewer

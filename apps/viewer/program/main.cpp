@@ -1,0 +1,323 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "apps/viewer/panel.hpp"
+#include "apps/viewer/watch.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/program.hpp"
+#include "core/progress.hpp"
+#include "core/resources.hpp"
+#include "experiments/config/yaml_kind.hpp"
+#include "experiments/logs/log_steps.hpp"
+#include "experiments/logs/robot.hpp"
+#include "logs/log/recording_file.hpp"
+#include "render/report/filmed_run.hpp"
+#include "render/report/subject.hpp"
+#include "scenarios/generation/generate.hpp"
+#include "scenarios/scenario_file.hpp"
+
+namespace touchdown::viewer {
+
+namespace {
+
+/// What is watched.
+enum class SubjectKind : int {
+  scenario,  ///< a scenario file, or the name of a drawn scenario
+  robot,     ///< a robot's MJCF, URDF or YAML file, on flat ground
+  log,       ///< a recording or a robot's log
+  run        ///< an experiment's run directory
+};
+
+/// The request of the command line.
+struct WatchRequest {
+  std::string subject;
+  std::vector<std::string> estimators;  ///< NAME or NAME=MODEL; empty: the default ones
+  std::string engine = "mujoco";
+  std::uint64_t seed = 1;
+  std::int64_t run = -1;
+  std::vector<std::string> overrides;  ///< KEY=VALUE, of the scenario
+  std::string robot;                   ///< of a log
+  std::string labels;                  ///< of a log
+};
+
+namespace fs = std::filesystem;
+
+constexpr const char* flat_scenario = "scenarios/flat.yaml";
+
+constexpr const char* usual_robot = "models/upkie.xml";
+
+std::vector<std::string> or_usual(std::vector<std::string> words) {
+  if (words.empty()) words = {"shipped", "upkie_observer"};
+  return words;
+}
+
+/// The estimators that are named NAME or NAME=MODEL. They may be used with any robot and rate.
+std::vector<experiments::LogEstimator> estimators_of(const std::vector<std::string>& words,
+                                                     const experiments::LogRobot& robot) {
+  std::vector<experiments::LogEstimator> estimators;
+  for (const std::string& word : or_usual(words)) {
+    const auto split = word.find('=');
+    experiments::LogEstimatorRequest request{
+        .name = word.substr(0, split), .robot = robot, .transfer = true};
+    if (split != std::string::npos) request.model = word.substr(split + 1);
+    experiments::LogEstimator estimator = experiments::log_estimator(std::move(request));
+    // The title of the shipped model ends with its file, for which there is no room.
+    estimator.entry.title.resize(
+        std::min(estimator.entry.title.size(), estimator.entry.title.find(" (")));
+    estimators.push_back(std::move(estimator));
+  }
+  return estimators;
+}
+
+std::vector<std::pair<std::string, noise::SensorProfile>> known_sensors() {
+  std::vector<std::pair<std::string, noise::SensorProfile>> sensors = {{"ideal", {}}};
+  for (const fs::path& file : resources_in("noise/profiles", ".yaml")) {
+    if (file.stem() == "ideal") continue;
+    sensors.emplace_back(file.stem().string(), noise::find_sensor_profile(file));
+  }
+  return sensors;
+}
+
+scenarios::Scenario scenario_of(const WatchRequest& request, SubjectKind kind) {
+  const bool is_robot = kind == SubjectKind::robot;
+  YamlDocument document = scenarios::scenario_document(is_robot ? flat_scenario : request.subject);
+  if (is_robot) document.override_value("robot=" + request.subject);
+  for (const std::string& assignment : request.overrides) document.override_value(assignment);
+  experiments::require_yaml_kind(document, experiments::YamlKind::scenario);
+  return scenarios::complete_scenario(document);
+}
+
+/// The robot that a log's recording contains, else the named one on flat ground.
+models::RobotModel robot_of(const logs::Recording& recording, const std::string& named) {
+  if (recording.info.scenario_yaml.empty() || !named.empty()) {
+    return models::compile_robot_model(find_resource(named.empty() ? usual_robot : named), {});
+  }
+  return render::recorded_robot(recording);
+}
+
+/// Runs all estimators over the log, and reads true contact from it or from its labels.
+void evaluate(const WatchRequest& request, LoggedRun& run) {
+  std::optional<logs::ContactIntervals> labels;
+  if (!request.labels.empty()) labels = logs::read_contact_intervals(request.labels);
+  experiments::LogRobot robot;
+  if (!request.robot.empty()) robot = experiments::robot_called(request.robot);
+  const std::vector<experiments::LogEstimator> requested = estimators_of(request.estimators, robot);
+  logs::LogReader reader(request.subject);
+  experiments::LogSteps log(reader, labels ? &*labels : nullptr,
+                            experiments::checked_robot(robot, reader.info()));
+  std::vector<std::unique_ptr<ContactEstimator>> estimators;
+  for (std::size_t i = 0; i < requested.size(); ++i) {
+    estimators.push_back(requested[i].make(log.sample_rate(), reader.info()));
+    render::BeliefTrack& track = run.beliefs.emplace_back();
+    track.name = requested[i].entry.title;
+    track.colour = estimator_colour(i);
+  }
+  const scoring::LabelConfig definition;
+  const auto shortest =
+      static_cast<std::size_t>(std::lround(definition.debounce * log.sample_rate()));
+  while (const experiments::LogStep* step = log.next()) {
+    for (std::size_t i = 0; i < estimators.size(); ++i) {
+      render::add_belief(run.beliefs[i], *estimators[i], estimators[i]->update(step->signals));
+    }
+    if (!step->normal_force) continue;
+    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+      run.contact[wheel].push_back((*step->normal_force)[wheel] > definition.force_threshold ? 1
+                                                                                             : 0);
+    }
+  }
+  // Labels of segments leave steps between them without a true contact.
+  for (auto& contact : run.contact) {
+    if (contact.size() != run.recording.steps()) {
+      contact.clear();
+    } else {
+      contact = scoring::debounced(std::move(contact), shortest);
+    }
+  }
+  print_warnings(log.findings());
+}
+
+/// Errors: `InputError` for a file of another kind.
+SubjectKind kind_of(const std::string& subject) {
+  if (scenarios::is_drawn(subject)) return SubjectKind::scenario;
+  std::error_code ignored;
+  if (fs::is_directory(subject, ignored)) return SubjectKind::run;
+  const std::string extension = fs::path(subject).extension().string();
+  if (extension == ".mpack") return SubjectKind::log;
+  if (extension == ".xml" || extension == ".urdf") return SubjectKind::robot;
+  if (extension == ".yaml" || extension == ".yml") {
+    const YamlDocument document = YamlDocument::load(find_resource(subject));
+    const bool is_robot = document.root().IsMap() && document.root()["mjcf"].IsDefined();
+    return is_robot ? SubjectKind::robot : SubjectKind::scenario;
+  }
+  throw InputError(fmt::format(
+      "watch: '{}': expected a scenario (.yaml), a robot (.xml, .urdf, .yaml), a log (.mpack) or a "
+      "run directory. `touchdown export` converts other logs",
+      subject));
+}
+
+/// Errors: `InputError` for a scenario, a robot or an estimator that cannot be used.
+LiveRequest live_request(const WatchRequest& request, SubjectKind kind) {
+  LiveRequest live;
+  live.scene = {scenario_of(request, kind), request.engine, request.seed, request.run};
+  live.estimators = estimators_of(request.estimators,
+                                  experiments::robot_called(live.scene.scenario.robot.string()));
+  live.sensors = known_sensors();
+  return live;
+}
+
+LoggedRun logged_run(const WatchRequest& request, SubjectKind kind) {
+  if (kind == SubjectKind::run) {
+    std::vector<render::FilmedRun> filmed =
+        render::filmed_runs(render::read_subject(request.subject));
+    if (filmed.empty()) {
+      throw InputError(
+          fmt::format("{}: has no recording of the run that it films", request.subject));
+    }
+    render::FilmedRun& first = filmed.front();
+    const auto contact = scoring::contact_labels(first.recording, first.labels);
+    return {.name = first.recording.info.scenario,
+            .robot = std::move(first.robot),
+            .recording = std::move(first.recording),
+            .beliefs = std::move(first.beliefs),
+            .contact = {contact[0], contact[1]}};
+  }
+  std::vector<std::string> warnings;
+  logs::Recording recording = logs::read_recording(request.subject, &warnings);
+  print_warnings(warnings);
+  models::RobotModel robot = robot_of(recording, request.robot);
+  LoggedRun run{.name = fs::path(request.subject).filename().string(),
+                .robot = std::move(robot),
+                .recording = std::move(recording),
+                .beliefs = {},
+                .contact = {}};
+  evaluate(request, run);
+  return run;
+}
+
+struct Flags {
+  WatchRequest request;
+  std::filesystem::path record;
+  int width = 1280;
+  int height = 720;
+  bool statistics = false;
+};
+
+void print_statistics(const LiveSession& session) {
+  print("{} pictures in {:.1f} s: {:.1f} a second\n", session.frames, session.seconds,
+        session.frames / std::max(1e-3, session.seconds));
+  if (!session.times || session.frames == 0) return;
+  const double each = 1e3 / session.frames;
+  print("a picture: scene {:.1f} ms; labels, panel and plots {:.1f} ms; display {:.1f} ms\n",
+        each * session.times->scene, each * session.times->overlay, each * session.times->display);
+}
+
+int watch(Flags& flags, const std::atomic<bool>& stop) {
+  if (!flags.record.empty()) {
+    require_extension(flags.record, {".mpack"}, "a recording");
+    check_outputs({{flags.request.subject, "subject"}}, {flags.record});
+  }
+  const SubjectKind kind = kind_of(flags.request.subject);
+  if (kind == SubjectKind::log || kind == SubjectKind::run) {
+    if (!flags.record.empty()) {
+      throw InputError("--record: a log cannot be driven: name a scenario or a robot");
+    }
+    watch_log(logged_run(flags.request, kind), flags.width, flags.height, stop);
+    return good;
+  }
+  LiveRequest request = live_request(flags.request, kind);
+  request.record = flags.record;
+  request.width = flags.width;
+  request.height = flags.height;
+  request.measures = flags.statistics;
+  const LiveSession session = watch_live(std::move(request), stop);
+  for (const std::string& line : session.recorded) print("{}\n", line);
+  print_statistics(session);
+  return good;
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App program(
+      "touchdown watch scenarios/stairs.yaml\n"
+      "touchdown watch my_robot.xml --estimator shipped --estimator support_force\n"
+      "touchdown watch run.mpack\n\n"
+      "Shows a robot in a window while estimators run on it. A scenario or a robot is simulated "
+      "in\n"
+      "real time and can be driven; a log, or an experiment's run directory, is played. `h` lists\n"
+      "all keys.",
+      "touchdown watch");
+  Flags flags;
+  WatchRequest& request = flags.request;
+  program
+      .add_option("subject", request.subject,
+                  "Scenario file or drawn scenario, robot's file, recording or log, or run "
+                  "directory")
+      ->required();
+  program
+      .add_option("--estimator", request.estimators,
+                  "Estimator to show, or NAME=MODEL; several are possible (default: the shipped "
+                  "model and Upkie's observer)")
+      ->type_name("NAME[=MODEL]")
+      ->allow_extra_args(false);
+  program.add_option("--simulator", request.engine, "Physics engine (default: mujoco)")
+      ->check(CLI::IsMember({"mujoco", "bullet"}));
+  program.add_option("--run", request.run, "Index of the first random draw (default: none)")
+      ->check(CLI::NonNegativeNumber);
+  program.add_option("--seed", request.seed, "Random seed (default: 1)");
+  program
+      .add_option("--set", request.overrides,
+                  "Change a value of the scenario, for example end.duration=5")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  program.add_option("--robot", request.robot,
+                     "Robot of a log that does not contain it (default: models/upkie.xml)");
+  program.add_option("--labels", request.labels, "Labels of contact of a log")
+      ->type_name("FILE.csv");
+  program.add_option("--record", flags.record, "Recording to write of what was driven")
+      ->type_name("FILE.mpack");
+  program.add_flag("--statistics", flags.statistics,
+                   "Print how long the parts of a picture took, at the end of a live run");
+  constexpr int least = 600;
+  constexpr int most = 8000;
+  program.add_option("--width", flags.width, "Width of the window (pixels)")
+      ->check(CLI::Range(least, most));
+  program.add_option("--height", flags.height, "Height of the window (pixels)")
+      ->check(CLI::Range(least, most));
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& success) {  // --help
+    return program.exit(success);
+  } catch (const CLI::ParseError& error) {
+    return complain(fmt::format("watch: {}", refused_words(program, error.what())), wrong_request);
+  }
+  try {
+    return watch(flags, stop_on_interrupt());
+  } catch (const InputError& error) {
+    return complain(error.what(), wrong_request);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    return complain(error.what(), failed);
+  }
+}
+
+}  // namespace
+
+}  // namespace touchdown::viewer
+
+int main(int argc, char** argv) {
+  touchdown::stop_on_interrupt();
+  touchdown::open_standard_streams();
+  return touchdown::finished([&] { return touchdown::viewer::run_program(argc, argv); });
+}

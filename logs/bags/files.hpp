@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace touchdown::logs {
+
+/// A file that is read at any position.
+class RandomFile {
+ public:
+  /// `name` is for messages. Errors: `InputError` when the file does not exist or cannot be opened.
+  RandomFile(const std::filesystem::path& path, std::string name);
+  RandomFile(const RandomFile&) = delete;
+  RandomFile& operator=(const RandomFile&) = delete;
+  ~RandomFile();
+
+  const std::string& name() const { return name_; }
+  std::uint64_t size() const { return size_; }
+
+  /// Replaces `bytes` by those in [offset, offset + size), or fewer at the end of the file. Errors:
+  /// `Error` when they cannot be read.
+  void read(std::uint64_t offset, std::uint64_t size, std::string& bytes) const;
+
+ private:
+  std::string name_;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+};
+
+/// An empty file of its own name in the folder for temporary files, which the destructor deletes.
+/// Errors: `Error` when it cannot be made.
+class TemporaryFile {
+ public:
+  TemporaryFile();
+  ~TemporaryFile();
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace touchdown::logs

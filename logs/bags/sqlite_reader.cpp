@@ -1,0 +1,225 @@
+#include "logs/bags/sqlite_reader.hpp"
+
+#include <algorithm>
+#include <sqlite3.h>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/error.hpp"
+#include "core/resources.hpp"
+#include "logs/bags/files.hpp"
+
+namespace touchdown::logs {
+
+namespace {
+
+/// Largest message; SQLite refuses longer values without memory for them.
+constexpr int most_message_bytes = 1 << 28;
+
+/// The path as a URI of SQLite, in which these characters have a meaning.
+std::string uri_of(const std::string& path, const char* options) {
+  std::string uri = "file:";
+  for (const char c : path) {
+    if (c == '%' || c == '?' || c == '#') {
+      uri += fmt::format("%{:02x}", static_cast<unsigned char>(c));
+    } else {
+      uri += c;
+    }
+  }
+  return uri + options;
+}
+
+std::string text_at(sqlite3_stmt* row, int column) {
+  const unsigned char* text = sqlite3_column_text(row, column);
+  return text == nullptr ? "" : reinterpret_cast<const char*>(text);  // NOLINT
+}
+
+}  // namespace
+
+void SqliteReader::Close::operator()(sqlite3* database) const { sqlite3_close(database); }
+void SqliteReader::Close::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+
+SqliteReader::SqliteReader(const std::filesystem::path& path, const TopicFilter& wanted,
+                           const std::string& name)
+    : name_(name.empty() ? path.string() : name) {
+  require_file(path);
+  open(path);
+  for (const char* table : {"topics", "messages"}) {
+    if (!has_table(table)) complain(fmt::format("is no ROS 2 bag: it has no table '{}'", table));
+  }
+  read_topics(wanted);
+  std::vector<std::int64_t> ids;
+  for (const auto& [id, index] : index_of_id_) ids.push_back(id);
+  const std::string where = fmt::format("WHERE topic_id IN ({})", fmt::join(ids, ","));
+  order_ = prepare("SELECT rowid FROM messages " + where + " ORDER BY timestamp, rowid");
+  row_ = prepare("SELECT topic_id, timestamp, data FROM messages WHERE rowid = ?");
+  all_ = prepare("SELECT topic_id, timestamp, data FROM messages NOT INDEXED " + where);
+}
+
+/// Opens the database to read it; returns SQLite's code. `salvages` accepts a file that is shorter
+/// than it declares.
+int SqliteReader::try_open(const std::string& uri, bool salvages) {
+  sqlite3* opened = nullptr;
+  const int result =
+      sqlite3_open_v2(uri.c_str(), &opened, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
+  database_.reset(opened);
+  if (opened == nullptr) throw Error("SQLite: no memory");
+  if (result != SQLITE_OK) return result;
+  sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, most_message_bytes);
+  sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  sqlite3_db_config(opened, SQLITE_DBCONFIG_WRITABLE_SCHEMA, salvages ? 1 : 0, nullptr);
+  sqlite3_exec(opened, "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
+  return sqlite3_exec(opened, "SELECT name FROM sqlite_master LIMIT 1", nullptr, nullptr, nullptr);
+}
+
+/// The size of a file's pages, from its head: big-endian; 1 is 65536.
+std::uint64_t SqliteReader::page_bytes(const RandomFile& file) {
+  std::string head;
+  file.read(16, 2, head);
+  const auto byte = [&](std::size_t i) {
+    return i < head.size() ? static_cast<std::uint64_t>(static_cast<unsigned char>(head[i])) : 0U;
+  };
+  const std::uint64_t given = 256 * byte(0) + byte(1);
+  return given == 1 ? 65536 : std::max<std::uint64_t>(given, 512);
+}
+
+/// SQLite would take the missing bytes of the last page for zeros, and those for messages.
+void SqliteReader::copy_whole_pages(const std::filesystem::path& path, const RandomFile& file) {
+  const std::uint64_t page = page_bytes(file);
+  const std::filesystem::path& copy = copy_.emplace().path();
+  std::error_code wrong;
+  std::filesystem::copy_file(path, copy, std::filesystem::copy_options::overwrite_existing, wrong);
+  if (!wrong) std::filesystem::resize_file(copy, file.size() / page * page, wrong);
+  if (wrong) {
+    throw Error(
+        fmt::format("{}: cannot be copied to {}: {}", name_, copy.string(), wrong.message()));
+  }
+}
+
+/// Only a journal (`-wal`) beside the database is a reason to write beside it: SQLite then needs a
+/// file of its own. In a folder that cannot be written the database is read without its journal.
+void SqliteReader::open(const std::filesystem::path& path) {
+  std::error_code none;
+  const std::uintmax_t journal = std::filesystem::file_size(path.string() + "-wal", none);
+  int result = SQLITE_CANTOPEN;
+  if (!none && journal > 0) result = try_open(uri_of(path, "?mode=ro"), false);
+  if (result == SQLITE_CANTOPEN || result == SQLITE_READONLY) {
+    result = try_open(uri_of(path, "?mode=ro&immutable=1"), false);
+  }
+  const RandomFile file(path, name_);
+  const bool is_cut = file.size() % page_bytes(file) != 0;
+  if (result == SQLITE_CORRUPT || (result == SQLITE_OK && is_cut)) {
+    copy_whole_pages(path, file);
+    result = try_open(uri_of(copy_->path(), "?mode=ro"), true);
+  }
+  if (result == SQLITE_NOTADB) complain("is no SQLite database: is it compressed?");
+  if (result != SQLITE_OK) {
+    complain(fmt::format("cannot be read: {}", sqlite3_errmsg(database_.get())));
+  }
+}
+
+/// Whether it has this table. A view or a virtual table of the name, which could run code or never
+/// end, is none.
+bool SqliteReader::has_table(std::string_view name) {
+  const Statement found =
+      prepare(fmt::format("SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = '{}' "
+                          "AND sql NOT LIKE 'CREATE VIRTUAL%'",
+                          name));
+  return step(found.get());
+}
+
+void SqliteReader::read_topics(const TopicFilter& wanted) {
+  const Statement rows = prepare("SELECT id, name, type, serialization_format FROM topics");
+  while (step(rows.get())) {
+    const std::int64_t id = sqlite3_column_int64(rows.get(), 0);
+    BagTopic topic{text_at(rows.get(), 1), text_at(rows.get(), 2), text_at(rows.get(), 3), 0};
+    if (!wanted || wanted(topic.name)) index_of_id_[id] = topics_.size();
+    topics_.push_back(std::move(topic));
+  }
+}
+
+SqliteReader::Statement SqliteReader::prepare(const std::string& sql) {
+  sqlite3_stmt* statement = nullptr;
+  if (sqlite3_prepare_v2(database_.get(), sql.c_str(), -1, &statement, nullptr) != SQLITE_OK) {
+    complain(fmt::format("is no ROS 2 bag: {}", sqlite3_errmsg(database_.get())));
+  }
+  return Statement(statement);
+}
+
+/// Returns false behind the last row. Errors: `InputError` for a damaged database.
+bool SqliteReader::step(sqlite3_stmt* statement) {
+  const int result = sqlite3_step(statement);
+  if (result == SQLITE_ROW) return true;
+  if (result == SQLITE_DONE) return false;
+  complain(fmt::format("cannot be read: {}", sqlite3_errmsg(database_.get())));
+}
+
+bool SqliteReader::take(sqlite3_stmt* row, BagMessage& message) {
+  const auto topic = index_of_id_.find(sqlite3_column_int64(row, 0));
+  if (topic == index_of_id_.end()) return false;
+  message.topic = topic->second;
+  message.time = sqlite3_column_int64(row, 1);
+  const void* data = sqlite3_column_blob(row, 2);
+  const int size = sqlite3_column_bytes(row, 2);
+  message.data = data == nullptr ? std::string_view()
+                                 : std::string_view(static_cast<const char*>(data),
+                                                    static_cast<std::size_t>(size));
+  ++topics_[message.topic].messages;
+  ++messages_;
+  return true;
+}
+
+bool SqliteReader::next(BagMessage& message) {
+  if (order_) {
+    try {
+      if (next_in_order(message)) return true;
+      if (copy_) {
+        note_ = fmt::format("{}: cut off: {} messages were read", name_, messages_);
+      }
+      return false;
+    } catch (const InputError&) {
+      if (messages_ > 0) {
+        note_ = fmt::format("{}: damaged: {} messages were read, later ones are lost", name_,
+                            messages_);
+        order_.reset();
+        all_.reset();
+        return false;
+      }
+      order_.reset();  // the order by time needs all pages; without it, the first ones suffice
+    }
+  }
+  return all_ && next_in_file(message);
+}
+
+bool SqliteReader::next_in_order(BagMessage& message) {
+  while (step(order_.get())) {
+    sqlite3_reset(row_.get());
+    sqlite3_bind_int64(row_.get(), 1, sqlite3_column_int64(order_.get(), 0));
+    if (step(row_.get()) && take(row_.get(), message)) return true;
+  }
+  return false;
+}
+
+bool SqliteReader::next_in_file(BagMessage& message) {
+  try {
+    while (step(all_.get())) {
+      if (take(all_.get(), message)) return true;
+    }
+  } catch (const InputError&) {
+    if (messages_ == 0) throw;
+  }
+  note_ = fmt::format(
+      "{}: damaged or cut off: {} messages were read, in the order of the file; "
+      "others are lost",
+      name_, messages_);
+  all_.reset();
+  return false;
+}
+
+void SqliteReader::complain(const std::string& what) const {
+  throw InputError(fmt::format("{}: {}", name_, what));
+}
+
+}  // namespace touchdown::logs

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "logs/bags/files.hpp"
+#include "logs/bags/message.hpp"
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace touchdown::logs {
+
+/// Reads the messages of a SQLite bag (`.db3`) by the time of recording, with or without an index
+/// of times. A damaged file is read as far as its pages are whole; `note()` describes it. Errors
+/// (`InputError`): a file that is no SQLite database, or one without a bag's tables.
+class SqliteReader {
+ public:
+  /// A topic is read if `wanted` is empty or true for it. `name` is the file's in messages.
+  explicit SqliteReader(const std::filesystem::path& path, const TopicFilter& wanted = {},
+                        const std::string& name = {});
+
+  /// Proceeds to the next message. Returns false at the end.
+  bool next(BagMessage& message);
+
+  const std::vector<BagTopic>& topics() const { return topics_; }
+  /// What could not be read, or empty.
+  const std::string& note() const { return note_; }
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const;
+    void operator()(sqlite3_stmt* statement) const;
+  };
+  using Statement = std::unique_ptr<sqlite3_stmt, Close>;
+
+  int try_open(const std::string& uri, bool salvages);
+  void open(const std::filesystem::path& path);
+  static std::uint64_t page_bytes(const RandomFile& file);
+  void copy_whole_pages(const std::filesystem::path& path, const RandomFile& file);
+  bool has_table(std::string_view name);
+  void read_topics(const TopicFilter& wanted);
+  Statement prepare(const std::string& sql);
+  bool step(sqlite3_stmt* statement);
+  bool take(sqlite3_stmt* row, BagMessage& message);
+  bool next_in_order(BagMessage& message);
+  bool next_in_file(BagMessage& message);
+  [[noreturn]] void complain(const std::string& what) const;
+
+  std::string name_;
+  std::optional<TemporaryFile> copy_;  ///< the whole pages of a file that is cut off
+  std::unique_ptr<sqlite3, Close> database_;
+  std::vector<BagTopic> topics_;
+  std::map<std::int64_t, std::size_t> index_of_id_;  ///< of the wanted topics
+  Statement order_;                                  ///< rows by time
+  Statement row_;                                    ///< the message of a row
+  Statement all_;  ///< messages in the order of the file, once the order by time cannot be read
+  std::string note_;
+  std::uint64_t messages_ = 0;
+};
+
+}  // namespace touchdown::logs

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "logs/bags/message.hpp"
+#include "logs/bags/sensor_messages.hpp"
+#include "logs/bags/source_join.hpp"
+#include "logs/held_number.hpp"
+
+namespace touchdown::logs {
+
+/// The columns with the time of a message (s): its own stamp, or when it was recorded.
+inline constexpr const char* stamp_column = "header.stamp";
+inline constexpr const char* log_time_column = "log_time";
+
+/// A topic of sensor_msgs/msg/JointState or sensor_msgs/msg/Imu as the beginning of a bag shows it.
+struct SignalTopic {
+  std::string name;
+  std::string type;
+  std::vector<std::string> joints;  ///< of JointState, in the order of their first message
+  bool has_velocity = false;        ///< of JointState
+  bool has_effort = false;          ///< of JointState
+  bool has_orientation = false;     ///< of Imu
+  bool has_stamps = false;          ///< whether a header has a stamp that is not zero
+  double stamp_delay = 0.0;         ///< time of recording − stamp of the first such header (s)
+  std::uint64_t messages = 0;       ///< decoded so far
+
+  /// Names of all numbers of a message: `stamp_column`, `log_time_column`; NAME/position,
+  /// NAME/velocity, NAME/effort for each joint; or orientation.x, …, linear_acceleration.z.
+  std::vector<std::string> columns() const;
+};
+
+/// Decodes the messages of one topic to rows of selected columns.
+class TopicRows {
+ public:
+  struct Config {
+    bool uses_log_time = false;  ///< instead of stamps
+    double stale_after = 0.05;   ///< s
+  };
+
+  TopicRows(SignalTopic topic, const std::vector<std::string>& columns, const Config& config);
+
+  /// Decodes the message. Returns whether it is a row: an Imu, or a JointState with the first of
+  /// the selected joints. Values that a JointState does not give, as from a driver that sends a
+  /// part of the joints, or some efforts, are the latest ones if they are not stale, otherwise NaN.
+  /// A malformed message is counted and gives no row.
+  bool update(const BagMessage& message);
+
+  std::span<const double> row() const { return row_; }
+  double time() const { return time_; }
+
+  const SignalTopic& topic() const { return topic_; }
+  const Ages& ages() const { return ages_; }  ///< of the values from earlier messages
+  std::uint64_t malformed() const { return malformed_; }
+  const std::string& first_malformed() const { return first_malformed_; }
+
+ private:
+  /// The two latest values of a number: messages can come in another order than their stamps.
+  using Held = std::array<HeldNumber, 2>;
+  struct Joint {
+    std::string name;
+    std::array<std::size_t, 3> slot{};  ///< of position, velocity, effort in the row, or `no_slot`
+    std::array<Held, 3> held{};
+  };
+  static constexpr std::size_t no_slot = static_cast<std::size_t>(-1);
+
+  void set_time(const MessageStamp& stamp, std::int64_t recorded);
+  bool take(const JointState& state);
+  void take(const ImuState& state);
+  void put(std::size_t slot, Held& held, double value, bool is_given);
+
+  SignalTopic topic_;
+  Config config_;
+  std::vector<double> row_;
+  double time_ = 0.0;
+  std::size_t stamp_slot_ = no_slot;
+  std::size_t log_time_slot_ = no_slot;
+  std::vector<Joint> joints_;  ///< the selected ones; the first makes rows
+  std::array<std::size_t, 10> imu_slot_{};
+  JointState joint_state_;
+  ImuState imu_;
+  Ages ages_;
+  std::uint64_t malformed_ = 0;
+  std::string first_malformed_;
+};
+
+/// The topics of these names in a bag. Errors: `InputError`, which lists the bag's topics with
+/// their types and numbers of messages, for a topic that is not there, has another type or
+/// encoding, or has no readable message.
+std::vector<SignalTopic> find_signal_topics(const std::filesystem::path& bag,
+                                            const std::vector<std::string>& names);
+
+/// The only topic of this type in a bag. Errors: `InputError` as above if it has none or several.
+std::string only_topic_of_type(const std::filesystem::path& bag, const std::string& type);
+
+}  // namespace touchdown::logs

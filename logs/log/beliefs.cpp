@@ -1,0 +1,250 @@
+#include "logs/log/beliefs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/resources.hpp"
+#include "core/yaml.hpp"
+#include "estimator/npz/npz.hpp"
+#include "logs/log/numbers_csv.hpp"
+#include "logs/log/packing.hpp"
+
+namespace touchdown::logs {
+
+namespace {
+
+constexpr std::size_t time_name = 0;
+constexpr std::size_t first_p = 1;
+constexpr std::size_t first_contact = 3;
+constexpr std::size_t needed = 3;
+
+const std::vector<std::string>& known_names() {
+  static const std::vector<std::string> names = {"time", "p_left", "p_right", "contact_left",
+                                                 "contact_right"};
+  return names;
+}
+
+constexpr const char* expected_names =
+    "expected time, p_left, p_right and, for decisions, contact_left and contact_right";
+
+/// The error of a value under one of the known names; empty if the value is valid.
+std::string complaint(std::size_t name, double value, double last_time) {
+  if (name == time_name) {
+    if (!std::isfinite(value)) return fmt::format("{}: expected a time in seconds", value);
+    if (value > last_time) return {};
+    return fmt::format("{}: expected a time after the one before, {}", value, last_time);
+  }
+  if (name < first_contact) {
+    if (value >= 0.0 && value <= 1.0) return {};
+    return fmt::format("{}: expected a probability from 0 to 1", value);
+  }
+  if (value == 0.0 || value == 1.0) return {};
+  return fmt::format("{}: expected 1 for contact or 0 for none", value);
+}
+
+}  // namespace
+
+std::string Beliefs::place(std::size_t index) const {
+  if (index < line.size()) return fmt::format("{}:{}", file, line[index]);
+  return fmt::format("{}: belief {}", file, index);
+}
+
+std::optional<ColumnError> BeliefColumns::set_names(std::span<const std::string> names) {
+  const std::vector<std::string>& known = known_names();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::find(known.begin(), known.end(), names[i]) == known.end()) {
+      return ColumnError{i, fmt::format("unknown name '{}'{}: {}", names[i],
+                                        did_you_mean(names[i], known), expected_names)};
+    }
+    if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
+        names.begin() + static_cast<std::ptrdiff_t>(i)) {
+      return ColumnError{i, fmt::format("'{}' appears twice", names[i])};
+    }
+  }
+  names_.assign(names.begin(), names.end());
+  const auto has = [&](std::size_t name) {
+    return std::find(names.begin(), names.end(), known[name]) != names.end();
+  };
+  decides_ = has(first_contact) || has(first_contact + 1);
+  for (std::size_t name = 0; name < (decides_ ? known.size() : needed); ++name) {
+    if (!has(name)) {
+      return ColumnError{names.size(),
+                         fmt::format("'{}' is missing: {}", known[name], expected_names)};
+    }
+    column_[name] = static_cast<std::size_t>(std::find(names.begin(), names.end(), known[name]) -
+                                             names.begin());
+  }
+  return std::nullopt;
+}
+
+std::optional<ColumnError> BeliefColumns::add(std::span<const double> values) {
+  const double last = beliefs.time.empty() ? -HUGE_VAL : beliefs.time.back();
+  for (std::size_t name = 0; name < (decides_ ? known_names().size() : needed); ++name) {
+    const std::size_t column = column_[name];
+    const std::string what = complaint(name, values[column], last);
+    if (!what.empty()) return ColumnError{column, fmt::format("{}: {}", names_[column], what)};
+  }
+  beliefs.time.push_back(values[column_[time_name]]);
+  for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+    const double p = values[column_[first_p + wheel]];
+    const bool contact = decides_ ? values[column_[first_contact + wheel]] != 0.0 : p >= 0.5;
+    beliefs.p_contact[wheel].push_back(p);
+    beliefs.contact[wheel].push_back(std::uint8_t{contact});
+  }
+  return std::nullopt;
+}
+
+Beliefs read_belief_csv(const std::filesystem::path& path) {
+  BeliefColumns columns;
+  columns.beliefs.file = path.string();
+  read_numbers_csv(path,
+                   {[&](std::span<const std::string> names) { return columns.set_names(names); },
+                    [&](std::span<const double> values, std::size_t line) {
+                      std::optional<ColumnError> wrong = columns.add(values);
+                      if (!wrong) columns.beliefs.line.push_back(line);
+                      return wrong;
+                    }});
+  if (columns.beliefs.size() == 0) {
+    throw InputError(fmt::format("{}:1:1: holds no beliefs", path.string()));
+  }
+  return std::move(columns.beliefs);
+}
+
+Beliefs read_belief_npz(const std::filesystem::path& path) {
+  const std::vector<std::string> names = npz_names(path);
+  BeliefColumns columns;
+  columns.beliefs.file = path.string();
+  if (const std::optional<ColumnError> wrong = columns.set_names(names)) {
+    throw InputError(fmt::format("{}: {}", path.string(), wrong->what));
+  }
+  const ModelArrays arrays = read_npz(path);
+  const std::size_t steps = arrays.at("time").data.size();
+  for (const auto& [name, array] : arrays) {
+    if (array.shape.size() == 1 && array.data.size() == steps) continue;
+    throw InputError(fmt::format("{}: {}: expected one axis of {}, the steps of 'time'",
+                                 path.string(), name, steps));
+  }
+  if (steps == 0) throw InputError(fmt::format("{}: holds no beliefs", path.string()));
+  std::vector<double> values(names.size());
+  for (std::size_t step = 0; step < steps; ++step) {
+    for (std::size_t i = 0; i < names.size(); ++i) values[i] = arrays.at(names[i]).data[step];
+    if (const std::optional<ColumnError> wrong = columns.add(values)) {
+      throw InputError(fmt::format("{}: index {}: {}", path.string(), step, wrong->what));
+    }
+  }
+  return std::move(columns.beliefs);
+}
+
+namespace {
+
+/// Far more than beliefs need. A header that announces more is rejected.
+const msgpack::unpack_limit limits(64, 64, 1024, 1024, 1024, 4);
+
+std::optional<double> number_of(const msgpack::object& value) {
+  switch (value.type) {
+    case msgpack::type::BOOLEAN:
+      return value.via.boolean ? 1.0 : 0.0;
+    case msgpack::type::POSITIVE_INTEGER:
+      return static_cast<double>(value.via.u64);
+    case msgpack::type::NEGATIVE_INTEGER:
+      return static_cast<double>(value.via.i64);
+    case msgpack::type::FLOAT32:
+    case msgpack::type::FLOAT64:
+      return value.via.f64;
+    default:
+      return std::nullopt;
+  }
+}
+
+/// Reads one dictionary after the other. All must have the names of the first.
+class DictionaryReader {
+ public:
+  explicit DictionaryReader(const std::filesystem::path& path) {
+    columns_.beliefs.file = path.string();
+  }
+
+  [[noreturn]] void complain(const std::string& what) const {
+    throw InputError(
+        fmt::format("{}: dictionary {}: {}", columns_.beliefs.file, columns_.beliefs.size(), what));
+  }
+
+  void take(const msgpack::object& object) {
+    if (object.type != msgpack::type::MAP) complain("expected a dictionary");
+    const std::span entries(object.via.map.ptr, object.via.map.size);
+    std::vector<std::string> names;
+    for (const msgpack::object_kv& entry : entries) {
+      if (entry.key.type != msgpack::type::STR) complain("expected names for keys");
+      names.emplace_back(entry.key.via.str.ptr, entry.key.via.str.size);
+    }
+    if (names_.empty() || names != names_) {
+      if (!names_.empty() && sorted(names) != sorted(names_)) {
+        complain(fmt::format("expected the names of the first: {}", fmt::join(names_, ", ")));
+      }
+      check(columns_.set_names(names));
+      names_ = names;
+    }
+    std::vector<double> values;
+    for (const msgpack::object_kv& entry : entries) {
+      const std::optional<double> number = number_of(entry.val);
+      if (!number) complain(names[values.size()] + ": expected a number");
+      values.push_back(*number);
+    }
+    check(columns_.add(values));
+  }
+
+  Beliefs finish() {
+    if (columns_.beliefs.size() == 0) {
+      throw InputError(fmt::format("{}: holds no beliefs", columns_.beliefs.file));
+    }
+    return std::move(columns_.beliefs);
+  }
+
+ private:
+  static std::vector<std::string> sorted(std::vector<std::string> names) {
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+  void check(const std::optional<ColumnError>& wrong) const {
+    if (wrong) complain(wrong->what);
+  }
+
+  BeliefColumns columns_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace
+
+Beliefs read_belief_mpack(const std::filesystem::path& path) {
+  require_file(path);
+  const std::string bytes = read_file(path);
+  DictionaryReader reader(path);
+  std::size_t offset = 0;
+  while (offset < bytes.size()) {
+    msgpack::object_handle handle;
+    try {
+      handle = msgpack::unpack(bytes.data(), bytes.size(), offset, nullptr, nullptr, limits);
+    } catch (const msgpack::insufficient_bytes&) {
+      reader.complain("is cut off");
+    } catch (const msgpack::unpack_error&) {
+      reader.complain(fmt::format("is not a MessagePack dictionary of beliefs (byte {})", offset));
+    }
+    reader.take(handle.get());
+  }
+  return reader.finish();
+}
+
+Beliefs read_beliefs(const std::filesystem::path& path) {
+  const std::filesystem::path extension = path.extension();
+  if (extension == ".csv") return read_belief_csv(path);
+  if (extension == ".npz") return read_belief_npz(path);
+  if (extension == ".mpack") return read_belief_mpack(path);
+  throw InputError(fmt::format("{}: expected the extension .csv, .npz or .mpack", path.string()));
+}
+
+}  // namespace touchdown::logs

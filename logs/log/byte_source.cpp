@@ -1,0 +1,83 @@
+#include "logs/log/byte_source.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <memory>
+#include <poll.h>
+#include <string_view>
+#include <unistd.h>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/resources.hpp"
+
+namespace touchdown::logs {
+
+namespace {
+
+struct Descriptor {
+  int number;
+  explicit Descriptor(int descriptor) : number(descriptor) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (number > STDIN_FILENO) ::close(number);
+  }
+};
+
+/// Waits until bytes are available or `stop` is true. Each wait is short, since a signal may arrive
+/// right before it.
+void wait_for_bytes(int descriptor, const std::atomic<bool>& stop) {
+  constexpr int milliseconds = 100;
+  pollfd wait{descriptor, POLLIN, 0};
+  while (!stop && ::poll(&wait, 1, milliseconds) == 0) {
+  }
+}
+
+/// Whether a path stands for a descriptor of this process, such as a shell's <(…): to open it does
+/// not wait, as it does for a pipe with a name.
+bool is_opened_already(std::string_view name) {
+  return name == "/dev/stdin" || name.starts_with("/dev/fd/") || name.starts_with("/proc/self/fd/");
+}
+
+}  // namespace
+
+ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool>* stop) {
+  const std::string name = path.string();
+  if (is_folder(path)) {
+    throw InputError(fmt::format(
+        "{}: is a folder, expected a log; `touchdown estimate`, `check` and `export` read a ROS 2 "
+        "bag with --mapping FILE.yaml",
+        name));
+  }
+  if (name != "-" && !is_opened_already(name)) require_file(name);
+  const int opened =
+      name == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);  // NOLINT
+  if (opened < 0) complain_unreadable(name, {errno, std::generic_category()}, "opened");
+  const auto descriptor = std::make_shared<Descriptor>(opened);
+  return [descriptor, name, stop](std::span<char> buffer) {
+    while (true) {
+      if (stop != nullptr) wait_for_bytes(descriptor->number, *stop);
+      if (stop != nullptr && *stop) return std::size_t{0};
+      const ssize_t size = ::read(descriptor->number, buffer.data(), buffer.size());
+      if (size >= 0) return static_cast<std::size_t>(size);
+      if (errno == EINTR) continue;
+      complain_unreadable(name, {errno, std::generic_category()});
+    }
+  };
+}
+
+ByteSource memory_source(std::shared_ptr<const std::string> bytes, const std::atomic<bool>* stop) {
+  return [bytes = std::move(bytes), stop, given = std::size_t{0}](std::span<char> buffer) mutable {
+    if (stop != nullptr && *stop) return std::size_t{0};
+    const std::size_t count = bytes->copy(buffer.data(), buffer.size(), given);
+    given += count;
+    return count;
+  };
+}
+
+}  // namespace touchdown::logs

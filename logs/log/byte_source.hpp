@@ -1,0 +1,25 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace touchdown::logs {
+
+/// Reads the next bytes of a stream as soon as they are available. Fills the beginning of the span
+/// and returns the number of bytes; 0 at the end.
+using ByteSource = std::function<std::size_t(std::span<char>)>;
+
+/// A file, or standard input for "-". The stream ends within 0.1 s after `stop` becomes true, even
+/// while it waits for bytes. `stop` may be null, and must outlive the source. Errors: `InputError`
+/// when the file cannot be opened or read.
+ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool>* stop = nullptr);
+
+/// Bytes in memory. The stream ends once `stop`, as above, is true.
+ByteSource memory_source(std::shared_ptr<const std::string> bytes,
+                         const std::atomic<bool>* stop = nullptr);
+
+}  // namespace touchdown::logs

@@ -1,0 +1,153 @@
+#include "logs/log/contact_intervals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/table.hpp"
+#include "core/yaml.hpp"
+#include "logs/log/numbers_csv.hpp"
+
+namespace touchdown::logs {
+
+namespace {
+
+constexpr const char* expected_columns =
+    "expected start, end and contact, or start, end, left and right";
+
+/// Column of each number of an interval.
+struct IntervalColumns {
+  std::size_t start = 0, end = 0;
+  std::array<std::size_t, models::wheel_count> contact = {};
+};
+
+std::optional<ColumnError> find_columns(std::span<const std::string> names,
+                                        IntervalColumns& columns) {
+  static const std::vector<std::string> known = {"start", "end", "contact", "left", "right"};
+  std::array<std::optional<std::size_t>, 5> place;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto found = std::find(known.begin(), known.end(), names[i]);
+    if (found == known.end()) {
+      return ColumnError{i, fmt::format("unknown name '{}'{}: {}", names[i],
+                                        did_you_mean(names[i], known), expected_columns)};
+    }
+    auto& here = place.at(static_cast<std::size_t>(found - known.begin()));
+    if (here) return ColumnError{i, fmt::format("'{}' appears twice", names[i])};
+    here = i;
+  }
+  const bool is_of_both = place[2] && !place[3] && !place[4];
+  const bool is_of_each = !place[2] && place[3] && place[4];
+  if (!place[0] || !place[1] || !(is_of_both || is_of_each)) {
+    return ColumnError{names.size(), expected_columns};
+  }
+  columns = {*place[0], *place[1], {*place[is_of_both ? 2 : 3], *place[is_of_both ? 2 : 4]}};
+  return std::nullopt;
+}
+
+std::optional<ColumnError> interval_of(std::span<const double> values,
+                                       const IntervalColumns& columns, ContactInterval& interval) {
+  interval.start = values[columns.start];
+  interval.end = values[columns.end];
+  if (!std::isfinite(interval.start)) {
+    return ColumnError{columns.start, "start: expected a time in seconds"};
+  }
+  if (!(std::isfinite(interval.end) && interval.end > interval.start)) {
+    return ColumnError{columns.end, fmt::format("end: {}: expected a time after the start, {}",
+                                                interval.end, interval.start)};
+  }
+  for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+    const double value = values[columns.contact[wheel]];
+    if (value != 0.0 && value != 1.0) {
+      return ColumnError{columns.contact[wheel],
+                         fmt::format("{}: expected 1 for contact or 0 for none", value)};
+    }
+    interval.contact[wheel] = value == 1.0;
+  }
+  return std::nullopt;
+}
+
+/// The first interval that starts after a time.
+template <typename Intervals>
+auto first_after(Intervals& intervals, double time) {
+  return std::upper_bound(intervals.begin(), intervals.end(), time,
+                          [](double t, const ContactInterval& one) { return t < one.start; });
+}
+
+struct StartsBefore {
+  bool operator()(const ContactInterval& one, const ContactInterval& other) const {
+    return one.start < other.start;
+  }
+};
+/// In order of time, with rows of the file in any order.
+using OrderedIntervals = std::set<ContactInterval, StartsBefore>;
+
+/// Inserts an interval. Returns an error if it overlaps with another.
+std::optional<ColumnError> insert(const ContactInterval& interval, std::size_t start_column,
+                                  OrderedIntervals& intervals) {
+  const auto next = intervals.upper_bound(interval);
+  const ContactInterval* overlapping = nullptr;
+  if (next != intervals.end() && next->start < interval.end) overlapping = &*next;
+  if (next != intervals.begin() && std::prev(next)->end > interval.start) {
+    overlapping = &*std::prev(next);
+  }
+  if (overlapping != nullptr) {
+    return ColumnError{start_column,
+                       fmt::format("{} to {} overlaps with {} to {}", interval.start, interval.end,
+                                   overlapping->start, overlapping->end)};
+  }
+  intervals.insert(next, interval);
+  return std::nullopt;
+}
+
+}  // namespace
+
+const ContactInterval* ContactIntervals::at(double time) const {
+  const auto after = first_after(intervals, time);
+  if (after == intervals.begin()) return nullptr;
+  const ContactInterval& before = *std::prev(after);
+  return time < before.end ? &before : nullptr;
+}
+
+ContactIntervals read_contact_intervals(const std::filesystem::path& path) {
+  ContactIntervals read{path.string(), {}};
+  IntervalColumns columns;
+  OrderedIntervals intervals;
+  read_numbers_csv(
+      path, {[&](std::span<const std::string> names) { return find_columns(names, columns); },
+             [&](std::span<const double> values, std::size_t /*line*/) {
+               ContactInterval interval;
+               const std::optional<ColumnError> wrong = interval_of(values, columns, interval);
+               return wrong ? wrong : insert(interval, columns.start, intervals);
+             }});
+  read.intervals.assign(intervals.begin(), intervals.end());
+  if (read.intervals.empty()) {
+    throw InputError(fmt::format("{}:1:1: contains no contact interval", path.string()));
+  }
+  return read;
+}
+
+std::string to_csv(const ContactIntervals& intervals) {
+  Table table{{"start", "end", "left", "right"}, {}};
+  for (const ContactInterval& one : intervals.intervals) {
+    table.rows.push_back(
+        {exact(one.start), exact(one.end), one.contact[0] ? "1" : "0", one.contact[1] ? "1" : "0"});
+  }
+  return touchdown::to_csv(table);
+}
+
+std::vector<ContactIntervals> read_contact_intervals(const std::vector<std::string>& files,
+                                                     std::size_t logs) {
+  if (!files.empty() && files.size() != logs) {
+    throw InputError(fmt::format("labels: expected a file for each log, in their order: {} for {}",
+                                 files.size(), logs));
+  }
+  std::vector<ContactIntervals> all;
+  for (const std::string& file : files) all.push_back(read_contact_intervals(file));
+  return all;
+}
+
+}  // namespace touchdown::logs

@@ -1,0 +1,259 @@
+#include "logs/mapping/mapping_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace touchdown::logs {
+
+namespace {
+
+constexpr double degree = 3.14159265358979323846 / 180.0;
+constexpr double turn = 360.0 * degree;
+constexpr double standard_gravity = 9.80665;
+constexpr double largest_zero = 1e6;  // rad, of an encoder that counts turns
+
+/// Reads a single value or a list.
+template <typename T>
+KeyNotes one_or_more(Fields& fields, const std::string& key, std::vector<T>& values) {
+  const YAML::Node given = fields.node()[key];
+  if (given && given.IsSequence()) return fields(key, values);
+  values.assign(1, T{});
+  return fields(key, values.front());
+}
+
+double unit_of(Fields& fields, const std::vector<Unit>& units) {
+  if (units.empty()) return 1.0;
+  std::vector<std::string> names;
+  for (const Unit& unit : units) names.push_back(unit.name);
+  std::size_t index = 0;
+  fields.choose("unit", names, index).doc("Unit of the log's numbers.");
+  return units[index].size;
+}
+
+/// Lists the first few names of a log, for messages.
+std::string some_of(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 8;
+  const auto shown = std::span(names).first(std::min(names.size(), most));
+  return fmt::format(" (it has {}{})", fmt::join(shown, ", "), names.size() > most ? ", …" : "");
+}
+
+/// The numbers of a signal are columns of one array (the first ones, unless `index` selects
+/// others), or come from one array each.
+std::vector<SourceColumn> columns_of_arrays(Fields& fields, const SignalKind& kind,
+                                            const std::vector<std::string>& from) {
+  const bool is_of_one = from.size() == 1;
+  fields.check(
+      is_of_one || from.size() == kind.count, "from",
+      fmt::format("expected an array with two axes, or {} with one: {}", kind.count, kind.what));
+  std::vector<int> index;
+  const bool is_given = fields.present("index", false);
+  if (is_given) {
+    one_or_more(fields, "index", index)
+        .type("whole number or list of whole numbers")
+        .range("≥ 0")
+        .fallback("the first ones")
+        .doc("Columns of an array with two axes, from 0; only in `.npz` files.");
+    if (fields.documenting()) return {};
+    fields.check(index.size() == kind.count, "index",
+                 fmt::format("expected {} of the array's columns: {}", kind.count, kind.what));
+    fields.check(std::all_of(index.begin(), index.end(), [](int i) { return i >= 0; }), "index",
+                 "columns count from 0");
+  } else if (is_of_one && kind.count > 1) {
+    index.resize(kind.count);
+    std::iota(index.begin(), index.end(), 0);
+  }
+  std::vector<SourceColumn> columns;
+  for (std::size_t i = 0; i < kind.count; ++i) {
+    SourceColumn& column = columns.emplace_back(SourceColumn{from[is_of_one ? 0 : i]});
+    if (!index.empty()) column.index = static_cast<std::size_t>(index[i]);
+  }
+  return columns;
+}
+
+}  // namespace
+
+std::vector<Unit> angles() { return {{"rad", 1.0}, {"deg", degree}, {"rev", turn}}; }
+
+std::vector<Unit> speeds() {
+  return {{"rad/s", 1.0}, {"deg/s", degree}, {"rev/s", turn}, {"rpm", turn / 60.0}};
+}
+
+std::vector<Unit> turn_rates() { return {{"rad/s", 1.0}, {"deg/s", degree}}; }
+
+std::vector<Unit> torques() { return {{"Nm", 1.0}, {"mNm", 1e-3}}; }
+
+std::vector<Unit> accelerations() { return {{"m/s^2", 1.0}, {"g", standard_gravity}}; }
+
+void expect_keys(Fields& fields, std::initializer_list<const char*> keys) {
+  for (const char* key : keys) fields.know(key);
+  fields.finish();
+}
+
+KeyNotes number_for_each(Fields& fields, const std::string& key, std::size_t count,
+                         std::vector<double>& values) {
+  if (!fields.present(key, false)) return {};
+  const KeyNotes notes = one_or_more(fields, key, values);
+  if (values.size() == 1) values.resize(count, values.front());
+  fields.check(values.size() == count, key, fmt::format("expected a number, or {}", count));
+  return notes.type(count == 1 ? "number" : fmt::format("number or list of {}", count));
+}
+
+KeyNotes sign_for_each(Fields& fields, std::size_t count, std::vector<double>& signs) {
+  const KeyNotes notes =
+      number_for_each(fields, "sign", count, signs).range("1 or -1").fallback("1");
+  for (const double sign : signs) {
+    fields.check(std::abs(sign) == 1.0, "sign", "expected 1 or -1");
+  }
+  return notes;
+}
+
+void MappingReader::enter(std::string_view section) {
+  const bool has_own = std::any_of(sources_.begin(), sources_.end(),
+                                   [&](const auto& source) { return source.section == section; });
+  section_ = has_own || section.empty() ? section : "joints";
+  first_ = 0;
+  while (!is_entered(first_)) ++first_;
+}
+
+void MappingReader::leave_source() {
+  only_.reset();
+  enter(section_);
+}
+
+KeyNotes MappingReader::require(Fields& fields, std::string_view key, const SignalKind& kind,
+                                MappedSignal& signal) {
+  if (!kind.names.empty() && !fields.present(key, false)) {
+    take_default(fields, key, kind, signal);
+    return {};
+  }
+  if (kind.names.empty()) fields.require(key);
+  return fields.within(key, [&](Fields& inner) { describe_signal(inner, kind, signal); });
+}
+
+KeyNotes MappingReader::optional(Fields& fields, std::string_view key, const SignalKind& kind,
+                                 std::optional<MappedSignal>& signal) {
+  if (!fields.present(key, false)) return {};
+  MappedSignal& value = signal.emplace();
+  return fields.within(key, [&](Fields& inner) { describe_signal(inner, kind, value); })
+      .fallback("none");
+}
+
+void MappingReader::take_default(const Fields& fields, std::string_view key, const SignalKind& kind,
+                                 MappedSignal& signal) {
+  for (std::size_t i = 0; i < kind.names.size(); ++i) {
+    const SourceColumn column{kind.names[i], {}, source_of(fields, key, kind.names[i])};
+    signal.numbers.push_back(
+        {take(fields, key, column), kind.signs.empty() ? 1.0 : kind.signs[i], 0.0});
+  }
+}
+
+void MappingReader::describe_signal(Fields& fields, const SignalKind& kind, MappedSignal& signal) {
+  if (names().are_arrays) fields.know("index");
+  if (kind.has_zero) fields.know("zero");
+  if (!kind.units.empty()) fields.know("unit");
+  expect_keys(fields, {"from", "sign", "scale"});
+  const bool has_from = kind.names.empty() || fields.present("from", false);
+  if (kind.names.empty()) fields.require("from");
+  std::vector<SourceColumn> columns;
+  if (has_from) {
+    columns = columns_of(fields, kind);
+  } else {
+    for (const std::string& name : kind.names) {
+      columns.push_back({name, {}, source_of(fields, "", name)});
+    }
+  }
+  std::vector<double> sign;
+  sign_for_each(fields, kind.count, sign).doc("Sign of all numbers, or of each.");
+  if (sign.empty()) sign = kind.signs;
+  std::vector<double> scale;
+  number_for_each(fields, "scale", kind.count, scale)
+      .range("above 0")
+      .fallback("1")
+      .doc("Factor of all numbers, or of each: a gear ratio, or a torque constant (N·m/A).");
+  for (const double one : scale) {
+    fields.check(std::isfinite(one) && one > 0.0, "scale",
+                 "expected a number above 0; a reversed direction is a 'sign' of -1");
+  }
+  std::vector<double> zero;
+  if (kind.has_zero) {
+    number_for_each(fields, "zero", kind.count, zero)
+        .doc("rad", "The log's position where touchdown's is zero.");
+  }
+  for (const double one : zero) {
+    fields.check(std::abs(one) <= largest_zero, "zero",
+                 fmt::format("expected an angle from -{0} to {0} rad", largest_zero));
+  }
+  signal.unit = unit_of(fields, kind.units);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    signal.numbers.push_back({take(fields, "from", columns[i]), sign.empty() ? 1.0 : sign[i],
+                              zero.empty() ? 0.0 : zero[i]});
+    if (!scale.empty()) signal.numbers.back().scale = scale[i];
+  }
+}
+
+std::vector<SourceColumn> MappingReader::columns_of(Fields& fields, const SignalKind& kind) const {
+  std::vector<std::string> from;
+  one_or_more(fields, "from", from)
+      .type(kind.count == 1 ? "text" : "text or list of texts")
+      .doc(fmt::format("Columns or arrays: {}.", kind.what));
+  std::vector<std::size_t> source;
+  for (const std::string& name : from) source.push_back(source_of(fields, "from", name));
+  if (names().are_arrays) {
+    std::vector<SourceColumn> columns = columns_of_arrays(fields, kind, from);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      columns[i].source = source[source.size() == 1 ? 0 : i];
+    }
+    return columns;
+  }
+  fields.check(from.size() == kind.count, "from",
+               fmt::format("expected {} of the names of columns: {}", kind.count, kind.what));
+  std::vector<SourceColumn> columns;
+  for (std::size_t i = 0; i < from.size(); ++i) columns.push_back({from[i], {}, source[i]});
+  return columns;
+}
+
+bool MappingReader::is_entered(std::size_t source) const {
+  if (only_) return source == *only_;
+  return section_.empty() || sources_[source].section.empty() ||
+         sources_[source].section == section_;
+}
+
+std::size_t MappingReader::source_of(const Fields& fields, std::string_view key,
+                                     const std::string& name) const {
+  const char* what = names().are_arrays ? "array" : "column";
+  std::optional<std::size_t> found;
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    if (!is_entered(i)) continue;
+    const SourceNames& source = sources_[i];
+    const auto count = std::count(source.names.begin(), source.names.end(), name);
+    fields.check(count < 2, key, fmt::format("{} has {} columns '{}'", source.file, count, name));
+    fields.check(count == 0 || !found, key,
+                 fmt::format("{} and {} have a column '{}'", sources_[found.value_or(0)].file,
+                             source.file, name));
+    if (count == 1) found = i;
+    known.insert(known.end(), source.names.begin(), source.names.end());
+  }
+  if (found) return *found;  // a hint compares the name with every column
+  std::string hint = did_you_mean(name, known);
+  if (hint.empty()) hint = some_of(known);
+  fields.check(false, key, fmt::format("{} has no {} '{}'{}", names().file, what, name, hint));
+  return 0;
+}
+
+std::size_t MappingReader::take(const Fields& fields, std::string_view key,
+                                const SourceColumn& column) {
+  std::vector<SourceColumn>& columns = mapping_.columns;
+  const bool is_new = std::find(columns.begin(), columns.end(), column) == columns.end();
+  fields.check(is_new, key,
+               fmt::format("'{}'{} is mapped already", column.name,
+                           column.index ? fmt::format(" index {}", *column.index) : ""));
+  columns.push_back(column);
+  return columns.size() - 1;
+}
+
+}  // namespace touchdown::logs

@@ -1,0 +1,303 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "estimator/signal_bounds.hpp"
+#include "logs/plausibility/rules.hpp"
+#include "logs/sample_times.hpp"
+
+namespace touchdown::logs {
+
+namespace {
+
+constexpr std::int64_t least_records = 300;  // a third of a second at 1 kHz
+
+std::string throughout(std::string_view channel, double value) {
+  // 0 is added to show −0 as 0.
+  return fmt::format("{} is {:.6g} throughout: is the sensor dead, or the column empty", channel,
+                     value + 0.0);
+}
+
+}  // namespace
+
+void ConstantChannels::Channel::add(double value) {
+  if (!std::isfinite(value)) {
+    ++missing;
+    return;
+  }
+  if (count == 0) first = value;
+  ++count;
+  sum_of_sizes += std::abs(value);
+  changes = changes || value != first;
+}
+
+bool ConstantChannels::Channel::is_constant() const { return count >= least_records && !changes; }
+
+void ConstantChannels::add(const models::Observation& record) {
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    joints_[i].position.add(record.servo[i].position);
+    joints_[i].velocity.add(record.servo[i].velocity);
+    joints_[i].torque.add(record.servo[i].torque);
+  }
+  const Eigen::Quaterniond& q = record.imu.orientation;
+  const std::array<double, 4> orientation = {q.w(), q.x(), q.y(), q.z()};
+  for (std::size_t i = 0; i < 4; ++i) orientation_[i].add(orientation[i]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    angular_velocity_[i].add(record.imu.angular_velocity[axis]);
+    linear_acceleration_[i].add(record.imu.linear_acceleration[axis]);
+  }
+}
+
+/// Bad sensors drop out for a thousandth of the time (noise/profiles/harsh.yaml).
+void ConstantChannels::report_missing(std::string_view subject, const char* channel,
+                                      const Channel& of_log, Findings& findings) {
+  constexpr double most = 0.02;
+  const double share =
+      static_cast<double>(of_log.missing) / static_cast<double>(of_log.count + of_log.missing);
+  if (!(share > most)) return;
+  findings.add(subject, share == 1.0 ? fmt::format("{}is never a finite number", channel)
+                                     : fmt::format("{}is missing in {:.0f} % of the records",
+                                                   channel, 100.0 * share));
+}
+
+bool ConstantChannels::lacks_hips() const {
+  constexpr std::size_t right = 3;
+  return joints_[0].is_zero() && joints_[right].is_zero();
+}
+
+void ConstantChannels::report_joint(std::size_t servo, Findings& findings) const {
+  const Joint& joint = joints_[servo];
+  const std::string_view name = models::servo_names.at(servo);
+  report_missing(name, "position ", joint.position, findings);
+  report_missing(name, "velocity ", joint.velocity, findings);
+  report_missing(name, "torque ", joint.torque, findings);
+  if (servo % 3 == 0 && lacks_hips()) return;
+  if (joint.torque.is_constant()) findings.add(name, throughout("torque", joint.torque.first));
+  constexpr double moved = 0.1;  // rad/s, mean of its size
+  const bool reports_motion =
+      joint.velocity.sum_of_sizes > moved * static_cast<double>(joint.velocity.count);
+  if (joint.position.is_constant() && reports_motion) {
+    findings.add(name, throughout("position", joint.position.first));
+  }
+  if (joint.velocity.is_constant() && !joint.position.is_constant()) {
+    findings.add(name, throughout("velocity", joint.velocity.first));
+  }
+}
+
+void ConstantChannels::report_vector(const char* name, const std::array<Channel, 3>& axes,
+                                     Findings& findings) {
+  report_missing(name, "", axes[0], findings);
+  const bool all =
+      std::all_of(axes.begin(), axes.end(), [](const Channel& axis) { return axis.is_constant(); });
+  if (all) {
+    findings.add(name, fmt::format("is {:.6g} {:.6g} {:.6g} throughout: is the sensor dead, or the "
+                                   "column empty",
+                                   axes[0].first + 0.0, axes[1].first + 0.0, axes[2].first + 0.0));
+    return;
+  }
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    if (axes[i].is_constant()) {
+      findings.add(fmt::format("{} {}", name, "xyz"[i]), throughout("it", axes[i].first));
+    }
+  }
+}
+
+void ConstantChannels::report(Findings& findings) const {
+  for (std::size_t servo = 0; servo < joints_.size(); ++servo) report_joint(servo, findings);
+  report_vector("angular_velocity", angular_velocity_, findings);
+  report_vector("linear_acceleration", linear_acceleration_, findings);
+  report_missing("orientation", "", orientation_[0], findings);
+  if (std::all_of(orientation_.begin(), orientation_.end(),
+                  [](const Channel& part) { return part.is_constant(); })) {
+    findings.add("orientation", "never changes: is the sensor dead, or the column empty");
+  }
+}
+
+namespace {
+
+/// Joints are zeroed by hand, to a few hundredths of a radian, and give at their stops.
+constexpr double margin = 0.3;  // rad
+/// Upkie's knees, which bend furthest: ±2.51 rad. Legs of other robots count from Upkie's zero,
+/// the straight leg, so they stay within the same half turn.
+constexpr JointRange half_turn = {-2.51, 2.51};
+
+constexpr double degrees_per_radian = 57.296;
+
+constexpr SignalBounds bounds;
+constexpr double largest_of_quaternion = 1e3;  // of each part; some drivers do not normalise
+
+bool is_within(const JointRange& inner, const JointRange& outer, double unit) {
+  return inner.lowest >= unit * (outer.lowest - margin) &&
+         inner.highest <= unit * (outer.highest + margin);
+}
+
+}  // namespace
+
+models::Observation SensorRangeCheck::add(const models::Observation& record) {
+  models::Observation usable = record;
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    models::ServoReading& servo = usable.servo[i];
+    const bool is_wheel = i % 3 == 2;
+    check(servo.position, is_wheel ? bounds.wheel_position : bounds.leg_position, record.time,
+          joints_[i].position);
+    check(servo.velocity, bounds.velocity, record.time, joints_[i].velocity);
+    check(servo.torque, bounds.torque, record.time, joints_[i].torque);
+  }
+  models::ImuReading& imu = usable.imu;
+  for (double& part : imu.orientation.coeffs()) {
+    check(part, largest_of_quaternion, record.time, orientation_);
+  }
+  for (double& axis : imu.angular_velocity) {
+    check(axis, bounds.angular_velocity, record.time, angular_velocity_);
+  }
+  for (double& axis : imu.linear_acceleration) {
+    check(axis, bounds.acceleration, record.time, linear_acceleration_);
+  }
+  for (double& axis : imu.raw_linear_acceleration) {
+    check(axis, bounds.acceleration, record.time, proper_acceleration_);
+  }
+  return usable;
+}
+
+void SensorRangeCheck::check(double& value, double largest, double time, Beyond& beyond) {
+  if (!std::isfinite(value) || std::abs(value) <= largest) return;
+  if (beyond.count++ == 0) {
+    beyond.first = value;
+    beyond.time = time;
+  }
+  value = std::numeric_limits<double>::quiet_NaN();
+}
+
+void SensorRangeCheck::report(Findings& findings) const {
+  const auto add = [&](std::string_view subject, const char* channel, const char* unit,
+                       double largest, const Beyond& beyond) {
+    if (beyond.count == 0) return;
+    findings.add(subject,
+                 fmt::format("{}is {:.3g}{} at {:.6g} s{}, beyond any sensor's {:.0f}{}: is it a "
+                             "fault of the bus, or of the conversion",
+                             channel, beyond.first, unit, beyond.time,
+                             beyond.count == 1 ? "" : fmt::format(" (first of {})", beyond.count),
+                             largest, unit));
+  };
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const std::string_view name = models::servo_names.at(i);
+    const bool is_wheel = i % 3 == 2;
+    add(name, "position ", " rad", is_wheel ? bounds.wheel_position : bounds.leg_position,
+        joints_[i].position);
+    add(name, "velocity ", " rad/s", bounds.velocity, joints_[i].velocity);
+    add(name, "torque ", " N·m", bounds.torque, joints_[i].torque);
+  }
+  add("orientation", "", "", largest_of_quaternion, orientation_);
+  add("angular_velocity", "", " rad/s", bounds.angular_velocity, angular_velocity_);
+  add("linear_acceleration", "", " m/s²", bounds.acceleration, linear_acceleration_);
+  add("proper_acceleration", "", " m/s²", bounds.acceleration, proper_acceleration_);
+}
+
+JointRangeCheck::JointRangeCheck(const CheckedRobot& robot) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  range_.fill(half_turn);
+  if (robot.ranges) range_ = *robot.ranges;
+  found_.fill({infinity, -infinity});
+}
+
+void JointRangeCheck::add(const models::Observation& record) {
+  for (std::size_t i = 0; i < found_.size(); ++i) {
+    const double position = record.servo[i].position;
+    if (position < found_[i].lowest) found_[i].lowest = position;
+    if (position > found_[i].highest) found_[i].highest = position;
+  }
+}
+
+bool JointRangeCheck::report(Findings& findings) const {
+  bool are_within = true;
+  for (std::size_t i = 0; i < found_.size(); ++i) {
+    const bool is_wheel = i % 3 == 2;
+    if (is_wheel || found_[i].lowest > found_[i].highest) continue;
+    if (is_within(found_[i], range_[i], 1.0)) continue;
+    are_within = false;
+    const bool fits_degrees = is_within(found_[i], range_[i], degrees_per_radian);
+    findings.add(models::servo_names.at(i),
+                 fmt::format("position leaves its range of {:.3g} to {:.3g} rad: {}",
+                             range_[i].lowest, range_[i].highest,
+                             fits_degrees ? "is it in degrees, or are joints in another order"
+                                          : "check its zero, its sign and the order of joints"));
+  }
+  return are_within;
+}
+
+namespace {
+
+constexpr std::size_t rate_window = 200;  // times
+/// A window of stamps that are rounded to a tick of 10 ms differs by 5 % at 1 kHz.
+constexpr double rate_difference = 0.1;
+constexpr double jump = 1.0;  // s
+
+std::string times(std::int64_t count) {
+  return count == 1 ? "once" : fmt::format("{} times", count);
+}
+
+}  // namespace
+
+void ClockCheck::add(double time) {
+  if (!std::isfinite(time)) return;
+  if (is_started_) {
+    const double step = time - previous_;
+    if (step == 0.0) ++repeated_;
+    if (step < 0.0) {
+      ++back_;
+      furthest_back_ = std::max(furthest_back_, -step);
+    }
+    if (step > jump) {
+      ++jumps_;
+      longest_jump_ = std::max(longest_jump_, step);
+    }
+    if (step < 0.0 || step > jump) window_.clear();
+  }
+  previous_ = time;
+  is_started_ = true;
+  window_.push_back(time);
+  if (window_.size() >= rate_window) end_window();
+}
+
+void ClockCheck::end_window() {
+  const double start = window_.front();
+  const double step = typical_step(window_).value_or(period_);
+  window_.clear();
+  ++windows_;
+  if (std::abs(step / period_ - 1.0) <= rate_difference) return;
+  if (other_rate_++ == 0) {
+    first_other_ = start;
+    other_step_ = step;
+  }
+}
+
+void ClockCheck::report(Findings& findings) const {
+  const auto add = [&](const std::string& finding) { findings.add("time", finding); };
+  if (other_rate_ > 0) {
+    add(
+        fmt::format("the rate changes: {:.4g} Hz at {:.3f} s, {:.4g} Hz at the beginning; {:.0f} % "
+                    "of the log have another rate: split it, or resample it",
+                    1.0 / other_step_, first_other_, nominal_rate(1.0 / period_),
+                    100.0 * static_cast<double>(other_rate_) / static_cast<double>(windows_)));
+  }
+  if (repeated_ > 0) {
+    add(
+        fmt::format("is that of the record before {}: a coarse clock, or records that were written "
+                    "twice",
+                    times(repeated_)));
+  }
+  if (back_ > 0) {
+    add(fmt::format("goes back {}, by up to {:.3g} s: sort the log, or split it", times(back_),
+                    furthest_back_));
+  }
+  if (jumps_ > 0) {
+    add(fmt::format("jumps {}, by up to {:.3g} s: recording was interrupted, or the clock was set",
+                    times(jumps_), longest_jump_));
+  }
+}
+
+}  // namespace touchdown::logs

@@ -1,0 +1,67 @@
+#include "logs/plausibility/check.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "logs/plausibility/rules.hpp"
+
+namespace touchdown::logs {
+
+void Findings::add(std::string_view subject, const std::string& finding) {
+  auto found = std::find_if(findings_.begin(), findings_.end(),
+                            [&](const Finding& one) { return one.text == finding; });
+  if (found == findings_.end()) found = findings_.insert(findings_.end(), {finding, {}});
+  found->subjects.emplace_back(subject);
+}
+
+std::vector<std::string> Findings::lines() const {
+  std::vector<std::string> lines;
+  for (const Finding& finding : findings_) {
+    lines.push_back(fmt::format("{}: {}", fmt::join(finding.subjects, ", "), finding.text));
+  }
+  return lines;
+}
+
+PlausibilityCheck::PlausibilityCheck(double period, const CheckedRobot& robot)
+    : windows_(period),
+      clock_(period),
+      joint_range_(robot),
+      load_(robot.legs.value_or(LegGeometry{}), robot.legs.has_value()) {}
+
+void PlausibilityCheck::add(const models::Observation& reported) {
+  clock_.add(reported.time);
+  constant_.add(reported);
+  // One value beyond its sensor's range would be the mean of a whole window.
+  const models::Observation record = sensor_range_.add(reported);
+  joint_range_.add(record);
+  const std::optional<CheckedWindow> window = windows_.add(record);
+  if (!window) return;
+  motion_.add(*window);
+  turning_.add(*window);
+  driving_.add(*window);
+  load_.add(*window);
+  if (const std::optional<CheckedWindow> stretch = still_.add(*window)) {
+    gravity_.add_still(*stretch);
+    load_.add_still(*stretch);
+  }
+}
+
+std::vector<std::string> PlausibilityCheck::findings() const {
+  Findings findings;
+  clock_.report(findings);
+  constant_.report(findings);
+  sensor_range_.report(findings);
+  const bool has_positions = joint_range_.report(findings);
+  motion_.report(findings);
+  turning_.report(findings);
+  const std::size_t before = findings.lines().size();
+  gravity_.report(findings);
+  driving_.report(findings, findings.lines().size() == before);
+  // A leg's load follows from its pose.
+  if (has_positions && !constant_.lacks_hips()) load_.report(findings, driving_.drives());
+  return findings.lines();
+}
+
+}  // namespace touchdown::logs

@@ -1,0 +1,290 @@
+#include "logs/bags/bag.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <set>
+#include <sqlite3.h>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "logs/bags/topic_rows.hpp"
+#include "tests/bag_writer.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::logs {
+namespace {
+
+namespace fs = std::filesystem;
+using test::TestBag;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+TestBag two_topics(std::size_t begin = 0, std::size_t end = 40) {
+  TestBag bag{{{"/a", "pkg/msg/A"}, {"/b", "pkg/msg/B"}}, {}};
+  for (std::size_t k = begin; k < end; ++k) {
+    bag.messages.push_back({k % 3 == 0 ? std::size_t{1} : std::size_t{0},
+                            static_cast<std::int64_t>(1000 + 10 * k),
+                            fmt::format("message {} {}", k, std::string(20 * (k % 7), 'x'))});
+  }
+  return bag;
+}
+
+struct ReadBag {
+  std::vector<std::string> messages;
+  std::vector<std::string> notes;
+  std::vector<BagTopic> topics;
+  std::string error;
+};
+
+ReadBag read_bag(const fs::path& path, const TopicFilter& wanted = {}) {
+  ReadBag result;
+  try {
+    BagReader reader(path, wanted);
+    BagMessage message;
+    while (reader.next(message)) {
+      result.messages.push_back(
+          fmt::format("{} {} {}", message.time, reader.topics()[message.topic].name, message.data));
+    }
+    result.notes = reader.notes();
+    result.topics = reader.topics();
+  } catch (const InputError& error) {
+    result.error = error.what();
+  }
+  return result;
+}
+
+std::vector<std::string> lines_of(const TestBag& bag) {
+  std::vector<std::string> all;
+  for (const auto& message : bag.messages) {
+    all.push_back(
+        fmt::format("{} {} {}", message.time, bag.topics[message.topic].name, message.data));
+  }
+  return all;
+}
+
+class Bag : public ::testing::Test {
+ protected:
+  fs::path write(const std::string& name, const std::string& bytes) const {
+    fs::path path = folder_ / name;
+    fs::create_directories(path.parent_path());
+    std::ofstream(path, std::ios::binary) << bytes;
+    return path;
+  }
+  fs::path write_db3(const std::string& name, const TestBag& bag, bool zstd = false,
+                     bool has_index = true) const {
+    fs::path path = folder_ / name;
+    fs::create_directories(path.parent_path());
+    test::write_db3(bag, path, zstd, has_index);
+    return path;
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(Bag, SqliteBagsOfAnyKindHaveTheSameMessages) {
+  const TestBag bag = two_topics();
+  int n = 0;
+  for (const bool zstd : {false, true}) {
+    for (const bool has_index : {false, true}) {
+      const fs::path path = write_db3(fmt::format("bag {}%20#?.db3", n++), bag, zstd, has_index);
+      const ReadBag result = read_bag(path);
+      EXPECT_EQ(result.error, "");
+      EXPECT_EQ(result.messages, lines_of(bag));
+      EXPECT_TRUE(result.notes.empty());
+      const fs::path whole =
+          write(path.filename().string() + ".zstd", test::zstd_compressed(read_file(path)));
+      EXPECT_EQ(read_bag(whole).messages, lines_of(bag));
+      EXPECT_EQ(read_bag(path, [](auto topic) { return topic == "/b"; }).messages.size(), 14U);
+    }
+  }
+}
+
+/// rosbag2 writes databases with a journal, which SQLite would open beside the bag.
+TEST_F(Bag, ASqliteBagIsReadWithoutAFileBesideIt) {
+  const TestBag bag = two_topics();
+  const fs::path path = write_db3("bag/bag.db3", bag);
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
+  const int changed =
+      sqlite3_exec(database, "PRAGMA journal_mode = WAL", nullptr, nullptr, nullptr);
+  EXPECT_EQ(changed, SQLITE_OK);
+  sqlite3_close(database);
+  EXPECT_EQ(read_bag(path).messages, lines_of(bag));
+  const auto files = fs::directory_iterator(path.parent_path());
+  EXPECT_EQ(std::distance(fs::begin(files), fs::end(files)), 1);
+}
+
+TEST_F(Bag, MessagesOfASqliteBagAreSortedByTime) {
+  TestBag bag = two_topics();
+  const std::vector<std::string> sorted = lines_of(bag);
+  std::reverse(bag.messages.begin(), bag.messages.end());
+  for (const bool has_index : {false, true}) {
+    EXPECT_EQ(
+        read_bag(write_db3(fmt::format("r{}.db3", has_index), bag, false, has_index)).messages,
+        sorted);
+  }
+}
+
+TEST_F(Bag, FilesOfAFolderAreReadInTheirOrder) {
+  const std::vector<std::string> all = lines_of(two_topics());
+  const std::string listed =
+      "rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: mcap\n"
+      "  relative_file_paths:\n";
+  // Without metadata, by number: 9 before 10. With it, as listed. Both kinds of names are met.
+  for (const char* metadata :
+       {"", "run_9.mcap run_10.mcap", "run/run_9.mcap run/run_10.mcap", "{{{"}) {
+    for (const bool is_compressed : {false, true}) {
+      const std::string name =
+          fmt::format("{}{}", fs::path(metadata).filename().string(), is_compressed);
+      const fs::path folder =
+          folder_ / ("f" + std::to_string(std::hash<std::string>()(metadata + name)));
+      const auto put = [&](const std::string& file, const std::string& bytes) {
+        fs::create_directories(folder);
+        std::ofstream(folder / (file + (is_compressed ? ".zstd" : "")), std::ios::binary)
+            << (is_compressed ? test::zstd_compressed(bytes) : bytes);
+      };
+      put("run_9.mcap", test::mcap_bytes(two_topics(0, 15)));
+      put("run_10.mcap", test::mcap_bytes(two_topics(15, 40), {"zstd"}));
+      const std::string files = metadata;
+      if (files == "{{{") {
+        std::ofstream(folder / "metadata.yaml") << files;
+      } else if (!files.empty()) {
+        const std::size_t space = files.find(' ');
+        std::ofstream(folder / "metadata.yaml") << listed << "    - " << files.substr(0, space)
+                                                << "\n    - " << files.substr(space + 1) << "\n";
+      }
+      SCOPED_TRACE(files);
+      const ReadBag result = read_bag(folder);
+      EXPECT_EQ(result.error, "");
+      EXPECT_EQ(result.messages, all);
+      EXPECT_TRUE(is_bag(folder));
+    }
+  }
+}
+
+TEST_F(Bag, AFileThatMetadataListsMustBeThere) {
+  write("bag/metadata.yaml",
+        "rosbag2_bagfile_information: {relative_file_paths: [a_0.mcap, a_1.mcap]}\n");
+  write("bag/a_0.mcap", test::mcap_bytes(two_topics()));
+  EXPECT_THAT(read_bag(folder_ / "bag").error,
+              AllOf(HasSubstr("metadata.yaml"), HasSubstr("a_1.mcap")));
+}
+
+TEST_F(Bag, OtherFilesAreRefusedWithARemedy) {
+  EXPECT_THAT(read_bag(write("old.bag", "#ROSBAG V2.0\nmore")).error,
+              AllOf(HasSubstr("ROS 1"), HasSubstr("rosbags-convert")));
+  EXPECT_THAT(read_bag(write("renamed.mcap", "#ROSBAG V2.0\nmore")).error,
+              HasSubstr("rosbags-convert"));
+  EXPECT_THAT(read_bag(write("empty.db3", "")).error, HasSubstr("empty"));
+  EXPECT_THAT(read_bag(write("text.mcap", "some text")).error, HasSubstr("no ROS 2 bag"));
+  EXPECT_THAT(read_bag(write("header.db3", "SQLite format 3\n")).error, HasSubstr("header.db3"));
+  EXPECT_THAT(read_bag(folder_ / "none.mcap").error, HasSubstr("no such file"));
+  fs::create_directories(folder_ / "folder");
+  EXPECT_THAT(read_bag(folder_ / "folder").error, HasSubstr("expected a ROS 2 bag"));
+  const std::string whole = test::zstd_compressed(test::mcap_bytes(two_topics()));
+  EXPECT_THAT(read_bag(write("cut.mcap.zstd", whole.substr(0, whole.size() / 2))).error,
+              HasSubstr("cut.mcap.zstd"));
+}
+
+/// A database without a bag's tables, or with something else of their names.
+TEST_F(Bag, OtherDatabasesAreRefused) {
+  const auto with = [&](const std::string& name, const std::string& sql) {
+    fs::path path = folder_ / name;
+    test::run_sql(path, sql);
+    return read_bag(path).error;
+  };
+  EXPECT_THAT(with("a.db3", "CREATE TABLE other(x)"), HasSubstr("no table 'topics'"));
+  EXPECT_THAT(with("b.db3", "CREATE TABLE topics(id, name, type, serialization_format)"),
+              HasSubstr("no table 'messages'"));
+  EXPECT_THAT(with("c.db3", "CREATE TABLE topics(x); CREATE TABLE messages(y)"),
+              HasSubstr("is no ROS 2 bag"));
+  EXPECT_THAT(
+      with(
+          "d.db3",
+          "CREATE TABLE topics(id, name, type, serialization_format); CREATE VIEW messages AS WITH "
+          "RECURSIVE n(topic_id, timestamp, data) AS (SELECT 1, 1, 1 UNION ALL SELECT 1, 1, 1 FROM "
+          "n) SELECT * FROM n"),
+      HasSubstr("no table 'messages'"));
+}
+
+TEST_F(Bag, ASqliteBagThatIsCutOffIsReadAsFarAsItIsWhole) {
+  const TestBag bag = two_topics(0, 2000);
+  const std::vector<std::string> all = lines_of(bag);
+  const std::set<std::string> known(all.begin(), all.end());
+  for (const bool has_index : {false, true}) {
+    const std::string bytes =
+        read_file(write_db3(fmt::format("w{}.db3", has_index), bag, false, has_index));
+    std::size_t most = 0;
+    for (std::size_t size = 100; size < bytes.size(); size += 1511) {
+      const ReadBag result = read_bag(write("cut.db3", bytes.substr(0, size)));
+      if (!result.error.empty()) {
+        EXPECT_THAT(result.error, HasSubstr("cut.db3"));
+        continue;
+      }
+      EXPECT_EQ(result.notes.size(), 1U) << size;
+      EXPECT_LE(result.messages.size(), all.size());
+      for (const std::string& one : result.messages) {
+        EXPECT_TRUE(known.contains(one));
+      }
+      most = std::max(most, result.messages.size());
+    }
+    EXPECT_GT(most, all.size() / 2);
+  }
+}
+
+TEST_F(Bag, MissingAndOtherTopicsAreRefusedWithTheBagsTopics) {
+  TestBag bag = two_topics();
+  bag.topics.push_back({"/joint_states", joint_state_type});
+  bag.messages.push_back({2, 5000, test::joint_state_cdr(0, {{"x"}, {1.0}, {}, {}})});
+  const fs::path path = write("bag.mcap", test::mcap_bytes(bag));
+  const auto complaint = [&](const std::string& topic) {
+    try {
+      (void)find_signal_topics(path, {topic});
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(complaint("/joint_states"), "none");
+  EXPECT_THAT(
+      complaint("/joint_state"),
+      AllOf(HasSubstr("did you mean '/joint_states'?"), HasSubstr("/a (pkg/msg/A, 26 messages)"),
+            HasSubstr("/joint_states (sensor_msgs/msg/JointState, 1 messages)")));
+  EXPECT_THAT(complaint("/b"), AllOf(HasSubstr("has the type 'pkg/msg/B'"),
+                                     HasSubstr("/b (pkg/msg/B, 14 messages)")));
+  EXPECT_EQ(only_topic_of_type(path, joint_state_type), "/joint_states");
+  EXPECT_THROW((void)only_topic_of_type(path, imu_type), InputError);
+}
+
+/// Bags that ROS 2 itself recorded.
+TEST_F(Bag, RealBagsAreRead) {
+  const fs::path bags = fs::path(TOUCHDOWN_REFERENCE_DATA) / "bags";
+  if (!fs::exists(bags)) GTEST_SKIP() << "needs the bags of rosbag2's tests in " << bags;
+  const auto counts = [&](const char* name) {
+    const ReadBag result = read_bag(bags / name);
+    EXPECT_EQ(result.error, "");
+    EXPECT_TRUE(result.notes.empty());
+    std::map<std::string, std::uint64_t> by_topic;
+    for (const BagTopic& topic : result.topics) {
+      if (topic.messages > 0) by_topic[topic.name + " " + topic.type] = topic.messages;
+    }
+    return by_topic;
+  };
+  EXPECT_EQ(counts("cdr_test.mcap"), counts("cdr_test.db3"));
+  EXPECT_EQ(counts("talker.mcap"), counts("talker.db3"));
+  EXPECT_FALSE(counts("talker.mcap").empty());
+  EXPECT_EQ(read_bag(bags / "seek.mcap").messages.size(), 5U);
+  EXPECT_GE(counts("topics_and_services.mcap").size(), 2U);
+}
+
+}  // namespace
+}  // namespace touchdown::logs

@@ -1,0 +1,96 @@
+#include "logs/log/contact_intervals.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::logs {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Intervals : public ::testing::Test {
+ protected:
+  ContactIntervals read(const std::string& text) {
+    return read_contact_intervals(folder_.write("a.csv", text));
+  }
+  std::string intervals_complaint(const std::string& text) {
+    try {
+      (void)read(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  }
+  const ScratchFolder folder_;
+};
+
+TEST_F(Intervals, AreReadInAnyOrderOfColumnsAndRows) {
+  const ContactIntervals both = read("contact, start ,end\n1,2.5,3\n\n0,1,2\r\ntrue,-1,0.5\n");
+  ASSERT_EQ(both.intervals.size(), 3U);
+  EXPECT_EQ(both.intervals[0].start, -1.0);
+  EXPECT_EQ(both.intervals[1].contact, (std::array<bool, 2>{false, false}));
+  EXPECT_EQ(both.intervals[2].end, 3.0);
+  const ContactIntervals each = read("start,end,right,left\n0,1,0,1\n");
+  EXPECT_EQ(each.intervals[0].contact, (std::array<bool, 2>{true, false}));
+}
+
+TEST_F(Intervals, HoldFromTheirStartUntilBeforeTheirEnd) {
+  const ContactIntervals some = read("start,end,contact\n0,1,1\n1,2,0\n5,6,1\n");
+  EXPECT_EQ(some.at(-0.001), nullptr);
+  EXPECT_TRUE(some.at(0.0)->contact[0]);
+  EXPECT_TRUE(some.at(0.999)->contact[1]);
+  EXPECT_FALSE(some.at(1.0)->contact[0]);
+  EXPECT_EQ(some.at(2.0), nullptr);
+  EXPECT_EQ(some.at(6.0), nullptr);
+  EXPECT_EQ(some.at(std::numeric_limits<double>::quiet_NaN()), nullptr);
+}
+
+TEST_F(Intervals, ThatAreWrongAreNamedByTheirPlace) {
+  const auto complaint = [&](const char* text, const char* expected) {
+    EXPECT_THAT(intervals_complaint(text), HasSubstr(expected)) << text;
+  };
+  complaint("", "a.csv:1:1: unknown name ''");
+  complaint("start,end,contact\n", "a.csv:1:1: contains no contact interval");
+  complaint("strat,end,contact\n", "a.csv:1:1: unknown name 'strat' (did you mean 'start'?)");
+  complaint("start,end\n0,1\n", "a.csv:1:7: expected start, end and contact, or");
+  complaint("start,end,contact,left\n0,1,1,1\n", "expected start, end and contact, or");
+  complaint("start,end,contact,end\n0,1,1,1\n", "a.csv:1:19: 'end' appears twice");
+  complaint("start,end,contact\n0,1,2\n", "a.csv:2:5: 2: expected 1 for contact or 0 for none");
+  complaint("start,end,contact\n0,0,1\n", "a.csv:2:3: end: 0: expected a time after the start");
+  complaint("start,end,contact\n0,nan,1\n", "a.csv:2:3: end: nan");
+  complaint("start,end,contact\n0,2,1\n1,3,0\n", "a.csv:3:1: 1 to 3 overlaps with 0 to 2");
+  complaint("start,end,contact\n1,3,0\n0,2,1\n", "a.csv:3:1: 0 to 2 overlaps with 1 to 3");
+  complaint("start,end,contact\n0,1\n", "a.csv:2:3: expected 3 values, found 2");
+  complaint("start,end,contact\n0,soon,1\n", "a.csv:2:3: expected a number, found 'soon'");
+}
+
+TEST_F(Intervals, OfSeveralLogsAreAFileForEachOrNone) {
+  const std::string file = folder_.write("a.csv", "start,end,contact\n0,1,1\n").string();
+  EXPECT_TRUE(read_contact_intervals(std::vector<std::string>{}, 3).empty());
+  EXPECT_EQ(read_contact_intervals({file, file}, 2).size(), 2U);
+  EXPECT_THROW((void)read_contact_intervals(std::vector<std::string>{file}, 2), InputError);
+}
+
+TEST_F(Intervals, OverlapIsFoundInAnyOrderOfRows) {
+  for (const char* const rows : {"0,1,1\n5,6,1\n0.5,2,0\n", "5,6,1\n0.5,2,0\n0,1,1\n",
+                                 "0,9,1\n5,6,1\n", "5,6,1\n0,9,1\n", "5,6,1\n5,6,1\n"}) {
+    EXPECT_THAT(intervals_complaint(std::string("start,end,contact\n") + rows),
+                HasSubstr("overlaps with"))
+        << rows;
+  }
+  std::string reversed = "start,end,contact\n";
+  for (int k = 3000; k > 0; --k) reversed += fmt::format("{},{}.5,{}\n", k, k, k % 2);
+  const ContactIntervals read_back = read(reversed);
+  ASSERT_EQ(read_back.intervals.size(), 3000U);
+  for (std::size_t k = 0; k < 3000; ++k) {
+    ASSERT_EQ(read_back.intervals[k].start, static_cast<double>(k + 1));
+    ASSERT_EQ(read_back.intervals[k].contact[0], (k + 1) % 2 == 1);
+  }
+}
+
+}  // namespace
+}  // namespace touchdown::logs

@@ -1,0 +1,686 @@
+#include "logs/mapping/conversion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "logs/log/reader.hpp"
+#include "logs/model_file.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::logs {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// The required signals. Optional ones can be appended behind `imu`.
+const std::string mapping_head = R"(time: {from: t}
+joints:
+  position: {from: [q0, q1, q2, q3, q4, q5]}
+  velocity: {from: [v0, v1, v2, v3, v4, v5]}
+  torque: {from: [m0, m1, m2, m3, m4, m5]}
+imu:
+  orientation: {from: [qw, qx, qy, qz]}
+  angular_velocity: {from: [gx, gy, gz]}
+  linear_acceleration: {from: [ax, ay, az]}
+)";
+const std::string names =
+    "t,q0,q1,q2,q3,q4,q5,v0,v1,v2,v3,v4,v5,m0,m1,m2,m3,m4,m5,qw,qx,qy,qz,gx,gy,gz,ax,ay,az";
+
+std::string row(const std::string& time) {
+  std::string text = time;
+  for (int i = 1; i <= 18; ++i) text += fmt::format(",{}.5", i);
+  return text + ",0,0,1,0,.1,.2,.3,1,2,3";
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return at == std::string::npos ? text : text.replace(at, what.size(), by);
+}
+
+class Conversion : public ::testing::Test {
+ protected:
+  std::vector<LogRow> convert(const std::string& csv, const std::string& mapping = mapping_head) {
+    return convert_file(folder_.write("log.csv", csv), mapping);
+  }
+  std::vector<LogRow> convert_file(const std::filesystem::path& log, const std::string& mapping) {
+    std::ostringstream stream;
+    converted_ = convert_log(log, folder_.write("map.yaml", mapping), stream);
+    LogReader reader(memory_source(std::make_shared<const std::string>(stream.str())), "log");
+    std::vector<LogRow> rows;
+    while (const std::optional<LogRow> next = reader.next()) rows.push_back(*next);
+    return rows;
+  }
+  std::string complaint(const std::string& csv, const std::string& mapping = mapping_head) {
+    return complaint_about(folder_.write("log.csv", csv), mapping);
+  }
+  std::string complaint_about(const std::filesystem::path& log, const std::string& mapping) {
+    try {
+      (void)convert_file(log, mapping);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  }
+  std::string mapping_complaint(const std::string& what, const std::string& by) {
+    return complaint(names + "\n" + row("0"), replaced(mapping_head, what, by));
+  }
+
+  const ScratchFolder folder_;
+  ConvertedLog converted_;
+};
+
+TEST_F(Conversion, NumbersOfARowAreThoseOfTheRecord) {
+  const auto rows = convert(names + "\n" + row("7.25") + "\n" + row("7.5") + "\n");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[1].observation.time, 0.25);  // a robot's log counts from its first record
+  const models::Observation& o = rows[0].observation;
+  EXPECT_EQ(o.servo[4].position, 5.5);
+  EXPECT_EQ(o.servo[4].velocity, 11.5);
+  EXPECT_EQ(o.servo[4].torque, 17.5);
+  EXPECT_EQ(o.imu.orientation.coeffs(), Eigen::Vector4d(0.0, 1.0, 0.0, 0.0));  // x y z w
+  EXPECT_EQ(o.imu.angular_velocity, Eigen::Vector3d(.1, .2, .3));
+  EXPECT_EQ(o.imu.linear_acceleration, Eigen::Vector3d(1.0, 2.0, 3.0));
+  EXPECT_FALSE(rows[0].truth);
+  EXPECT_EQ(rows[0].action.servo[2].velocity, 0.0);
+  EXPECT_EQ(converted_.rows, 2U);
+  EXPECT_EQ(converted_.start, 7.25);
+  EXPECT_EQ(converted_.end, 7.5);
+  EXPECT_EQ(converted_.incomplete_rows + converted_.time_reversals, 0U);
+}
+
+TEST_F(Conversion, TheResultIsARobotsLogWithoutOrigin) {
+  std::ostringstream stream;
+  const auto log = folder_.write("log.csv", names + "\n" + row("0") + "\n" + row("0.002") + "\n");
+  (void)convert_log(log, folder_.write("map.yaml", mapping_head), stream);
+  LogReader reader(memory_source(std::make_shared<const std::string>(stream.str())), "log");
+  EXPECT_EQ(reader.info().simulator, "");
+  EXPECT_EQ(reader.info().control_period_us, 2000);
+  EXPECT_EQ(stream.str().find("config"), std::string::npos);
+  EXPECT_EQ(stream.str().find("sim"), std::string::npos);
+}
+
+TEST_F(Conversion, WindowsLineEndsQuotesByteOrderMarkAndOtherColumnsAreNoMatter) {
+  std::string quoted = "\xef\xbb\xbf \"t\" ,\"a, \"\"b\"\"\",";
+  quoted += replaced(names.substr(2), "q3", "\"q3\"") + ",note\r\n";
+  const std::string text = quoted + "\"1.5\",\"x, y\"," + row("").substr(1) +
+                           ",\"see, there\"\r\n\r\n" + "2,," + row("").substr(1) + ",no number\r\n";
+  const auto rows = convert(text);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(converted_.start, 1.5);
+  EXPECT_EQ(rows[1].observation.time, 0.5);
+  EXPECT_EQ(rows[1].observation.servo[3].position, 4.5);
+  EXPECT_EQ(converted_.incomplete_rows, 0U);
+  EXPECT_THAT(complaint(quoted, replaced(mapping_head, "from: t", "from: 'a, \"b\"'")),
+              HasSubstr("holds no rows"));  // there is such a column
+}
+
+TEST_F(Conversion, WhatIsMissingIsNaNAndCounted) {
+  std::string text = names + "\n";
+  for (const char* time : {"", "1", "2", "3", "nan", "2.5"}) text += row(time) + "\n";
+  text = replaced(text, "\n1,1.5,", "\n1,,");
+  text = replaced(text, "\n2,1.5,", "\n2,NaN,");
+  text = replaced(text, "\n3,1.5,", "\n3,inf,");
+  const auto rows = convert(text);
+  ASSERT_EQ(rows.size(), 5U);  // what comes before the first time is left out, as in any log
+  EXPECT_TRUE(std::isnan(rows[0].observation.servo[0].position));
+  EXPECT_TRUE(std::isnan(rows[1].observation.servo[0].position));
+  EXPECT_TRUE(std::isinf(rows[2].observation.servo[0].position));
+  EXPECT_EQ(rows[2].observation.servo[1].position, 2.5);
+  EXPECT_TRUE(std::isnan(rows[3].observation.time));
+  EXPECT_EQ(rows[4].observation.time, 1.5);
+  EXPECT_EQ(converted_.rows, 6U);
+  EXPECT_EQ(converted_.incomplete_rows, 5U);
+  EXPECT_EQ(converted_.time_reversals, 1U);
+  EXPECT_EQ(converted_.start, 1.0);
+}
+
+TEST_F(Conversion, PeriodStandsForTimes) {
+  const auto rows = convert(names + "\n" + row("a") + "\n" + row("b") + "\n" + row("c") + "\n",
+                            replaced(mapping_head, "time: {from: t}", "period: 0.005"));
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[2].observation.time, 0.01);
+}
+
+TEST_F(Conversion, ClockThatSeemsToCountAnotherUnitIsRefusedAndAPauseIsNot) {
+  const auto log = [](std::initializer_list<const char*> times) {
+    std::string text = names + "\n";
+    for (const char* time : times) text += row(time) + "\n";
+    return text;
+  };
+  EXPECT_THAT(complaint(log({"0", "1", "2", "3"})),
+              HasSubstr("log.csv: most rows come more than 0.5 s after the one before: is time in "
+                        "ms, us or ns?"));
+  EXPECT_EQ(convert(log({"0", "0.01", "0.02", "7", "7.01", "7.02"})).size(), 6U);
+}
+
+TEST_F(Conversion, UnitsSignsAndZerosAreThoseOfTheMapping) {
+  std::string mapping = replaced(mapping_head, "from: t", "from: t, unit: us");
+  mapping = replaced(mapping, "q5]", "q5], unit: deg, sign: -1, zero: [0, 0, 0.5, 0, 0, 0]");
+  mapping = replaced(mapping, "v5]", "v5], unit: rev/s, sign: [1, 1, 1, -1, -1, -1]");
+  mapping = replaced(mapping, "m5]", "m5], unit: mNm");
+  mapping = replaced(mapping, "az]", "az], unit: g");
+  const auto rows = convert(names + "\n" + row("0") + "\n" + row("1e6") + "\n", mapping);
+  const models::Observation& o = rows.at(1).observation;
+  EXPECT_DOUBLE_EQ(o.time, 1.0);
+  EXPECT_DOUBLE_EQ(o.servo[1].position, -2.5 * M_PI / 180.0);
+  EXPECT_DOUBLE_EQ(o.servo[2].position, 0.5 - 3.5 * M_PI / 180.0);
+  EXPECT_DOUBLE_EQ(o.servo[2].velocity, 9.5 * 2.0 * M_PI);
+  EXPECT_DOUBLE_EQ(o.servo[3].velocity, -10.5 * 2.0 * M_PI);
+  EXPECT_DOUBLE_EQ(o.servo[0].torque, 0.0135);
+  EXPECT_DOUBLE_EQ(o.imu.linear_acceleration.y(), 2.0 * 9.80665);
+}
+
+TEST_F(Conversion, ChipAtRestAccelerates) {
+  // z up, level, at rest: it measures 1 g upwards, and nothing is left of that without gravity.
+  std::string mapping = replaced(mapping_head, "linear_", "proper_");
+  mapping = replaced(mapping, "qw, qx, qy, qz]", "qx, qy, qz, qw], order: xyzw, reference: z_up");
+  mapping += "  axes: [-x, y, -z]\n";
+  const std::string at_rest =
+      replaced(row("0"), ",0,0,1,0,.1,.2,.3,1,2,3", ",1,0,0,0,.1,.2,.3,0,0,9.81");
+  const auto rows = convert(names + "\n" + at_rest + "\n", mapping);
+  const models::Observation& o = rows.at(0).observation;
+  EXPECT_NEAR(o.imu.linear_acceleration.norm(), 0.0, 1e-12);
+  EXPECT_EQ(o.imu.raw_linear_acceleration, Eigen::Vector3d(0.0, 0.0, -9.81));
+  EXPECT_EQ(o.imu.angular_velocity, Eigen::Vector3d(-.1, .2, -.3));
+  EXPECT_NEAR(o.pitch, 0.0, 1e-12);
+  EXPECT_NEAR(o.yaw, 0.0, 1e-12);
+  // The same, turned to the left by a quarter and leaning forward by .1 rad.
+  const Eigen::Quaterniond q = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()) *
+                               Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY());
+  const std::string leaning =
+      replaced(at_rest, ",1,0,0,0,", fmt::format(",{},{},{},{},", q.w(), q.x(), q.y(), q.z()));
+  const auto turned = convert(names + "\n" + leaning + "\n", mapping);
+  EXPECT_NEAR(turned.at(0).observation.pitch, 0.1, 1e-12);
+  EXPECT_NEAR(turned.at(0).observation.yaw, M_PI / 2, 1e-12);
+}
+
+TEST_F(Conversion, CommandOfTheWheelsIsMapped) {
+  const std::string mapping =
+      replaced(mapping_head, "imu:", "  wheel_velocity_target: {from: [cl, cr]}\nimu:");
+  const auto rows = convert(names + ",cl,cr\n" + row("0") + ",4,-6\n", mapping);
+  EXPECT_EQ(rows.at(0).action.servo[2].velocity, 4.0);
+  EXPECT_EQ(rows.at(0).action.servo[5].velocity, -6.0);
+}
+
+TEST_F(Conversion, TargetsOfLegsAreMapped) {
+  const std::string header = names + ",ph,pk,qh,qk,vh,vk,wh,wk\n" + row("0");
+  const std::string values = ",90,-45,-90,30,1,2,3,4\n";
+  const auto mapped = [](const std::string& keys) {
+    return replaced(mapping_head, "imu:", "  leg_targets: {" + keys + "}\nimu:");
+  };
+  const std::string position =
+      "position: {from: [ph, pk, qh, qk], unit: deg, zero: [0.1, 0, 0, 0]}";
+  const auto rows =
+      convert(header + values, mapped(position + ", velocity: {from: [vh, vk, wh, wk], sign: -1}, "
+                                                 "kp: [40, 30, 20, 10], kd: 2"));
+  const auto& servo = rows.at(0).action.servo;
+  EXPECT_NEAR(servo[0].position, M_PI / 2 - 0.1, 1e-12);
+  EXPECT_NEAR(servo[1].position, -M_PI / 4, 1e-12);
+  EXPECT_NEAR(servo[3].position, -M_PI / 2, 1e-12);
+  EXPECT_NEAR(servo[4].position, M_PI / 6, 1e-12);
+  EXPECT_EQ(servo[4].velocity, -4.0);
+  EXPECT_EQ(servo[1].feedforward_torque, 0.0);
+  // Scales of Upkie's gains, 20 N·m/rad and 1 N·m·s/rad.
+  EXPECT_EQ(servo[0].kp_scale, 2.0);
+  EXPECT_EQ(servo[4].kp_scale, 0.5);
+  EXPECT_EQ(servo[3].kd_scale, 2.0);
+  // Without kd there is no damping, and without this section there are no targets.
+  EXPECT_EQ(convert(header + values, mapped(position + ", kp: 40")).at(0).action.servo[0].kd_scale,
+            0.0);
+  EXPECT_TRUE(std::isnan(convert(names + "\n" + row("0") + "\n").at(0).action.servo[0].position));
+  EXPECT_THAT(complaint(header + values, mapped(position)), HasSubstr("kp: is missing"));
+  for (const char* const kp : {"-1", ".nan", "[1, 2]", "[1, 2, 3, -4]"}) {
+    EXPECT_THAT(complaint(header + values, mapped(position + ", kp: " + kp)), HasSubstr("kp: "))
+        << kp;
+  }
+}
+
+TEST_F(Conversion, LabelsAreIntervalsOfEqualRows) {
+  std::string text = names + ",left,right\n";
+  const char* labels[] = {"1,1", "1,1", "0,1", "0,1", ",1", "1,0.2"};
+  for (int k = 0; k < 6; ++k)
+    text += row(fmt::format("{}", 3.0 + 0.5 * k)) + "," + labels[k] + "\n";
+  const std::string mapping = mapping_head + "contact: {from: [left, right]}\n";
+  (void)convert(text, mapping);
+  EXPECT_EQ(to_csv(converted_.contact), "start,end,left,right\n0,1,1,1\n1,2,0,1\n2.5,3,1,0\n");
+  EXPECT_EQ(converted_.incomplete_rows, 0U);
+  (void)convert(text, mapping_head + "contact: {from: right, above: 0.1}\n");
+  EXPECT_EQ(to_csv(converted_.contact), "start,end,left,right\n0,3,1,1\n");
+  EXPECT_THAT(complaint(replaced(text, "\n5,", "\n4,"), mapping),
+              HasSubstr("log.csv:6: contact labels need increasing times: 1 s comes after 1.5"));
+}
+
+TEST_F(Conversion, LogThatIsWrongIsNamedByItsPlace) {
+  const std::string good = names + "\n" + row("0") + "\n" + row("1") + "\n";
+  EXPECT_EQ(complaint(good), "none");
+  EXPECT_THAT(complaint(""), HasSubstr("log.csv:1:1: expected a line of names"));
+  EXPECT_THAT(complaint(names + "\n"), HasSubstr("log.csv: holds no rows"));
+  EXPECT_THAT(complaint(replaced(good, "\n1,1.5,", "\n1,1.5 V,")),
+              HasSubstr("log.csv:3:3: expected a number, found '1.5 V'"));
+  EXPECT_THAT(complaint(replaced(good, "\n1,1.5,", "\n1,")),
+              AllOf(HasSubstr("log.csv:3:"), HasSubstr("expected 29 values, found 28")));
+  EXPECT_THAT(complaint(replaced(good, "\n1,1.5,", "\n1,\"1.5,")),
+              HasSubstr("log.csv:3:3: expected the end of a quote on the same line"));
+  EXPECT_THAT(complaint(replaced(good, "t,q0", "t,t")), HasSubstr("log.csv has 2 columns 't'"));
+  EXPECT_THAT(complaint(names + "\n" + row("nan") + "\n"), HasSubstr("no row has a time"));
+  EXPECT_THAT(complaint_about(folder_ / "none.csv", mapping_head), HasSubstr("none.csv"));
+  EXPECT_THAT(complaint_about(folder_.write("log.txt", good), mapping_head),
+              HasSubstr("log.txt: expected a log as FILE.csv or FILE.npz"));
+}
+
+TEST_F(Conversion, MappingThatIsWrongIsNamedByItsPlaceWithTheNearestName) {
+  const auto expect = [&](const std::string& what, const std::string& by, const char* message) {
+    EXPECT_THAT(mapping_complaint(what, by), HasSubstr(message)) << what << " -> " << by;
+  };
+  expect("m3", "mm3", "log.csv has no column 'mm3' (did you mean 'm3'?)");
+  expect("from: t", "from: seconds", "log.csv has no column 'seconds' (it has t, q0,");
+  expect("m3", "mm3", "map.yaml:5:18: joints.torque.from: ");
+  expect("q1", "q0", "map.yaml:3:20: joints.position.from: 'q0' is mapped already");
+  expect("m0", "q0", "map.yaml:5:18: joints.torque.from: 'q0' is mapped already");
+  expect("velocity", "velocty", "joints.velocty: unknown key (did you mean 'velocity'?)");
+  expect("imu:", "imi:", "map.yaml:6:1: imi: unknown key (did you mean 'imu'?)");
+  expect("  torque", "  #torque", "joints.torque: is missing");
+  expect("  linear_acc", "  #", "imu: expected 'linear_acceleration', without gravity, or");
+  expect("q5]", "q5], unit: dge",
+         "joints.position.unit: expected one of rad, deg, rev (did you mean 'deg'?)");
+  expect("q5]", "q5], sign: 2", "joints.position.sign: expected 1 or -1");
+  expect("q5]", "q5], sign: [1, -1]", "joints.position.sign: expected a number, or 6");
+  expect("q5]", "q5], zero: .inf", "joints.position.zero: expected a finite number");
+  expect("v5]", "v5], zero: 1", "joints.velocity.zero: unknown key");
+  expect("q5]", "q5], index: 1", "joints.position.index: unknown key");
+  expect(", q5]", "]", "expected 6 of the names of columns: left hip, knee, wheel, right hip");
+  expect("{from: t}", "t", "map.yaml:1:7: time: expected a mapping of keys to values");
+  expect("{from: t}", "{form: t}", "time.form: unknown key (did you mean 'from'?)");
+  expect("{from: t}", "{}", "time.from: is missing");
+  expect("time: {from: t}", "", "time: is missing: expected 'time' or 'period'");
+  expect("time:", "period: 0.001\ntime:",
+         "map.yaml:1:9: period: 'time' already specifies when rows were logged");
+  expect("time: {from: t}", "period: 0", "period: expected the time between two rows (s)");
+  expect("time: {from: t}", "period: 2", "period: expected the time between two rows (s), at most");
+  expect("qz]", "qz], order: zyxw", "imu.orientation.order: expected one of wxyz, xyzw");
+  expect("qz]", "qz], reference: up", "imu.orientation.reference: expected one of z_down, z_up");
+  for (const char* axes : {"[x, y]", "[x, y, y]", "[x, y, -z]", "[x, y, w]", "[x, '', z]"}) {
+    expect("imu:", fmt::format("imu:\n  axes: {}", axes),
+           "map.yaml:7:9: imu.axes: expected the log's axes");
+  }
+  expect("imu:", "contact: {from: [m0, m1, m2]}\nimu:", "contact.from: expected 1 of the names");
+  expect("imu:", "contact: {above: 1}\nimu:", "contact.from: is missing");
+  expect("imu:", "contact: {from: q9}\nimu:", "log.csv has no column 'q9'");
+}
+
+/// A log of four rows as arrays.
+ModelArrays sample_arrays() {
+  const auto array = [](std::size_t columns) {
+    ModelArray made{{4, columns}, {}};
+    for (std::size_t i = 0; i < 4 * columns; ++i) made.data.push_back(static_cast<double>(i));
+    return made;
+  };
+  ModelArrays arrays = {{"q", array(7)}, {"v", array(6)}, {"m", array(6)}, {"o", array(4)}};
+  arrays["g"] = arrays["a"] = array(3);
+  arrays["t"] = {{4}, {0.0, 0.1, 0.2, 0.3}};
+  arrays["left"] = arrays["right"] = array(1);
+  return arrays;
+}
+
+const std::string array_mapping = R"(time: {from: t}
+joints:
+  position: {from: q, index: [6, 5, 4, 3, 2, 1]}
+  velocity: {from: v}
+  torque: {from: m}
+imu:
+  orientation: {from: o}
+  angular_velocity: {from: g}
+  linear_acceleration: {from: a}
+contact: {from: [left, right], above: 1.5}
+)";
+
+TEST_F(Conversion, ArraysAreReadByTheirColumns) {
+  write_npz(sample_arrays(), folder_ / "log.npz");
+  const auto rows = convert_file(folder_ / "log.npz", array_mapping);
+  ASSERT_EQ(rows.size(), 4U);
+  const models::Observation& o = rows[2].observation;
+  EXPECT_EQ(o.time, 0.2);
+  EXPECT_EQ(o.servo[0].position, 2 * 7 + 6);
+  EXPECT_EQ(o.servo[5].position, 2 * 7 + 1);
+  EXPECT_EQ(o.servo[5].torque, 2 * 6 + 5);
+  EXPECT_EQ(o.imu.linear_acceleration, Eigen::Vector3d(6.0, 7.0, 8.0));
+  EXPECT_EQ(converted_.contact.intervals.size(), 2U);
+}
+
+TEST_F(Conversion, ArraysThatDoNotFitAreNamed) {
+  const auto expect = [&](const ModelArrays& arrays, const std::string& mapping,
+                          const char* message) {
+    write_npz(arrays, folder_ / "log.npz");
+    EXPECT_THAT(complaint_about(folder_ / "log.npz", mapping), HasSubstr(message)) << mapping;
+  };
+  ModelArrays arrays = sample_arrays();
+  arrays["v"].shape = {3, 6};
+  arrays["v"].data.resize(18);
+  expect(arrays, array_mapping, "log.npz: v has 3 rows, and t has 4");
+  arrays = sample_arrays();
+  arrays["m"].shape = {4, 5};
+  arrays["m"].data.resize(20);
+  expect(arrays, array_mapping,
+         "log.npz: m: expected an array with two axes that has a column 5, found one of 4 × 5");
+  const auto with = [](const char* what, const char* by) {
+    return replaced(array_mapping, what, by);
+  };
+  arrays = sample_arrays();
+  expect(arrays, with("from: t", "from: q"), "log.npz: q: has two axes (4 × 7): expected 'index'");
+  expect(arrays, with("from: v", "from: vv"), "has no array 'vv' (did you mean 'v'?)");
+  expect(arrays, with("2, 1]", "2]"), "joints.position.index: expected 6 of the array's columns");
+  expect(arrays, with("6, 5", "5, 5"), "joints.position.from: 'q' index 5 is mapped already");
+  expect(arrays, with("6, 5", "-6, 5"), "joints.position.index: columns count from 0");
+  expect(arrays, with("from: v", "from: [v, m]"),
+         "joints.velocity.from: expected an array with two axes, or 6 with one");
+  arrays["t"] = {{0}, {}};
+  for (auto& [name, array] : arrays) array.shape[0] = 0, array.data.clear();
+  expect(arrays, array_mapping, "log.npz: holds no rows");
+  folder_.write("log.npz", "no zip");
+  EXPECT_THAT(complaint_about(folder_ / "log.npz", array_mapping),
+              HasSubstr("log.npz: is not a readable .npz"));
+}
+
+// Habits of other programs ----------------------------------------------------------------------
+
+/// The log with rows 10 ms apart, each `row` of the index.
+std::string log_of(std::size_t rows) {
+  std::string text = names + "\n";
+  for (std::size_t k = 0; k < rows; ++k)
+    text += row(fmt::format("{}", 0.01 * static_cast<double>(k))) + "\n";
+  return text;
+}
+
+std::string with_separator(const std::string& text, const std::string& separator) {
+  std::string result;
+  for (const char c : text) result += c == ',' ? separator : std::string(1, c);
+  return result;
+}
+
+TEST_F(Conversion, SeparatorIsThatOfTheNames) {
+  for (const char* separator : {",", ";", "\t", " ; "}) {
+    const auto rows = convert(with_separator(log_of(3), separator));
+    ASSERT_EQ(rows.size(), 3U) << separator;
+    EXPECT_EQ(rows[1].observation.servo[4].torque, 17.5) << separator;
+  }
+  // Names that contain another separator are quoted; decimal commas go with semicolons.
+  std::string german = with_separator(log_of(2), ";");
+  std::replace(german.begin(), german.end(), '.', ',');
+  EXPECT_EQ(convert(german).at(1).observation.servo[0].position, 1.5);
+  const std::string quoted = replaced(with_separator(log_of(2), ";"), "q0", "\"hip, left\"");
+  EXPECT_EQ(convert(quoted, replaced(mapping_head, "q0", "'hip, left'")).size(), 2U);
+  EXPECT_THAT(complaint(replaced(with_separator(log_of(2), ";"), ";1.5;", ";1.5 V;")),
+              HasSubstr("log.csv:2:3: expected a number, found '1.5 V'"));
+}
+
+TEST_F(Conversion, CommentsAreSkippedAndMayHoldTheNames) {
+  const std::string plain = log_of(2);
+  const auto after = [](const char* comment, const std::string& text) {
+    return fmt::format("{}{}", comment, text);
+  };
+  for (const std::string& text :
+       {after("# recorded by us, in a hall\n", plain), after("% a\n# b\n", plain),
+        replaced(plain, "\n0.01,", "\n# a stop\n0.01,"), after("# ", plain), after("#", plain),
+        after("# recorded by us\n# ", plain), after("#", with_separator(plain, "\t"))}) {
+    EXPECT_EQ(convert(text).size(), 2U) << text.substr(0, 40);
+  }
+  EXPECT_THAT(complaint("# nothing but a comment\n"), HasSubstr("log.csv"));
+}
+
+TEST_F(Conversion, NumbersMayHaveAPlus) {
+  for (const char* number : {"+1.5e0", "+1.5", "+15e-1", "+001.50"}) {
+    const auto rows = convert(replaced(log_of(2), ",1.5,", fmt::format(",{},", number)));
+    EXPECT_EQ(rows.at(0).observation.servo[0].position, 1.5) << number;
+  }
+  EXPECT_TRUE(std::isinf(
+      convert(replaced(log_of(2), ",1.5,", ",+inf,")).at(0).observation.servo[0].position));
+  for (const char* wrong : {"+", "++1", "+-1", "1+", "+ 1"}) {
+    EXPECT_THAT(complaint(replaced(log_of(2), ",1.5,", fmt::format(",{},", wrong))),
+                HasSubstr("expected a number, found '" + std::string(wrong)))
+        << wrong;
+  }
+}
+
+TEST_F(Conversion, ExtensionMayBeInAnyCase) {
+  for (const char* name : {"LOG.CSV", "log.Csv", "log.TSV"}) {
+    EXPECT_EQ(convert_file(folder_.write(name, log_of(2)), mapping_head).size(), 2U) << name;
+  }
+  write_npz(sample_arrays(), folder_ / "LOG.NPZ");
+  EXPECT_EQ(convert_file(folder_ / "LOG.NPZ", array_mapping).size(), 4U);
+  EXPECT_THAT(complaint_about(folder_.write("log.csvx", log_of(2)), mapping_head),
+              HasSubstr("expected a log as FILE.csv"));
+}
+
+TEST_F(Conversion, LastRowThatIsCutOffIsLeftOutAndNamed) {
+  const std::string whole = log_of(4);
+  const std::string last = row("0.03");
+  const std::string before = whole.substr(0, whole.size() - last.size() - 1);
+  for (const std::string& cut :
+       {last.substr(0, 3), last.substr(0, 40), last.substr(0, last.size() - 1),
+        last.substr(0, last.size() - 1) + "-", last.substr(0, last.size() - 1) + "1e",
+        std::string("\"0.03")}) {
+    const auto rows = convert(before + cut);
+    const bool is_whole = cut == last.substr(0, last.size() - 1);  // an empty last cell
+    EXPECT_EQ(rows.size(), is_whole ? 4U : 3U) << cut;
+    if (is_whole) continue;
+    EXPECT_THAT(converted_.notes,
+                ::testing::ElementsAre(HasSubstr("log.csv:5: the last row is cut off")));
+  }
+  EXPECT_EQ(convert(before + last).size(), 4U) << "a whole row needs no line end";
+  EXPECT_THAT(converted_.notes, ::testing::IsEmpty());
+  EXPECT_THAT(complaint(before + last.substr(0, 40) + "\n" + last),
+              HasSubstr("expected 29 values"));
+}
+
+TEST_F(Conversion, TimesMayBeDates) {
+  const auto rows_of = [&](const char* first, const char* second) {
+    std::string text = replaced(log_of(2), "\n0,", fmt::format("\n{},", first));
+    return convert(replaced(text, "\n0.01,", fmt::format("\n{},", second)));
+  };
+  for (const auto& [first, second] : std::vector<std::pair<const char*, const char*>>{
+           {"2024-02-28 23:59:59.995", "2024-02-29 00:00:00.005"},
+           {"2024-02-28T23:59:59.995000", "2024-02-29T00:00:00.005000Z"},
+           {"\"2024-12-31 23:59:59.99\"", "\"2025-01-01 00:00:00\""}}) {
+    EXPECT_NEAR(rows_of(first, second).at(1).observation.time, 0.01, 1e-6) << first;
+  }
+  (void)rows_of("1970-01-02 00:00:01", "1970-01-02 00:00:01.01");
+  EXPECT_EQ(converted_.start, 86401.0);
+  for (const char* wrong : {"2024-02-30 00:00:00", "2024-02-28", "2024-02-28 1:00:00"}) {
+    EXPECT_THAT(complaint(replaced(log_of(2), "\n0,", fmt::format("\n{},", wrong))),
+                HasSubstr("expected a number"))
+        << wrong;
+  }
+}
+
+TEST_F(Conversion, LabelsAreLookedAtOnlyIfAsked) {
+  std::string text = names + ",c\n";
+  for (const char* time : {"0", "0.01", "0.005"}) text += row(time) + ",1\n";
+  const std::string mapping = mapping_head + "contact: {from: c}\n";
+  EXPECT_THAT(complaint(text, mapping), HasSubstr("contact labels need increasing times"));
+  std::ostringstream stream;
+  const ConvertedLog converted = convert_log(folder_.write("log.csv", text),
+                                             folder_.write("map.yaml", mapping), stream, {}, false);
+  EXPECT_EQ(converted.rows, 3U);
+  EXPECT_EQ(converted.time_reversals, 1U);
+}
+
+TEST_F(Conversion, CellsThatAreEmptyNowAndThenAreHeld) {
+  // Rows 2 ms apart; every third lacks the torque of a knee.
+  std::string text = names + "\n";
+  for (int k = 0; k < 30; ++k) {
+    std::string one = row(fmt::format("{}", 0.002 * k));
+    one = replaced(one, ",14.5,", k % 3 == 1 ? ",," : fmt::format(",{},", k));
+    text += one + "\n";
+  }
+  const auto rows = convert(text);
+  ASSERT_EQ(rows.size(), 30U);
+  EXPECT_EQ(rows[4].observation.servo[1].torque, 3.0);
+  EXPECT_EQ(rows[5].observation.servo[1].torque, 5.0);
+  EXPECT_EQ(converted_.completed_rows, 10U);
+  EXPECT_NEAR(converted_.oldest, 0.002, 1e-9);
+  EXPECT_EQ(converted_.incomplete_rows, 0U);
+}
+
+TEST_F(Conversion, RowsOfTwoTopicsAreJoinedAtTheJoints) {
+  // Joints at 500 Hz, the IMU at 200 Hz, each in rows of its own.
+  std::string text = names + "\n";
+  for (int ms = 0; ms < 100; ++ms) {
+    const bool joints = ms % 2 == 0;
+    const bool imu = ms % 5 == 0;
+    if (!joints && !imu) continue;
+    text += fmt::format("{}", 1e-3 * ms);
+    for (int i = 0; i < 18; ++i) text += joints ? fmt::format(",{}", ms) : ",";
+    text += imu ? fmt::format(",0,0,1,0,{0},.2,.3,1,2,3", ms) : ",,,,,,,,,,";
+    text += "\n";
+  }
+  const auto rows = convert(text);
+  ASSERT_EQ(rows.size(), 50U);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const int ms = 2 * static_cast<int>(k);
+    EXPECT_EQ(rows[k].observation.servo[0].position, ms);
+    EXPECT_EQ(rows[k].observation.imu.angular_velocity.x(), ms / 5 * 5);
+  }
+  EXPECT_EQ(converted_.rows_without_joints, 10U);
+  EXPECT_NEAR(converted_.oldest, 0.004, 1e-9);
+}
+
+TEST_F(Conversion, TimesThatCountAnotherUnitAreNamed) {
+  const auto text = [](double step) {
+    std::string log = names + "\n";
+    for (int k = 0; k < 40; ++k) log += row(fmt::format("{}", step * k)) + "\n";
+    return log;
+  };
+  EXPECT_THAT(complaint(text(2.0)), HasSubstr("times look like milliseconds"));
+  EXPECT_THAT(complaint(text(1000.0)), HasSubstr("times look like microseconds"));
+  EXPECT_THAT(complaint(text(5e6)), HasSubstr("times look like nanoseconds"));
+  const std::string in_ns = replaced(mapping_head, "from: t", "from: t, unit: ns");
+  EXPECT_EQ(complaint(text(5e6), in_ns), "none");
+  EXPECT_THAT(complaint(text(0.005), in_ns), HasSubstr("is the `unit` of `time` smaller"));
+}
+
+TEST_F(Conversion, ScaleIsAFactorOfEachNumber) {
+  std::string mapping = replaced(mapping_head, "m5]", "m5], scale: 0.1");
+  mapping =
+      replaced(mapping, "q5]", "q5], scale: [1, 2, 1, 1, 1, 0.5], zero: 0.25, sign: -1, unit: deg");
+  const auto rows = convert(log_of(2), mapping);
+  const models::Observation& o = rows.at(0).observation;
+  EXPECT_DOUBLE_EQ(o.servo[0].torque, 1.35);
+  EXPECT_DOUBLE_EQ(o.servo[1].position, 0.25 - 2.0 * 2.5 * M_PI / 180.0);
+  EXPECT_DOUBLE_EQ(o.servo[5].position, 0.25 - 0.5 * 6.5 * M_PI / 180.0);
+  for (const char* wrong : {"0", "-2", ".nan", ".inf", "[1, 2]"}) {
+    EXPECT_THAT(
+        complaint(log_of(2), replaced(mapping_head, "m5]", fmt::format("m5], scale: {}", wrong))),
+        HasSubstr("joints.torque.scale: expected"))
+        << wrong;
+  }
+}
+
+TEST_F(Conversion, ImuMayBeMountedAtAnyRotation) {
+  const auto mounted = [&](const std::string& how) {
+    const auto rows = convert(log_of(2), mapping_head + "  " + how + "\n");
+    return rows.at(0).observation.imu;
+  };
+  const models::ImuReading with_axes = mounted("axes: [-x, y, -z]");
+  for (const char* same : {"rotation: {rpy: [0, 0, 0]}", "rotation: {quaternion: [1, 0, 0, 0]}",
+                           "rotation: {rpy: [0, 0, 360], unit: deg}"}) {
+    const models::ImuReading imu = mounted(same);
+    EXPECT_NEAR((imu.angular_velocity - with_axes.angular_velocity).norm(), 0.0, 1e-12) << same;
+    EXPECT_NEAR(imu.orientation.angularDistance(with_axes.orientation), 0.0, 1e-7) << same;
+  }
+  // Turned to the left by a quarter: its x axis is the robot's left.
+  for (const char* turned :
+       {"rotation: {rpy: [0, 0, 90], unit: deg}", "rotation: {rpy: [0, 0, 1.5707963267948966]}",
+        "rotation: {quaternion: [0.7071067811865476, 0, 0, 0.7071067811865476]}"}) {
+    const models::ImuReading imu = mounted(turned);
+    EXPECT_NEAR((imu.angular_velocity - Eigen::Vector3d(.2, .1, -.3)).norm(), 0.0, 1e-12) << turned;
+    EXPECT_NEAR((imu.linear_acceleration - Eigen::Vector3d(2, 1, -3)).norm(), 0.0, 1e-12) << turned;
+    // What the world sees of a vector does not depend on the mounting.
+    EXPECT_NEAR((imu.orientation * imu.linear_acceleration -
+                 with_axes.orientation * with_axes.linear_acceleration)
+                    .norm(),
+                0.0, 1e-12);
+  }
+  const models::ImuReading tilted = mounted("rotation: {rpy: [0.1, -0.2, 0.3]}");
+  EXPECT_NEAR(tilted.angular_velocity.norm(), with_axes.angular_velocity.norm(), 1e-12);
+  EXPECT_GT((tilted.angular_velocity - with_axes.angular_velocity).norm(), 0.01);
+  for (const auto& [wrong, what] : std::vector<std::pair<std::string, std::string>>{
+           {"rotation: {rpy: [0, 0]}", "expected roll, pitch and yaw"},
+           {"rotation: {quaternion: [1, 0, 0]}", "expected w, x, y, z"},
+           {"rotation: {quaternion: [2, 0, 0, 0]}", "length 1"},
+           {"rotation: {}", "expected either"},
+           {"rotation: {rpy: [0, 0, 0], quaternion: [1, 0, 0, 0]}", "expected either"},
+           {"rotation: {rpy: [0, 0, 0]}\n  axes: [x, y, z]", "either 'rotation' or 'axes'"}}) {
+    EXPECT_THAT(complaint(log_of(2), fmt::format("{}  {}\n", mapping_head, wrong)), HasSubstr(what))
+        << wrong;
+  }
+}
+
+TEST_F(Conversion, RobotMayLackHips) {
+  std::string mapping = mapping_head;
+  for (const char* one : {"q", "v", "m"}) {
+    mapping = replaced(mapping, fmt::format("[{0}0, {0}1, {0}2, {0}3, {0}4, {0}5]", one),
+                       fmt::format("[{0}1, {0}2, {0}4, {0}5], sign: [1, 1, -1, -1]", one));
+  }
+  mapping = replaced(mapping, "imu:", "  hip: none\nimu:");
+  const models::Observation o = convert(log_of(2), mapping).at(0).observation;
+  EXPECT_EQ(o.servo[0].position, 0.0);
+  EXPECT_EQ(o.servo[3].torque, 0.0);
+  EXPECT_EQ(o.servo[1].position, 2.5);
+  EXPECT_EQ(o.servo[2].velocity, 9.5);
+  EXPECT_EQ(o.servo[4].torque, -17.5);
+  EXPECT_EQ(o.servo[5].torque, -18.5);
+  EXPECT_THAT(complaint(log_of(2), replaced(mapping_head, "imu:", "  hip: none\nimu:")),
+              HasSubstr("expected 4 of the names of columns: left knee, wheel, right knee, wheel"));
+}
+
+TEST_F(Conversion, RobotOfTheMappingIsThatOfTheLog) {
+  std::ostringstream stream;
+  (void)convert_log(folder_.write("log.csv", log_of(5)),
+                    folder_.write("map.yaml", "robot: mine\n" + mapping_head), stream);
+  LogReader reader(memory_source(std::make_shared<const std::string>(stream.str())), "log");
+  EXPECT_EQ(reader.info().robot, "mine");
+  EXPECT_EQ(reader.info().simulator, "");
+  EXPECT_EQ(reader.info().control_period_us, 10000);
+  std::size_t rows = 0;
+  while (reader.next()) ++rows;
+  EXPECT_EQ(rows, 5U);
+}
+
+TEST_F(Conversion, LogWithoutOrientationNamesWhatWouldDo) {
+  EXPECT_THAT(
+      complaint(log_of(2), replaced(mapping_head, "  orientation: {from: [qw, qx, qy, qz]}\n", "")),
+      AllOf(HasSubstr("'orientation' is missing"), HasSubstr("attitude filter")));
+}
+
+TEST_F(Conversion, ArrayWithAColumnForEachWheelHoldsBothLabels) {
+  ModelArrays arrays = sample_arrays();
+  arrays["contact"] = {{4, 2}, {1, 1, 0, 1, 0, 1, 1, 1}};
+  write_npz(arrays, folder_ / "log.npz");
+  for (const char* contact :
+       {"contact: {from: contact}", "contact: {from: contact, index: [0, 1]}"}) {
+    (void)convert_file(
+        folder_ / "log.npz",
+        replaced(array_mapping, "contact: {from: [left, right], above: 1.5}", contact));
+    ASSERT_EQ(converted_.contact.intervals.size(), 3U) << contact;
+    EXPECT_EQ(converted_.contact.intervals[1].contact, (std::array<bool, 2>{false, true}))
+        << contact;
+  }
+  (void)convert_file(folder_ / "log.npz",
+                     replaced(array_mapping, "contact: {from: [left, right], above: 1.5}",
+                              "contact: {from: contact, index: 1}"));
+  EXPECT_EQ(converted_.contact.intervals.size(), 1U);
+}
+
+}  // namespace
+}  // namespace touchdown::logs

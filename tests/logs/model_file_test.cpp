@@ -1,0 +1,304 @@
+#include "logs/model_file.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "estimator/models/parameters.hpp"
+#include "estimator/npz/npz.hpp"
+#include "tests/python_with_numpy.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::logs {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::filesystem::path reference =
+    std::filesystem::path(TOUCHDOWN_REFERENCE_DATA) / "bullet_stairs.npz";
+
+/// 3 wheel torques × 4 knee torques.
+ModelArrays small_grid() {
+  ModelArrays arrays;
+  arrays["wheel_torque"] = {{3}, {0.0, 0.5, 1.0}};
+  arrays["knee_torque"] = {{4}, {-1.0, 1.0, 3.0, 5.0}};
+  ModelArray grid{{3, 4}, {}};
+  for (int i = 0; i < 12; ++i) grid.data.push_back(0.1 * i);
+  arrays["contact_likelihood"] = grid;
+  for (double& value : grid.data) value = 2.0 - value;
+  grid.data[0] = 0.0;
+  arrays["no_contact_likelihood"] = grid;
+  return arrays;
+}
+
+PhaseModel small_phase_model() {
+  PhaseModel m;
+  m.sample_rate = 500.0;
+  for (std::size_t i = 0; i < phase_count; ++i) {
+    m.transition[i] = {};
+    m.transition[i][i] = 0.75;
+    m.transition[i][(i + 1) % phase_count] = 0.25;
+    m.seconds[i] = 0.5 + static_cast<double>(i);
+  }
+  for (const double noise : {0.0, 0.5}) {
+    for (const double wheel_noise : {0.0, 0.5}) {
+      PhaseTorqueDensity torque{{noise, wheel_noise},
+                                {std::hypot(0.1, noise), std::hypot(0.1, wheel_noise)},
+                                {-2.0, 5.0, 4},
+                                {-1.0, 1.0, 3},
+                                {}};
+      for (int i = 0; i < 4 * 3 * static_cast<int>(torque_density_count); ++i) {
+        torque.log_density.push_back(-0.1F * static_cast<float>(i) -
+                                     static_cast<float>(noise + 3.0 * wheel_noise));
+      }
+      m.torque.push_back(torque);
+    }
+    PhaseAccelerationDensity acceleration{noise, std::hypot(1.0, noise), {-30.0, 100.0, 5}, {}};
+    for (int i = 0; i < 5 * static_cast<int>(acceleration_density_count); ++i) {
+      acceleration.log_density.push_back(-0.3F * static_cast<float>(i));
+    }
+    m.acceleration.push_back(acceleration);
+  }
+  return m;
+}
+
+/// Random bits that are finite floats: denormals, tiny and huge numbers among them.
+NeuralNetwork odd_network() {
+  std::mt19937 engine(1);
+  const auto fill = [&](auto& matrix, Eigen::Index rows, Eigen::Index columns) {
+    matrix.resize(rows, columns);
+    for (float& x : matrix.reshaped()) {
+      do {
+        const auto bits = static_cast<std::uint32_t>(engine());
+        std::memcpy(&x, &bits, sizeof x);
+      } while (!std::isfinite(x));
+    }
+  };
+  NeuralNetwork n;
+  fill(n.input_mean, neural_input_count, 1);
+  fill(n.input_scale, neural_input_count, 1);
+  const auto layer = [&](DenseLayer& dense, Eigen::Index outputs, Eigen::Index inputs) {
+    fill(dense.weight, outputs, inputs);
+    fill(dense.bias, outputs, 1);
+  };
+  layer(n.gru_input, 12, neural_input_count);
+  layer(n.gru_hidden, 12, 4);
+  layer(n.first, 6, 4);
+  layer(n.second, 5, 6);
+  layer(n.heads, neural_output_count, 5);
+  return n;
+}
+
+ModelArrays parameters() {
+  ModelArrays arrays =
+      arrays_of(Parameters{{"slope", {0.1 + 0.2}}, {"mean", {1e-300, -2.0}}}, "force_kinematics");
+  arrays["provenance"] = array_of_text("seconds: 3.5\nseed:run: 1:0, 1:1\n");
+  return arrays;
+}
+
+class ModelFile : public ::testing::Test {
+ protected:
+  /// The complaint about a file of these arrays.
+  std::string message(const ModelArrays& arrays) const {
+    write_npz(arrays, path_);
+    return message();
+  }
+  std::string message() const {
+    try {
+      load_model(path_);
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), AllOf(HasSubstr(path_.string()), Not(HasSubstr("\n"))));
+      return error.what();
+    }
+    return "nothing was thrown";
+  }
+
+  const ScratchFolder folder_;
+  const std::filesystem::path path_ = folder_ / "model.npz";
+};
+
+TEST_F(ModelFile, KeepsEveryKindOfModelToTheBit) {
+  ModelArrays phases = arrays_of(small_phase_model());
+  phases["provenance"] = array_of_text("scenario: stairs, hang\n");
+  for (const ModelArrays& arrays : {small_grid(), phases, arrays_of(odd_network()), parameters()}) {
+    write_npz(arrays, path_);
+    const Model model = load_model(path_);
+    save_model(model, folder_ / "again.npz");
+    ModelArrays again = read_npz(folder_ / "again.npz");
+    if (model.grid) again.erase("P_contact");
+    EXPECT_EQ(again, arrays) << arrays.begin()->first;
+  }
+}
+
+TEST_F(ModelFile, HasTheContactProbabilityOfAGrid) {
+  write_npz(small_grid(), path_);
+  save_model(load_model(path_), path_);
+  const ModelArrays out = read_npz(path_);
+  EXPECT_EQ(out.at("P_contact").data[0], 0.5) << "both likelihoods are zero there";
+  EXPECT_NEAR(out.at("P_contact").data[6], 0.3, 1e-12);
+}
+
+TEST_F(ModelFile, HasARowOfAGridForEachWheelTorque) {
+  write_npz(small_grid(), path_);
+  const MeasurementModel model = *load_model(path_).grid;
+  EXPECT_EQ(model.wheel_axis().count, 3);
+  EXPECT_EQ(model.knee_axis().count, 4);
+  TorqueSample sample;
+  sample.wheel = 0.5;
+  sample.knee = 3.0;
+  EXPECT_NEAR(model(sample).contact, 0.6, 1e-12);
+  EXPECT_NEAR(model(sample).no_contact, 1.4, 1e-12);
+}
+
+TEST_F(ModelFile, KeepsTheMetadata) {
+  Model model = model_of(parameters());
+  model.metadata = ModelMetadata{.estimator = "force_kinematics",
+                                 .sample_rate = 1000.0,
+                                 .robot = "upkie",
+                                 .configuration = {{"threshold", "0.5"}},
+                                 .fingerprint = {}};
+  save_model(model, path_);
+  const Model read = load_model(path_);
+  EXPECT_EQ(read.arrays, model.arrays);
+  EXPECT_EQ(read.metadata->configuration, model.metadata->configuration);
+  EXPECT_EQ(estimator_of(read), "force_kinematics");
+}
+
+TEST_F(ModelFile, OfTheAuthorsComesBackAsItWas) {
+  if (!std::filesystem::exists(reference)) {
+    GTEST_SKIP() << "the authors' grids are not here: " << reference;
+  }
+  save_model({.grid = load_model(reference).grid}, path_);
+  const ModelArrays theirs = read_npz(reference);
+  const ModelArrays ours = read_npz(path_);
+  ASSERT_EQ(ours.size(), theirs.size());
+  for (const auto& [name, array] : theirs) {
+    ASSERT_EQ(ours.at(name).shape, array.shape) << name;
+    for (std::size_t i = 0; i < array.data.size(); ++i) {
+      ASSERT_NEAR(ours.at(name).data[i], array.data[i], 1e-12 * std::abs(array.data[i]) + 1e-14)
+          << name << " " << i;
+    }
+  }
+}
+
+TEST_F(ModelFile, HasTheKeysShapesAndTypesOfTheAuthorsFileInNumPy) {
+  if (!std::filesystem::exists(reference)) {
+    GTEST_SKIP() << "the authors' grids are not here: " << reference;
+  }
+  const std::string python = python_with_numpy();
+  if (python.empty()) {
+    GTEST_SKIP() << "python3 with NumPy is not installed";
+  }
+  save_model(load_model(reference), path_);
+  std::ofstream(folder_ / "script.py") << R"(
+import sys
+import numpy as np
+ours, theirs = np.load(sys.argv[1]), np.load(sys.argv[2])
+assert sorted(ours.keys()) == sorted(theirs.keys())
+for key in theirs.keys():
+    assert ours[key].shape == theirs[key].shape and ours[key].dtype == theirs[key].dtype
+    assert np.allclose(ours[key], theirs[key], rtol=1e-12, atol=1e-14)
+)";
+  const std::string command = python + " " + (folder_ / "script.py").string() + " " +
+                              path_.string() + " " + reference.string();
+  EXPECT_EQ(std::system(command.c_str()), 0);
+}
+
+TEST_F(ModelFile, NamesWhatIsWrong) {
+  struct Case {
+    ModelArrays good;
+    void (*spoil)(ModelArrays& arrays);
+    const char* expected;
+  };
+  const ModelArrays grid = small_grid();
+  const ModelArrays phases = arrays_of(small_phase_model());
+  const ModelArrays network = arrays_of(odd_network());
+  NeuralNetwork wide = odd_network();
+  wide.second.weight.conservativeResize(5, 7);
+  const std::vector<Case> cases = {
+      {{},
+       [](ModelArrays& a) {
+         a["slope"] = {{1}, {1.0}};
+       },
+       "model.npz"},
+      {grid, [](ModelArrays& a) { a.erase("knee_torque"); }, "missing knee_torque"},
+      {grid, [](ModelArrays& a) { a.erase("no_contact_likelihood"); },
+       "missing no_contact_likelihood"},
+      {grid,
+       [](ModelArrays& a) {
+         a["contact_likelihood"].shape = {4, 3};
+       },
+       "(3, 4)"},
+      {grid, [](ModelArrays& a) { a["contact_likelihood"].data[5] = std::nan(""); }, "finite"},
+      {grid, [](ModelArrays& a) { a["wheel_torque"].data[2] = 3.0; }, "equally spaced"},
+      {phases, [](ModelArrays& a) { a.erase("sample_rate"); }, "missing sample_rate"},
+      {phases, [](ModelArrays& a) { a["transition"].data[0] = 0.5; }, "rolling sum"},
+      {phases, [](ModelArrays& a) { a["torque_1_knee"].data[2] = 7.0; }, "axes ask for"},
+      {phases, [](ModelArrays& a) { a["torque_0_knee"].data[2] = -1.0; }, "2 points"},
+      {phases, [](ModelArrays& a) { a.erase("acceleration_0_noise"); }, "no acceleration density"},
+      {network, [](ModelArrays& a) { a.erase("input_mean"); }, "missing input_mean"},
+      {network,
+       [](ModelArrays& a) {
+         a["input_mean"].shape = {19, 1};
+       },
+       "input_mean: expected 1 axes, found 2"},
+      {network, [](ModelArrays& a) { a["input_mean"].data.assign(19, std::nan("")); },
+       "input_mean: expected finite numbers"},
+      {arrays_of(wide), [](ModelArrays& /*a*/) {}, "second_weight: expected shape 5 × 6"},
+      {parameters(), [](ModelArrays& a) { a["estimator"].data[0] = 300.0; },
+       "estimator: expected bytes"},
+      {parameters(), [](ModelArrays& a) { a["slope"].data[0] = std::nan(""); },
+       "slope: expected finite numbers"}};
+  for (const Case& one : cases) {
+    ModelArrays arrays = one.good;
+    one.spoil(arrays);
+    EXPECT_THAT(message(arrays), HasSubstr(one.expected));
+  }
+}
+
+TEST_F(ModelFile, NamesAllMissingArrays) {
+  ModelArrays arrays = small_grid();
+  arrays.erase("knee_torque");
+  arrays.erase("no_contact_likelihood");
+  EXPECT_THAT(message(arrays), HasSubstr("missing knee_torque, no_contact_likelihood"));
+  EXPECT_THAT(message({{"gru_input_weight", {{1}, {1.0}}}, {"period", {{1}, {0.005}}}}),
+              HasSubstr("missing input_mean, input_scale, gru_input_bias"));
+}
+
+TEST_F(ModelFile, IsRefusedWhereverItIsCutOffOrSpoilt) {
+  EXPECT_THAT(message(), HasSubstr("no such file"));
+  std::ofstream(path_) << "nonsense";
+  EXPECT_NE(message(), "nothing was thrown");
+  save_model({.arrays = arrays_of(odd_network())}, path_);
+  const std::string good = read_file(path_);
+  for (const double part : {0.0, 0.1, 0.5, 0.9, 0.999}) {
+    std::ofstream(path_, std::ios::binary)
+        << good.substr(0, static_cast<std::size_t>(part * static_cast<double>(good.size())));
+    EXPECT_NE(message(), "nothing was thrown");
+  }
+  std::string spoilt = good;
+  spoilt[200] = static_cast<char>(spoilt[200] ^ 0x10);  // within the first array
+  std::ofstream(path_, std::ios::binary) << spoilt;
+  EXPECT_NE(message(), "nothing was thrown");
+}
+
+TEST(Parameter, IsNamedIfItIsMissingOrHasAnotherSize) {
+  const Parameters parameters = {{"slope", {2.0}}, {"mean", {1.0, 2.0}}};
+  EXPECT_EQ(parameter(parameters, "slope"), 2.0);
+  EXPECT_EQ(parameter(parameters, "mean", 2)[1], 2.0);
+  EXPECT_THROW(parameter(parameters, "mean"), InputError);
+  EXPECT_THROW(parameter(parameters, "intercept"), InputError);
+}
+
+}  // namespace
+}  // namespace touchdown::logs

@@ -1,0 +1,311 @@
+#include "estimator/npz/npz.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "logs/model_file.hpp"
+#include "tests/python_with_numpy.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::logs {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+ModelArrays sample_arrays() {
+  return {{"one", {{3}, {1.0, -0.0, 1e-310}}},
+          {"two", {{2, 3}, {1.5, 2.5, 3.5, 4.5, 5.5, 6.5}}},
+          {"none", {{0}, {}}}};
+}
+
+std::string npy(const std::string& header, const std::string& data) {
+  std::string bytes("\x93NUMPY\x01\x00", 8);
+  bytes += static_cast<char>(header.size());
+  bytes += '\0';
+  return bytes + header + data;
+}
+
+template <typename T>
+std::string raw(std::initializer_list<T> values) {
+  std::string bytes(values.size() * sizeof(T), '\0');
+  std::memcpy(bytes.data(), values.begin(), bytes.size());
+  return bytes;
+}
+
+std::string message(const std::string& bytes) {
+  try {
+    from_npy(bytes, "a.npy");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+bool runs(const std::string& script, const ScratchFolder& folder) {
+  std::ofstream(folder / "script.py") << "import numpy as np\n" << script;
+  return std::system(("cd " + folder.path().string() + " && " + python_with_numpy() + " script.py")
+                         .c_str()) == 0;
+}
+
+TEST(Npz, GivesBackWhatWasWritten) {
+  const ScratchFolder folder;
+  write_npz(sample_arrays(), folder / "a.npz");
+  const ModelArrays back = read_npz(folder / "a.npz");
+  ASSERT_EQ(back.size(), 3U);
+  for (const auto& [name, array] : sample_arrays()) {
+    EXPECT_EQ(back.at(name).shape, array.shape);
+    EXPECT_EQ(back.at(name).data, array.data);
+  }
+  EXPECT_TRUE(std::signbit(back.at("one").data[1]));
+}
+
+TEST(Npz, LargeArraysTakeLessRoomAndComeBackToTheBit) {
+  const ScratchFolder folder;
+  ModelArray grid{{400, 500}, {}};
+  for (std::size_t i = 0; i < 200'000; ++i) {
+    const std::size_t block = i / 64;
+    grid.data.push_back(std::log(1e-3 + static_cast<double>(block)));
+  }
+  write_npz({{"grid", grid}}, folder / "a.npz");
+  EXPECT_LT(std::filesystem::file_size(folder / "a.npz"), 400'000U);  // of 1,600,000
+  EXPECT_EQ(read_npz(folder / "a.npz").at("grid").data, grid.data);
+  if (python_with_numpy().empty()) return;
+  EXPECT_TRUE(
+      runs("assert abs(np.load('a.npz')['grid'][399, 499] - np.log(3124.001)) < 1e-12", folder));
+}
+
+TEST(Npz, SmallArraysAreDeflatedWhereAllAre) {
+  const ScratchFolder folder;
+  const ModelArrays labels = {{"contact", {{4000}, std::vector<double>(4000, 1.0)}}};
+  const std::string large = to_npz(labels, "labels.npz", Deflated::large);
+  const std::string all = to_npz(labels, "labels.npz", Deflated::all);
+  EXPECT_GT(large.size(), 32'000U);
+  EXPECT_LT(all.size(), 1'000U);
+  EXPECT_EQ(read_npz(folder.write("all.npz", all)).at("contact").data, labels.at("contact").data);
+}
+
+TEST(Npz, SameArraysGiveTheSameBytesAtAnyTimeAndPlace) {
+  const ScratchFolder folder;
+  ::setenv("TZ", "UTC", 1);
+  write_npz(sample_arrays(), folder / "a.npz");
+  ::setenv("TZ", "Asia/Tokyo", 1);
+  ::tzset();
+  write_npz(sample_arrays(), folder / "b.npz");
+  ::unsetenv("TZ");
+  ::tzset();
+  EXPECT_EQ(read_file(folder / "a.npz"), read_file(folder / "b.npz"));
+}
+
+TEST(Npz, NumPyReadsOursWithNamesShapesAndTypes) {
+  if (python_with_numpy().empty()) GTEST_SKIP() << "python3 with NumPy is not installed";
+  const ScratchFolder folder;
+  write_npz(sample_arrays(), folder / "a.npz");
+  EXPECT_TRUE(runs(R"(
+a = np.load('a.npz')
+assert sorted(a.keys()) == ['none', 'one', 'two']
+assert a['two'].dtype == np.float64 and a['two'].shape == (2, 3) and a['two'].flags.c_contiguous
+assert a['one'].shape == (3,) and a['none'].shape == (0,)
+assert (a['two'] == [[1.5, 2.5, 3.5], [4.5, 5.5, 6.5]]).all()
+)",
+                   folder));
+}
+
+TEST(Npz, ReadsNumPysDeflatedFortranAndSinglePrecision) {
+  if (python_with_numpy().empty()) GTEST_SKIP() << "python3 with NumPy is not installed";
+  const ScratchFolder folder;
+  ASSERT_TRUE(runs(R"(
+two = np.arange(6.0).reshape(2, 3)
+np.savez_compressed('a.npz', fortran=np.asfortranarray(two), single=two.astype('f4'), zeros=np.zeros((500, 400)))
+)",
+                   folder));
+  const ModelArrays arrays = read_npz(folder / "a.npz");
+  EXPECT_THAT(arrays.at("fortran").shape, ElementsAre(2, 3));
+  EXPECT_THAT(arrays.at("fortran").data, ElementsAre(0, 1, 2, 3, 4, 5));
+  EXPECT_THAT(arrays.at("single").data, ElementsAre(0, 1, 2, 3, 4, 5));
+  EXPECT_EQ(arrays.at("zeros").data, std::vector<double>(200000, 0.0));
+}
+
+TEST(Npz, ReadsNumPysWholeNumbersAndBools) {
+  if (python_with_numpy().empty()) GTEST_SKIP() << "python3 with NumPy is not installed";
+  const ScratchFolder folder;
+  ASSERT_TRUE(runs(R"(
+types = 'i1 i2 i4 i8 u1 u2 u4 u8'.split()
+np.savez('a.npz', flags=np.array([True, False]),
+         **{t: np.array([np.iinfo(t).min, 3, np.iinfo(t).max // 1000], t) for t in types})
+)",
+                   folder));
+  const ModelArrays arrays = read_npz(folder / "a.npz");
+  EXPECT_THAT(arrays.at("flags").data, ElementsAre(1, 0));
+  EXPECT_THAT(arrays.at("i1").data, ElementsAre(-128, 3, 0));
+  EXPECT_THAT(arrays.at("i2").data, ElementsAre(-32768, 3, 32));
+  EXPECT_THAT(arrays.at("i4").data, ElementsAre(-2147483648.0, 3, 2147483));
+  EXPECT_THAT(arrays.at("i8").data, ElementsAre(-0x1p63, 3, 9223372036854775.0));
+  EXPECT_THAT(arrays.at("u1").data, ElementsAre(0, 3, 0));
+  EXPECT_THAT(arrays.at("u2").data, ElementsAre(0, 3, 65));
+  EXPECT_THAT(arrays.at("u4").data, ElementsAre(0, 3, 4294967));
+  EXPECT_THAT(arrays.at("u8").data, ElementsAre(0, 3, 18446744073709551.0));
+}
+
+TEST(Npy, ReadsFortranOrderAndSinglePrecision) {
+  const ModelArray array =
+      from_npy(npy("{'descr': '<f4', 'fortran_order': True, 'shape': (2, 3), }",
+                   raw<float>({1, 2, 3, 4, 5, 6})),
+               "a.npy");
+  EXPECT_THAT(array.shape, ElementsAre(2, 3));
+  EXPECT_THAT(array.data, ElementsAre(1, 3, 5, 2, 4, 6));
+}
+
+TEST(Npy, ReadsTimesAsSeconds) {
+  const std::int64_t count = 1'709'157'401'500;  // ms
+  for (const auto& [unit, per_ms] : std::vector<std::pair<std::string, std::int64_t>>{
+           {"ms", 1}, {"us", 1000}, {"ns", 1'000'000}}) {
+    for (const std::string kind : {"<M8", "<m8"}) {
+      const ModelArray array = from_npy(
+          npy(fmt::format("{{'descr': '{}[{}]', 'fortran_order': False, 'shape': (2,), }}", kind,
+                          unit),
+              raw<std::int64_t>({per_ms * count, std::numeric_limits<std::int64_t>::min()})),
+          "a.npy");
+      EXPECT_NEAR(array.data[0], 1709157401.5, 1e-6) << unit;
+      EXPECT_TRUE(std::isnan(array.data[1])) << "NaT";
+    }
+  }
+  EXPECT_EQ(from_npy(npy("{'descr': '<M8[s]', 'fortran_order': False, 'shape': (1,), }",
+                         raw<std::int64_t>({7})),
+                     "a")
+                .data[0],
+            7.0);
+}
+
+TEST(Npy, HeaderIsPaddedAsNumPyAsks) {
+  const std::string bytes = to_npy({{1}, {2.0}});
+  ASSERT_EQ(bytes.size(), 128U + 8U);
+  EXPECT_EQ(bytes[127], '\n');
+}
+
+TEST(Npy, RefusesInvalidFiles) {
+  const std::string good = "{'descr': '<f8', 'fortran_order': False, 'shape': (2,), }";
+  EXPECT_THAT(message(""), HasSubstr("a.npy"));
+  EXPECT_THAT(message("\x89PNG and more text"), HasSubstr("not a NumPy array"));
+  EXPECT_THAT(message(npy(good, raw<double>({1}))), HasSubstr("expected 16 bytes"));
+  EXPECT_THAT(message(npy(good, raw<double>({1, 2, 3}))), HasSubstr("expected 16 bytes"));
+  EXPECT_THAT(message(npy(good, "").substr(0, 40)), HasSubstr("cut off"));
+  EXPECT_THAT(message(npy("{'descr': '<c8', 'fortran_order': False, 'shape': (2,), }",
+                          raw<double>({1, 2}))),
+              HasSubstr("'<c8'"));
+  EXPECT_THAT(message(npy("{'descr': '<i4', 'fortran_order': False, 'shape': (2,), }",
+                          raw<double>({1, 2}))),
+              HasSubstr("expected 8 bytes"));
+  EXPECT_THAT(message(npy("{'descr': '>f8', 'fortran_order': False, 'shape': (2,), }",
+                          raw<double>({1, 2}))),
+              HasSubstr("'>f8'"));
+  EXPECT_THAT(message(npy("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 1, 1), }",
+                          raw<double>({1, 2}))),
+              HasSubstr("one or two axes"));
+  EXPECT_THAT(message(npy("{'descr': '<f8', 'fortran_order': False, 'shape': (999999999999,), }",
+                          raw<double>({1, 2}))),
+              HasSubstr("axis"));
+  EXPECT_THROW(to_npy({{3}, {1.0}}), Error);
+}
+
+TEST(Npz, OfAnArrayThatIsNotNeededNothingIsRead) {
+  const ScratchFolder folder;
+  ModelArrays arrays = sample_arrays();
+  write_npz(arrays, folder / "a.npz");
+  std::string bytes = read_file(folder / "a.npz");
+  const std::size_t number = bytes.find(raw<double>({4.5}));
+  ASSERT_NE(number, std::string::npos);
+  bytes[number] = static_cast<char>(bytes[number] ^ 1);  // breaks the checksum of "two"
+  std::ofstream(folder / "a.npz", std::ios::binary) << bytes;
+  const ModelArrays read = read_npz(
+      folder / "a.npz", [](std::string_view name) -> std::size_t { return name == "one" ? 3 : 0; });
+  ASSERT_EQ(read.size(), 1U);
+  EXPECT_EQ(read.at("one").data, arrays["one"].data);
+  EXPECT_THROW(read_npz(folder / "a.npz"), InputError);
+  EXPECT_THAT(npz_names(folder / "a.npz"), ::testing::UnorderedElementsAre("one", "two", "none"));
+}
+
+TEST(Npz, AnArrayOfMoreNumbersThanNeededIsRefusedBeforeItIsRead) {
+  const ScratchFolder folder;
+  write_npz(sample_arrays(), folder / "a.npz");
+  try {
+    read_npz(folder / "a.npz", [](std::string_view) { return std::size_t{5}; });
+    FAIL() << "six numbers are more than five";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("a.npz: two: expected 5 numbers at most, found 6"));
+  }
+  const NpyBytes none = [](std::span<char> /*buffer*/) -> std::size_t { return 0; };
+  const std::string whole = to_npy({{1000}, std::vector<double>(1000, 1.0)});
+  std::size_t given = 0;
+  const NpyBytes counted = [&](std::span<char> buffer) {
+    const std::size_t size = whole.copy(buffer.data(), buffer.size(), given);
+    given += size;
+    return size;
+  };
+  EXPECT_THROW(read_npy(counted, whole.size(), "a", 999), InputError);
+  EXPECT_LE(given, 128U) << "the header only";
+  EXPECT_THROW(read_npy(none, whole.size(), "a", 1000), InputError);
+}
+
+TEST(Npz, BrokenFilesAreOneClearError) {
+  const ScratchFolder folder;
+  const auto fails = [&](const std::string& bytes) {
+    std::ofstream(folder / "bad.npz", std::ios::binary) << bytes;
+    try {
+      read_npz(folder / "bad.npz");
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      return text.find("bad.npz") != std::string::npos && text.find('\n') == std::string::npos;
+    }
+    return false;
+  };
+  write_npz(sample_arrays(), folder / "good.npz");
+  const std::string good = read_file(folder / "good.npz");
+  EXPECT_TRUE(fails(""));
+  EXPECT_TRUE(fails("not a zip file at all"));
+  EXPECT_TRUE(fails(good.substr(0, good.size() / 2)));
+  EXPECT_TRUE(fails(good.substr(0, good.size() - 1)));
+  std::string flipped;
+  const std::size_t number = good.find(raw<double>({4.5}));
+  ASSERT_NE(number, std::string::npos);
+  flipped = good;
+  flipped[number] = static_cast<char>(flipped[number] ^ 1);
+  EXPECT_TRUE(fails(flipped)) << "the checksum does not fit";
+  EXPECT_THROW(read_npz(folder / "absent.npz"), InputError);
+  EXPECT_THROW(read_npz(folder.path()), InputError);
+}
+
+TEST(Npz, FlippedBytesNeverDoMoreThanAnError) {
+  const ScratchFolder folder;
+  write_npz(sample_arrays(), folder / "good.npz");
+  const std::string good = read_file(folder / "good.npz");
+  std::mt19937 random(2);
+  for (int trial = 0; trial < 300; ++trial) {
+    std::string bad = good;
+    bad[random() % bad.size()] = static_cast<char>(random() % 256);
+    std::ofstream(folder / "bad.npz", std::ios::binary) << bad;
+    try {
+      EXPECT_LE(read_npz(folder / "bad.npz").size(), 3U);
+    } catch (const InputError&) {  // NOLINT(bugprone-empty-catch): the answer that is expected
+    }
+  }
+}
+
+TEST(Npz, LeavesNothingBehindWhereItCannotWrite) {
+  EXPECT_THROW(write_npz(sample_arrays(), "/proc/a.npz"), Error);
+}
+
+}  // namespace
+}  // namespace touchdown::logs
