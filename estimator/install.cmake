@@ -43,6 +43,19 @@ foreach(header ${detail})
   cmake_path(GET header PARENT_PATH folder)
   install(FILES ${header}.hpp DESTINATION ${include_dir}/detail/estimator/${folder})
 endforeach()
+# Programs written for version 1.0 include these headers by their former names.
+foreach(renamed assembly/record.hpp=record.hpp assembly/signal_assembler.hpp=signal_assembler.hpp
+        c_interface/handle.hpp=c_handle.hpp c_interface/touchdown.h=touchdown.h
+        decision/training.hpp=decision/fit.hpp evidence/training.hpp=evidence/fit.hpp
+        models/compiled.hpp=models/make_estimator.hpp)
+  string(REPLACE "=" ";" names ${renamed})
+  list(GET names 0 former)
+  list(GET names 1 present)
+  set(forwarder ${CMAKE_CURRENT_BINARY_DIR}/forwarders/${former})
+  file(CONFIGURE OUTPUT ${forwarder} CONTENT "#include \"touchdown/estimator/${present}\"\n")
+  cmake_path(GET former PARENT_PATH folder)
+  install(FILES ${forwarder} DESTINATION ${include_dir}/estimator/${folder})
+endforeach()
 install(FILES ${CMAKE_CURRENT_SOURCE_DIR}/../core/error.hpp
         DESTINATION ${include_dir}/core)
 

@@ -52,7 +52,7 @@ void from_json(const Json& json, NoiseCell& cell) {
 
 }  // namespace noise
 
-namespace recordings {
+namespace logs {
 
 void to_json(Json& json, const Outcome& outcome) { json = to_text(outcome); }
 
@@ -60,7 +60,7 @@ void from_json(const Json& json, Outcome& outcome) {
   outcome = outcome_from_text(json.get<std::string>());
 }
 
-}  // namespace recordings
+}  // namespace logs
 
 namespace experiments {
 

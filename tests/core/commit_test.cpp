@@ -25,7 +25,7 @@ class Commit : public ::testing::Test {
   std::string recorded_commit(const fs::path& sources) const {
     const fs::path note = scratch_ / "share/touchdown/commit";
     EXPECT_EQ(run("cmake -DSOURCE='" + sources.string() + "' -DFILE='" + note.string() + "' -P '" +
-                  TOUCHDOWN_SOURCE_DIR "/cmake/RecordCommit.cmake'"),
+                  TOUCHDOWN_SOURCE_DIR "/scripts/cmake/RecordCommit.cmake'"),
               0);
     return build_commit(scratch_ / "program");
   }
