@@ -36,7 +36,7 @@ std::vector<std::string> neighbours_of(const std::filesystem::path& path) {
   return names;
 }
 
-/// A suggestion for a path whose folder holds nothing like it, as after the folder was renamed: the
+/// A suggestion where the folder of a path has no such file, because the folder was renamed: the
 /// program's own file of the same name.
 std::string same_name_elsewhere(const std::filesystem::path& path) {
   for (const char* folder : {"experiments", "models", "noise/profiles", "scenarios"}) {

@@ -78,9 +78,9 @@ struct RecordUnits {
 /// The assembly makes these assumptions about the IMU, and a robot that breaks one without a word
 /// gets wrong beliefs, because only the direction of gravity can be checked:
 /// 1. Orientation, angular velocity and both accelerations are in the same frame, that of the IMU,
-///    and `axes` tells how this frame is mounted on the base. With the default and an IMU whose x
-///    points forward, roll and yaw rates have the opposite sign.
-/// 2. The quaternion (w x y z) turns vectors of that frame to a reference whose z axis is vertical.
+///    and `axes` states how this frame is mounted on the base. With the default, an IMU with x
+///    forward gives roll and yaw rates of the opposite sign.
+/// 2. The quaternion (w x y z) turns vectors of that frame to a reference with a vertical z axis.
 ///    The heading does not matter.
 /// 3. The acceleration without gravity is the proper one plus gravity along the same orientation.
 ///
@@ -107,8 +107,8 @@ struct AssemblyConfig {
   double gravity_memory = 0.25;
 };
 
-/// The `AssemblyConfig::axes` of an IMU whose axes with these names point back, left and down: each
-/// is x, y or z, or with a minus its reverse. An IMU with x forward, y left and z up (REP 103) has
+/// The `AssemblyConfig::axes` of an IMU, from the names of its axes that point back, left and down:
+/// each is x, y or z, or with a minus its reverse. An IMU with x forward, y left and z up (REP 103) has
 /// {"-x", "y", "-z"}. Zeros for anything but a right-handed order of x, y and z.
 [[nodiscard]] Eigen::Matrix3d signed_axes(const std::array<std::string_view, 3>& names) noexcept;
 

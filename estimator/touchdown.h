@@ -32,8 +32,8 @@ typedef struct touchdown_joint {
  * - Left hip and knee are positive forward, the right leg is their mirror image. Left wheel + and
  *   right wheel - drive forward.
  * - The IMU has x back, y left and z down. Orientation, angular velocity and both accelerations are
- *   in this one frame. An IMU whose x points forward gives roll and yaw rates of the opposite sign,
- *   and nothing here can notice. */
+ *   in this one frame. An IMU with x forward gives roll and yaw rates of the opposite sign, and
+ *   nothing here can notice. */
 typedef struct touchdown_record {
   double time;                    /* s; only differences matter */
   touchdown_joint joint[6];       /* left hip, knee, wheel, right hip, knee, wheel */

@@ -20,7 +20,7 @@ namespace touchdown::experiments {
 /// be finite. `update` neither allocates nor throws.
 class BatchedPhaseFilter {
  public:
-  /// The number of elements whose recursions run side by side: doubles in a vector of 512 bits.
+  /// The number of recursions that run side by side: doubles in a vector of 512 bits.
   static constexpr int block_size = 8;
 
   /// Throws InputError as `PhaseFilter`, and for no levels or bad ones.

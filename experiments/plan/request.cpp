@@ -75,7 +75,7 @@ std::vector<NamedScenario> scenarios_of(const Experiment& experiment, const Read
 
 std::string scenario_file(std::size_t number) { return fmt::format("scenario_{:03}.yaml", number); }
 
-/// Whose results a directory holds: the request, and the build that computes it.
+/// Identifies the results of a directory: the request, and the build that computes it.
 std::string state_key(const RunRequest& request) { return key_of(request.id, build_fingerprint()); }
 
 }  // namespace

@@ -281,7 +281,7 @@ std::vector<fs::path> own_files(const fs::path& directory) {
   }
   // Each record comes after its file: after a killed removal it still names it.
   add("state/files", R"([^.].*)");
-  // The experiment comes last: it tells whose directory it is after a killed removal.
+  // The experiment comes last, so that the directory can be identified after a killed removal.
   for (const char* const file : {"report.html", "manifest.json", "config.yaml"}) {
     names.emplace_back(file);
   }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "logs/log/numbers_csv.hpp"
 #include "models/robot.hpp"
 
 namespace touchdown::logs {
@@ -25,13 +26,6 @@ struct Beliefs {
   std::size_t size() const { return time.size(); }
   /// Position of a belief for messages: "beliefs.csv:12", "beliefs.npz: belief 11".
   std::string place(std::size_t index) const;
-};
-
-/// An error in the names or in one row of a file, with its column. The reader of the file adds the
-/// position.
-struct ColumnError {
-  std::size_t column = 0;
-  std::string what;
 };
 
 /// Collects beliefs from the columns of a file of any format: `time`, `p_left`, `p_right`, and both

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -8,9 +9,14 @@
 #include <string_view>
 #include <vector>
 
-#include "logs/log/beliefs.hpp"
-
 namespace touchdown::logs {
+
+/// An error in the names or in one row of a file, with its column. The reader of the file adds the
+/// position.
+struct ColumnError {
+  std::size_t column = 0;
+  std::string what;
+};
 
 /// Receives a file of comma-separated numbers: first the names, then the rows in the order of the
 /// names. Each callback returns an error, if any.

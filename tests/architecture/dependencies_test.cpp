@@ -123,9 +123,9 @@ TEST_F(SmallSourceTree, ReportsEachIncludeOfAFolderBelow) {
               ElementsAre("cellar/wine.hpp:3: includes \"kitchen/stove.hpp\", and kitchen stands "
                           "below cellar"));
   EXPECT_THAT(includes_against({"cellar", "kitchen"}, tree()),
-              ElementsAre("cellar/wine.hpp:3: includes \"kitchen/stove.hpp\", and kitchen stands "
-                          "below cellar",
-                          "roof/tiles.cpp: its folder has no row"));
+              ElementsAre("roof/tiles.cpp: its folder has no row",
+                          "cellar/wine.hpp:3: includes \"kitchen/stove.hpp\", and kitchen stands "
+                          "below cellar"));
 }
 
 TEST_F(SmallSourceTree, ReportsBothIncludesOfACycle) {
@@ -145,13 +145,13 @@ TEST_F(SmallSourceTree, ReportsHeadersWithOneReader) {
   folder_.write("roof/gutter.cpp", "#include \"cellar/wine.hpp\"\n");
   EXPECT_THAT(headers_with_one_reader(tree(), 10, {}),
               ElementsAre("cellar/coal.hpp: only kitchen/stove includes it",
-                          "kitchen/stove.hpp: nobody includes it"));
+                          "kitchen/stove.hpp: no module includes it"));
   EXPECT_THAT(headers_with_one_reader(tree(), 10, {"cellar/coal.hpp", "kitchen/stove.hpp"}),
               IsEmpty());
   folder_.write("cellar/coal.cpp", "#include \"cellar/coal.hpp\"\n\n\n\n\n\n");
   folder_.write("kitchen/stove.cpp", "#include \"kitchen/stove.hpp\"\n\n\n\n\n\n");
   EXPECT_THAT(headers_with_one_reader(tree(), 10, {}),
-              ElementsAre("kitchen/stove.hpp: nobody includes it"))
+              ElementsAre("kitchen/stove.hpp: no module includes it"))
       << "both together are too long";
 }
 

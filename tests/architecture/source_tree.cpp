@@ -134,7 +134,7 @@ std::vector<std::string> headers_with_one_reader(const SourceTree& tree, std::si
         size[module_of(file.name) + ".cpp"] + size[*found.begin() + ".cpp"] > most) {
       continue;
     }
-    lines.push_back(file.name + (found.empty() ? ": nobody includes it"
+    lines.push_back(file.name + (found.empty() ? ": no module includes it"
                                                : ": only " + *found.begin() + " includes it"));
   }
   return lines;
