@@ -19,7 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / 'scripts' / 'documents'))
 from pages import blocks  # noqa: E402
 
-LEFT_TO_READERS = re.compile(r'make |export [A-Z]+=|sudo |cmake |cp -r examples|\$EDITOR|build/|touchdown watch')
+LEFT_TO_READERS = re.compile(r'make |export [A-Z]+=|sudo |cmake |cp examples|\$EDITOR|build/|touchdown watch')
 PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
 PACKAGE = str(pathlib.Path(sys.argv.pop(1)).resolve()) if len(sys.argv) > 1 else ''
 
