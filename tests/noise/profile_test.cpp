@@ -126,7 +126,7 @@ TEST(SensorProfile, ThatCannotBeFoundIsShownWithTheNearestFile) {
 }
 
 TEST(SensorProfile, OfEveryShippedFileIsReadAndOnlyTheIdealOneIsIdeal) {
-  const auto files = resources_in("sensors", ".yaml");
+  const auto files = resources_in("noise/profiles", ".yaml");
   EXPECT_GE(files.size(), 3U);
   for (const auto& file : files) {
     EXPECT_EQ(is_ideal(find_sensor_profile(file)), file == "noise/profiles/ideal.yaml") << file;

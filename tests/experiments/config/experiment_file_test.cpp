@@ -173,7 +173,8 @@ TEST(ExperimentFile, HasNoFiguresOfDropsByDefaultOrWhereTheyAreSwitchedOff) {
 
 TEST(ExperimentFile, TakesDefaultsForEmptySections) {
   const Experiment experiment =
-      read("detail: {}\nposterior:\nvideo: {}\n", {"fit.runs=4", "fit.tuning={trials: 2}"});
+      read("detail: {}\nposterior:\nvideo: {}\n",
+           {"fit.runs=4", "fit.perturbed=true", "fit.tuning={trials: 2}"});
   ASSERT_TRUE(experiment.detail && experiment.posterior && experiment.tuning);
   EXPECT_THAT(experiment.detail->estimators,
               ElementsAre("robust", "measurement_only", "reference", "phase", "paper"));

@@ -24,7 +24,7 @@ TEST(PartialFiles, OfKilledProcessesAreRemoved) {
   const ScratchFolder folder;
   folder.write("tables/.success.1234.0abc.part.csv", "half");
   folder.write("state/.part.77.0abc.part", "half");
-  folder.write("figures/.success_mujoco.4321.part/success_mujoco.gp", "half");
+  folder.write("figures/.success_mujoco.4321.0abc.part/success_mujoco.gp", "half");
   folder.write("tables/success.csv", "whole");
   folder.write("tables/my.parts", "whole");
   remove_partial_files(folder.path());
