@@ -102,9 +102,10 @@ ImuSignals imu_of(const RobotRecord& record, const AssemblyConfig& config) noexc
   // From z up to z down: half a turn about x.
   if (config.reference_is_z_up) q = Eigen::Quaterniond(-q.x(), q.w(), -q.z(), q.y());
   const auto converted = [&](double unit, const Eigen::Vector3d& theirs) -> Eigen::Vector3d {
-    const Eigen::Vector3d vector = unit * theirs;
-    if (!is_mounted_otherwise) return vector;  // so that one missing number stays one
-    return config.axes * vector;
+    Eigen::Vector3d vector = unit * theirs;
+    // Only then, so that one missing number stays one.
+    if (is_mounted_otherwise) vector = config.axes * vector;
+    return vector;
   };
   const RecordUnits& units = config.units;
   ImuSignals imu = {

@@ -13,7 +13,6 @@
 #include "core/program.hpp"
 #include "core/progress.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "experiments/logs/fit.hpp"
 #include "logs/model_file.hpp"
 
 namespace touchdown::cli {

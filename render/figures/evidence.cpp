@@ -270,7 +270,8 @@ void draw_evidence(const experiments::ExperimentResult& result, const std::atomi
   for (const std::string& simulator : result.experiment.simulators) {
     for (const auto& [estimator, evidence] : evidence_figures(result, simulator)) {
       stop_if_asked(stop);
-      draw_evidence_figure(evidence, result.directory.file("figures", estimator + "_" + simulator));
+      draw_evidence_figure(
+          evidence, result.directory.file("figures", fmt::format("{}_{}", estimator, simulator)));
     }
   }
 }

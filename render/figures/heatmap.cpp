@@ -139,7 +139,8 @@ struct PanelLayout {
     return static_cast<double>(panel % columns) * (panel_width + map_gap_x) + map_gap_x - 8.0;
   }
   double top(std::size_t panel) const {
-    return static_cast<double>(panel / columns) * (panel_height + map_gap_y) + 22.0;
+    const std::size_t row = panel / columns;
+    return static_cast<double>(row) * (panel_height + map_gap_y) + 22.0;
   }
 };
 

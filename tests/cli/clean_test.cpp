@@ -36,7 +36,9 @@ TEST(Clean, RemovesOldRunsAndKeepsTheLatest) {
 /// Writes what a run leaves, with 10 MB in it.
 void write_run(const ScratchFolder& folder, const std::string& name, const std::string& id) {
   folder.write("runs/" + name + "/" + id + "/config.yaml", "name: x\n");
-  folder.write("runs/" + name + "/" + id + "/notes.txt", std::string(9'999'992, 'x'));
+  std::string notes;
+  notes.resize(9'999'992, 'x');
+  folder.write("runs/" + name + "/" + id + "/notes.txt", notes);
 }
 
 TEST(Clean, LeavesOutFoldersThatMayBeNoRuns) {

@@ -55,8 +55,9 @@ std::vector<Step> steps_of(const logs::Recording& run) {
     const models::Observation& o = run.observation[k];
     Step& step = steps.emplace_back();
     step.stamp = 5'000'000'000 + 1'000'000 * static_cast<std::int64_t>(k);
-    step.time = static_cast<double>(step.stamp / 1'000'000'000) +
-                1e-9 * static_cast<double>(step.stamp % 1'000'000'000);
+    const std::int64_t seconds = step.stamp / 1'000'000'000;
+    step.time =
+        static_cast<double>(seconds) + 1e-9 * static_cast<double>(step.stamp % 1'000'000'000);
     for (std::size_t i = 0; i < order.size(); ++i) {
       const std::size_t joint = order.at(i);
       const models::ServoReading& servo = o.servo[joint];
