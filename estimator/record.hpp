@@ -108,7 +108,8 @@ struct AssemblyConfig {
 };
 
 /// The `AssemblyConfig::axes` of an IMU, from the names of its axes that point back, left and down:
-/// each is x, y or z, or with a minus its reverse. An IMU with x forward, y left and z up (REP 103) has
+/// each is x, y or z, or with a minus its reverse. An IMU with x forward, y left and z up (REP 103)
+/// has
 /// {"-x", "y", "-z"}. Zeros for anything but a right-handed order of x, y and z.
 [[nodiscard]] Eigen::Matrix3d signed_axes(const std::array<std::string_view, 3>& names) noexcept;
 

@@ -1,7 +1,6 @@
-#include "models/terrain.hpp"
-
 #include "core/fields.hpp"
 #include "models/profile.hpp"
+#include "models/terrain.hpp"
 
 namespace touchdown::models {
 
