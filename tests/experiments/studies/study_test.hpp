@@ -41,7 +41,7 @@ inline void expect_same_in_shards(const ScratchFolder& folder, const Experiment&
 
 /// An experiment as it is written, which reads back to the same text.
 inline std::string reread_yaml(const Experiment& experiment) {
-  const std::string text = to_yaml(experiment);
+  std::string text = to_yaml(experiment);
   EXPECT_EQ(to_yaml(experiment_from_yaml(YamlDocument::parse(text, "again.yaml"))), text);
   return text;
 }
