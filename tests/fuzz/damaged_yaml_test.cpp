@@ -155,7 +155,7 @@ TEST(DamagedYaml, OfRobotsIsRefusedInOwnWords) {
 }
 
 TEST(DamagedYaml, OfSensorsIsRefusedInOwnWords) {
-  read_damaged_files("sensors", [](const std::string& text) {
+  read_damaged_files("noise/profiles", [](const std::string& text) {
     (void)from_yaml<noise::SensorProfile>(document(text));
   });
 }
