@@ -55,7 +55,7 @@ TEST(Store, ReturnsAPartToItsOwnExperimentBuildKindAndNameOnly) {
 
 TEST(Store, ComputesWhatIsMissingOnceAndReturnsItUnchanged) {
   const ScratchFolder folder;
-  const Part part = {{{"a", 0.1}, {"", -1.0}}, {1, -2, 3}, {{"x y", {{"b\n", 2.0}}}, {"", {}}}};
+  Part part = {{{"a", 0.1}, {"", -1.0}}, {1, -2, 3}, {{"x y", {{"b\n", 2.0}}}, {"", {}}}};
   int computed = 0;
   for (int pass = 0; pass < 3; ++pass) {
     const Store store(folder.path(), "key");
