@@ -26,12 +26,7 @@ int Contract::find(mjtObj type, const char* tag, std::string_view name) const {
       return;
     names.emplace_back(found);
   });
-  const std::string near = did_you_mean(name, names);
-  fail(fmt::format(
-      "expected a {} named '{}'{}", tag, name,
-      near.empty() ? fmt::format(", found {}",
-                                 names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")))
-                   : near));
+  fail(fmt::format("expected a {} named '{}'{}", tag, name, found_text(name, names)));
 }
 
 const tinyxml2::XMLElement* Contract::body_element(int body) const {
@@ -51,7 +46,7 @@ const tinyxml2::XMLElement* Contract::child(int body, int number,
                                             std::initializer_list<std::string_view> tags) const {
   const tinyxml2::XMLElement* const parent = body_element(body);
   if (parent == nullptr) return nullptr;
-  for (const auto* e = parent->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+  for (auto* e : children(*parent)) {
     const bool is_one = std::find(tags.begin(), tags.end(), e->Name()) != tags.end();
     if (is_one && number-- == 0) return e;
   }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "models/mjcf/types.hpp"
 #include "models/robot.hpp"
 
 namespace touchdown::models {
@@ -39,10 +40,7 @@ Stretch across(const Vector3d& axis, double factor, const Vector3d& pivot) {
 Eigen::Map<Vector3d> row(mjtNum* table, int i) { return Eigen::Map<Vector3d>(table + 3 * i); }
 
 /// The axes of a frame, from its quaternion in a row of one of MuJoCo's arrays.
-Matrix3d axes_at(const mjtNum* table, int i) {
-  const mjtNum* q = table + 4 * i;
-  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
-}
+Matrix3d axes_at(const mjtNum* table, int i) { return quaternion_at(table, i).toRotationMatrix(); }
 
 /// Stretches the matter of a body: with Σ = ∫ρxxᵀ, the inertia is tr(Σ)·1 − Σ.
 void stretch_inertia(mjModel& mj, int body, const Stretch& stretch) {
@@ -172,7 +170,7 @@ void shift_mass(mjModel& mj, int body, const Eigen::Vector3d& offset) {
 }
 
 void recompute(mjModel& mj) {
-  const std::unique_ptr<mjData, decltype(&mj_deleteData)> data(mj_makeData(&mj), mj_deleteData);
+  const MjDataPtr data(mj_makeData(&mj));
   if (!data) throw Error("MuJoCo could not make its data: out of memory");
   // Rendering uses the scene's fixed size (models/scene_mjcf.hpp), not a recomputed one.
   const mjStatistic scene = mj.stat;

@@ -16,27 +16,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-constexpr std::array<NoiseChannel, models::servo_count> torque_channels = {
-    NoiseChannel::left_hip_torque,   NoiseChannel::left_knee_torque,
-    NoiseChannel::left_wheel_torque, NoiseChannel::right_hip_torque,
-    NoiseChannel::right_knee_torque, NoiseChannel::right_wheel_torque};
-constexpr std::array<NoiseChannel, models::servo_count> position_channels = {
-    NoiseChannel::left_hip_position,   NoiseChannel::left_knee_position,
-    NoiseChannel::left_wheel_position, NoiseChannel::right_hip_position,
-    NoiseChannel::right_knee_position, NoiseChannel::right_wheel_position};
-constexpr std::array<NoiseChannel, models::servo_count> velocity_channels = {
-    NoiseChannel::left_hip_velocity,   NoiseChannel::left_knee_velocity,
-    NoiseChannel::left_wheel_velocity, NoiseChannel::right_hip_velocity,
-    NoiseChannel::right_knee_velocity, NoiseChannel::right_wheel_velocity};
-
-using AxisNumbers = std::array<NoiseChannel, 3>;
-constexpr AxisNumbers accelerometer_channels = {
-    NoiseChannel::accelerometer_x, NoiseChannel::accelerometer_y, NoiseChannel::accelerometer_z};
-constexpr AxisNumbers gyroscope_channels = {NoiseChannel::gyroscope_x, NoiseChannel::gyroscope_y,
-                                            NoiseChannel::gyroscope_z};
-constexpr AxisNumbers orientation_channels = {
-    NoiseChannel::orientation_x, NoiseChannel::orientation_y, NoiseChannel::orientation_z};
-
 /// One scalar signal of the observations, with the state of its sensor.
 struct SensorSignal {
   SensorChannel channel;
@@ -81,9 +60,9 @@ class ReportingSensors::Reporter {
   /// Add one signal per channel that is not ideal. All signals are read before any is written back:
   /// vibration follows the true wheel angle, not the reported one.
   void add_joints(const JointChannels& channels, double models::ServoReading::*member,
-                  const std::array<NoiseChannel, models::servo_count>& numbers);
+                  NoiseChannel (*number)(models::Servo));
   void add_vector(const AxisChannels& channels, Eigen::Vector3d models::ImuReading::*member,
-                  const AxisNumbers& numbers);
+                  NoiseChannel x);
 
   /// Rotates all measurements of the IMU.
   void misalign(std::span<models::Observation> next) const;
@@ -145,37 +124,38 @@ ReportingSensors::Reporter::Reporter(const SensorProfile& profile, const NoiseKe
       changes_acceleration_(!is_aligned_ || !is_attitude_ideal_ ||
                             !is_ideal(profile.accelerometer)),
       orientation_(profile.orientation),
-      orientation_clock_(profile.orientation.front(), period, {key, orientation_channels.front()},
+      orientation_clock_(profile.orientation.front(), period, {key, NoiseChannel::orientation_x},
                          {nan, nan, nan, nan}) {
   if (!is_aligned_) turn_ = turn_of(profile.misalignment, key);
   add_vector(profile.accelerometer, &models::ImuReading::raw_linear_acceleration,
-             accelerometer_channels);
-  add_vector(profile.gyroscope, &models::ImuReading::angular_velocity, gyroscope_channels);
-  add_joints(profile.torque, &models::ServoReading::torque, torque_channels);
-  add_joints(profile.position, &models::ServoReading::position, position_channels);
-  add_joints(profile.velocity, &models::ServoReading::velocity, velocity_channels);
+             NoiseChannel::accelerometer_x);
+  add_vector(profile.gyroscope, &models::ImuReading::angular_velocity, NoiseChannel::gyroscope_x);
+  add_joints(profile.torque, &models::ServoReading::torque, torque_channel);
+  add_joints(profile.position, &models::ServoReading::position, position_channel);
+  add_joints(profile.velocity, &models::ServoReading::velocity, velocity_channel);
 }
 
-void ReportingSensors::Reporter::add_joints(
-    const JointChannels& channels, double models::ServoReading::*member,
-    const std::array<NoiseChannel, models::servo_count>& numbers) {
+void ReportingSensors::Reporter::add_joints(const JointChannels& channels,
+                                            double models::ServoReading::*member,
+                                            NoiseChannel (*number)(models::Servo)) {
   for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
     const SensorChannel& channel = channels[servo % channels.size()];
     if (is_ideal(channel)) continue;
+    const NoiseChannel own = number(static_cast<models::Servo>(servo));
     signals_.push_back(signal_of(
-        channel, run_, numbers[servo], numbers[servo],
-        [ servo,
-          member ](auto& observation) -> auto& { return observation.servo[servo].*member; }));
+        channel, run_, own, own, [ servo, member ](auto& observation) -> auto& {
+          return observation.servo[servo].*member;
+        }));
   }
 }
 
 void ReportingSensors::Reporter::add_vector(const AxisChannels& channels,
                                             Eigen::Vector3d models::ImuReading::*member,
-                                            const AxisNumbers& numbers) {
+                                            NoiseChannel x) {
   for (std::size_t axis = 0; axis < channels.size(); ++axis) {
     if (is_ideal(channels[axis])) continue;
     signals_.push_back(signal_of(
-        channels[axis], run_, numbers[axis], numbers.front(),
+        channels[axis], run_, axis_channel(x, axis), x,
         [ axis, member ](auto& observation) -> auto& {
           return (observation.imu.*member)[static_cast<Eigen::Index>(axis)];
         }));
@@ -248,7 +228,7 @@ void ReportingSensors::Reporter::report_signals(std::span<models::Observation> n
 void ReportingSensors::Reporter::report_orientation(std::span<models::Observation> next) {
   std::array<std::vector<double>, 3> error;
   for (std::size_t axis = 0; axis < orientation_.size(); ++axis) {
-    ChannelDraws draws(run_.key, orientation_channels[axis]);
+    ChannelDraws draws(run_.key, axis_channel(NoiseChannel::orientation_x, axis));
     error[axis].resize(next.size());
     disturb_values(error[axis], orientation_[axis], run_.period, draws, orientation_state_[axis]);
   }
@@ -294,7 +274,8 @@ void report_targets(const SensorProfile& profile, const NoiseKey& key,
                     std::span<models::Action> actions) {
   for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
     const SensorChannel& channel = profile.position[servo % profile.position.size()];
-    const double zero = bias_of(channel, {key, position_channels[servo]});
+    const double zero =
+        bias_of(channel, {key, position_channel(static_cast<models::Servo>(servo))});
     if (zero == 0.0) continue;
     for (models::Action& action : actions) action.servo[servo].position += zero;
   }

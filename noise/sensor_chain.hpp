@@ -15,6 +15,17 @@
 
 namespace touchdown::noise {
 
+/// Hips got their numbers after knees and wheels.
+constexpr NoiseChannel torque_channel(models::Servo servo) {
+  constexpr int numbers[models::servo_count] = {7, 0, 1, 8, 2, 3};
+  return static_cast<NoiseChannel>(numbers[static_cast<int>(servo)]);
+}
+
+/// The channel of an axis (x, y, z) of a sensor, given that of its x.
+constexpr NoiseChannel axis_channel(NoiseChannel x, std::size_t axis) {
+  return static_cast<NoiseChannel>(static_cast<std::size_t>(x) + axis);
+}
+
 /// The disturbance that a draw is for. The numbers are part of every draw: never change one; only
 /// add new ones. 0 is not used: it belongs to the white noise of `with_noise`.
 enum class DrawnFor : std::uint16_t {

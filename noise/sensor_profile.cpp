@@ -18,80 +18,101 @@ namespace touchdown::noise {
 
 namespace {
 
-/// A disturbance that a study can vary, with the number that sets its size.
-struct VariedDisturbance {
-  const char* name;
-  double& (*of)(SensorChannel& channel);
-  bool has_no_unit;  ///< may be set for all sensors at once
-  bool on_joints = true;
-  bool on_attitude = true;
-  bool is_shared_by_axes = false;
-};
-constexpr std::array disturbances = {
-    VariedDisturbance{"scale", [](SensorChannel& c) -> double& { return c.scale.sd; }, true, true,
-                      false},
-    VariedDisturbance{"bias", [](SensorChannel& c) -> double& { return c.bias.sd; }, false},
-    VariedDisturbance{"walk", [](SensorChannel& c) -> double& { return c.walk; }, false},
-    VariedDisturbance{"vibration",
-                      [](SensorChannel& c) -> double& { return c.vibration.amplitude; }, false,
-                      false, false},
-    VariedDisturbance{"coloured", [](SensorChannel& c) -> double& { return c.coloured.sd; }, false},
-    VariedDisturbance{"low_pass", [](SensorChannel& c) -> double& { return c.low_pass; }, true,
-                      true, false},
-    VariedDisturbance{"white", [](SensorChannel& c) -> double& { return c.white; }, false},
-    VariedDisturbance{"degrees_of_freedom",
-                      [](SensorChannel& c) -> double& { return c.degrees_of_freedom; }, true},
-    VariedDisturbance{"range", [](SensorChannel& c) -> double& { return c.range; }, false, true,
-                      false},
-    VariedDisturbance{"resolution", [](SensorChannel& c) -> double& { return c.resolution; }, false,
-                      true, false},
-    VariedDisturbance{"rate", [](SensorChannel& c) -> double& { return c.rate; }, true, true, true,
-                      true},
-    VariedDisturbance{"delay", [](SensorChannel& c) -> double& { return c.delay; }, true, true,
-                      true, true},
-    VariedDisturbance{"dropout", [](SensorChannel& c) -> double& { return c.dropout.rate; }, true,
-                      true, true, true}};
-
-struct VariedSensor {
-  const char* name;
-  std::array<SensorChannel, 3> SensorProfile::*channels;
-  bool is_joint;
-  bool is_attitude;
-
-  bool has(const VariedDisturbance& disturbance) const {
-    return (disturbance.on_joints || !is_joint) && (disturbance.on_attitude || !is_attitude);
-  }
-};
-constexpr std::array sensors = {
-    VariedSensor{"torque", &SensorProfile::torque, true, false},
-    VariedSensor{"position", &SensorProfile::position, true, false},
-    VariedSensor{"velocity", &SensorProfile::velocity, true, false},
-    VariedSensor{"accelerometer", &SensorProfile::accelerometer, false, false},
-    VariedSensor{"gyroscope", &SensorProfile::gyroscope, false, false},
-    VariedSensor{"orientation", &SensorProfile::orientation, false, true}};
+constexpr double largest = 1e4;  ///< limit of biases, standard deviations and resolutions
 
 constexpr std::array joints = {"hip", "knee", "wheel"};
 constexpr std::array axes = {"x", "y", "z"};
 
+/// Kind of sensor; it determines which disturbances apply.
+enum class SensorKind { joint, imu, attitude };
+
+/// A sensor with its key, unit and meaning, as in the reference of keys.
+struct Sensor {
+  const char* name;
+  std::array<SensorChannel, 3> SensorProfile::*channels;
+  SensorKind kind;
+  const char* unit;
+  const char* meaning;
+
+  const std::array<const char*, 3>& channel_names() const {
+    return kind == SensorKind::joint ? joints : axes;
+  }
+};
+constexpr std::array sensors = {
+    Sensor{"torque", &SensorProfile::torque, SensorKind::joint, "N·m",
+           "Joint torques, reported by the servos."},
+    Sensor{"position", &SensorProfile::position, SensorKind::joint, "rad", "Joint positions."},
+    Sensor{"velocity", &SensorProfile::velocity, SensorKind::joint, "rad/s", "Joint velocities."},
+    Sensor{"accelerometer", &SensorProfile::accelerometer, SensorKind::imu, "m/s²",
+           "Acceleration of the IMU, gravity included."},
+    Sensor{"gyroscope", &SensorProfile::gyroscope, SensorKind::imu, "rad/s",
+           "Angular velocity of the IMU."},
+    Sensor{"orientation", &SensorProfile::orientation, SensorKind::attitude, "rad",
+           "Error of the IMU's attitude, about its axes."}};
+
+/// The sensors that can have a disturbance.
+enum class Affects { all, imu, all_but_attitude };
+
+/// A disturbance that a study can vary, with the number that sets its size.
+struct VariedDisturbance {
+  const char* name;
+  double& (*of)(SensorChannel& channel);
+  Affects affects;
+  bool has_no_unit;  ///< may be set for all sensors at once
+  bool is_shared_by_axes = false;
+
+  bool is_of(const Sensor& sensor) const {
+    if (affects == Affects::imu) return sensor.kind == SensorKind::imu;
+    return affects == Affects::all || sensor.kind != SensorKind::attitude;
+  }
+};
+constexpr std::array disturbances = {
+    VariedDisturbance{"scale", [](SensorChannel& c) -> double& { return c.scale.sd; },
+                      Affects::all_but_attitude, true},
+    VariedDisturbance{"bias", [](SensorChannel& c) -> double& { return c.bias.sd; }, Affects::all,
+                      false},
+    VariedDisturbance{"walk", [](SensorChannel& c) -> double& { return c.walk; }, Affects::all,
+                      false},
+    VariedDisturbance{"vibration",
+                      [](SensorChannel& c) -> double& { return c.vibration.amplitude; },
+                      Affects::imu, false},
+    VariedDisturbance{"coloured", [](SensorChannel& c) -> double& { return c.coloured.sd; },
+                      Affects::all, false},
+    VariedDisturbance{"low_pass", [](SensorChannel& c) -> double& { return c.low_pass; },
+                      Affects::all_but_attitude, true},
+    VariedDisturbance{"white", [](SensorChannel& c) -> double& { return c.white; }, Affects::all,
+                      false},
+    VariedDisturbance{"degrees_of_freedom",
+                      [](SensorChannel& c) -> double& { return c.degrees_of_freedom; },
+                      Affects::all, true},
+    VariedDisturbance{"range", [](SensorChannel& c) -> double& { return c.range; },
+                      Affects::all_but_attitude, false},
+    VariedDisturbance{"resolution", [](SensorChannel& c) -> double& { return c.resolution; },
+                      Affects::all_but_attitude, false},
+    VariedDisturbance{"rate", [](SensorChannel& c) -> double& { return c.rate; }, Affects::all,
+                      true, true},
+    VariedDisturbance{"delay", [](SensorChannel& c) -> double& { return c.delay; }, Affects::all,
+                      true, true},
+    VariedDisturbance{"dropout", [](SensorChannel& c) -> double& { return c.dropout.rate; },
+                      Affects::all, true, true}};
+
+const char* name_of(const char* name) { return name; }
+template <typename Named>
+const char* name_of(const Named& named) {
+  return named.name;
+}
+
 /// Finds the entry named `word` among those that `is_known` accepts. Errors: `InputError`.
-template <typename Named, typename Known>
-const Named& find(const std::string& word, const Named& first, std::size_t count,
-                  const Known& is_known) {
+template <typename Table, typename Known>
+const auto& find(const std::string& word, const Table& table, const Known& is_known) {
   std::vector<std::string> names;
-  for (const Named* one = &first; one != &first + count; ++one) {
-    if (!is_known(*one)) continue;
-    if (one->name == word) return *one;
-    names.emplace_back(one->name);
+  for (const auto& one : table) {
+    if (!is_known(one)) continue;
+    if (word == name_of(one)) return one;
+    names.emplace_back(name_of(one));
   }
   throw InputError(fmt::format("'{}' is not one of {}{}", word, fmt::join(names, ", "),
                                did_you_mean(word, names)));
-}
-
-std::size_t channel_number(const std::string& word, const std::array<const char*, 3>& names) {
-  const auto found = std::find(names.begin(), names.end(), word);
-  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-  throw InputError(fmt::format("'{}' is not one of {}{}", word, fmt::join(names, ", "),
-                               did_you_mean(word, {names.begin(), names.end()})));
 }
 
 /// The numbers of the profile that a key names.
@@ -105,42 +126,32 @@ std::vector<double*> numbers_of(SensorProfile& profile, std::string_view key) {
   std::vector<double*> numbers;
   if (words.size() == 1) {
     const VariedDisturbance& disturbance =
-        find(words[0], disturbances.front(), disturbances.size(),
-             [](const VariedDisturbance& one) { return one.has_no_unit; });
-    for (const VariedSensor& sensor : sensors) {
-      if (!sensor.has(disturbance)) continue;
+        find(words[0], disturbances, [](const auto& one) { return one.has_no_unit; });
+    for (const Sensor& sensor : sensors) {
+      if (!disturbance.is_of(sensor)) continue;
       for (SensorChannel& channel : profile.*sensor.channels) {
         numbers.push_back(&disturbance.of(channel));
       }
     }
     return numbers;
   }
-  const VariedSensor& sensor = find(words[0], sensors.front(), sensors.size(),
-                                    [](const VariedSensor& /*any*/) { return true; });
+  const auto any = [](const auto&) { return true; };
+  const Sensor& sensor = find(words[0], sensors, any);
   const bool whole = words.size() == 2;
-  const VariedDisturbance& disturbance = find(
-      words.back(), disturbances.front(), disturbances.size(), [&](const VariedDisturbance& one) {
-        return sensor.has(one) && (whole || sensor.is_joint || !one.is_shared_by_axes);
+  const VariedDisturbance& disturbance =
+      find(words.back(), disturbances, [&](const VariedDisturbance& one) {
+        return one.is_of(sensor) &&
+               (whole || sensor.kind == SensorKind::joint || !one.is_shared_by_axes);
       });
   auto& channels = profile.*sensor.channels;
   if (!whole) {
-    return {&disturbance.of(channels[channel_number(words[1], sensor.is_joint ? joints : axes)])};
+    const auto& names = sensor.channel_names();
+    const auto number = static_cast<std::size_t>(&find(words[1], names, any) - names.data());
+    return {&disturbance.of(channels[number])};
   }
   for (SensorChannel& channel : channels) numbers.push_back(&disturbance.of(channel));
   return numbers;
 }
-
-constexpr double largest = 1e4;  ///< limit of biases, standard deviations and resolutions
-
-/// Kind of sensor; it determines which disturbances apply.
-enum class SensorKind { joint, imu, attitude };
-
-/// A sensor with its unit, as in the reference of keys.
-struct Sensor {
-  SensorKind kind;
-  const char* unit;
-  const char* meaning;
-};
 
 void describe_low_pass(Fields& fields, double& time_constant) {
   const auto describe_time_constant = [&](Fields& filter) {
@@ -245,8 +256,9 @@ void describe_clock(Fields& fields, SensorChannel& channel) {
 
 /// Keys of a sensor apply to all three of its channels. Keys under a channel's name override them
 /// for this channel.
-void describe_sensor(Fields& fields, std::string_view key, std::array<SensorChannel, 3>& channels,
-                     const std::array<const char*, 3>& names, const Sensor& sensor) {
+void describe_sensor(Fields& fields, SensorProfile& profile, const Sensor& sensor) {
+  std::array<SensorChannel, 3>& channels = profile.*sensor.channels;
+  const std::array<const char*, 3>& names = sensor.channel_names();
   const bool is_joint = sensor.kind == SensorKind::joint;
   const auto describe_channel = [&](Fields& one, SensorChannel& channel) {
     // The reference of keys lists those of a sensor once.
@@ -271,7 +283,7 @@ void describe_sensor(Fields& fields, std::string_view key, std::array<SensorChan
           .doc("Replaces values of its sensor for this channel.");
     }
   };
-  fields.within(key, describe_all).doc(sensor.meaning);
+  fields.within(sensor.name, describe_all).doc(sensor.meaning);
 }
 
 }  // namespace
@@ -284,18 +296,7 @@ SensorProfile with_value(SensorProfile profile, std::string_view key, double val
 }
 
 void describe(Fields& fields, SensorProfile& profile) {
-  describe_sensor(fields, "torque", profile.torque, joints,
-                  {SensorKind::joint, "N·m", "Joint torques, reported by the servos."});
-  describe_sensor(fields, "position", profile.position, joints,
-                  {SensorKind::joint, "rad", "Joint positions."});
-  describe_sensor(fields, "velocity", profile.velocity, joints,
-                  {SensorKind::joint, "rad/s", "Joint velocities."});
-  describe_sensor(fields, "accelerometer", profile.accelerometer, axes,
-                  {SensorKind::imu, "m/s²", "Acceleration of the IMU, gravity included."});
-  describe_sensor(fields, "gyroscope", profile.gyroscope, axes,
-                  {SensorKind::imu, "rad/s", "Angular velocity of the IMU."});
-  describe_sensor(fields, "orientation", profile.orientation, axes,
-                  {SensorKind::attitude, "rad", "Error of the IMU's attitude, about its axes."});
+  for (const Sensor& sensor : sensors) describe_sensor(fields, profile, sensor);
   const auto describe_misalignment = [&](Fields& misalignment) {
     constexpr double pi = std::numbers::pi;
     Misalignment& angle = profile.misalignment;

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <memory>
-#include <utility>
 
 #include "models/robot.hpp"
 #include "policies/commands.hpp"
@@ -44,11 +43,6 @@ struct Course {
   double rolled_distance(const models::Observation& observation) const;
   double rolling_speed(const models::Observation& observation) const;
 };
-
-/// A course at its beginning.
-inline Course make_course(CourseScripts scripts, double wheel_radius, double period) {
-  return {std::make_shared<CourseScripts>(std::move(scripts)), wheel_radius, period};
-}
 
 /// The wheel commands of both laws: a ground velocity (m/s), and a raw torque on each wheel (N·m).
 void command_wheels(double ground_velocity, const std::array<double, models::wheel_count>& torque,

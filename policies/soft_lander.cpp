@@ -1,10 +1,13 @@
-#include "policies/soft_lander.hpp"
-
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include <Eigen/Core>
+
 #include "core/error.hpp"
+#include "policies/policy.hpp"
 
 namespace touchdown::policies {
 
@@ -61,6 +64,26 @@ constexpr double soft_stiffness = 500.0;  // N/m: of one soft leg from hip to ax
 constexpr double soft_damping = 140.0;    // N·s/m
 constexpr double gravity = 9.81;          // m/s²
 
+/// Masses and lengths of a wheeled biped from the side, x forward, z up, for control laws. Both
+/// legs count as one. All joints are at zero, where both links point straight down.
+struct SideView {
+  double torso_mass = 0.0;       ///< kg
+  double upper_mass = 0.0;       ///< of both legs (kg)
+  double lower_mass = 0.0;       ///< of both legs (kg)
+  double mass = 0.0;             ///< of the whole robot, wheels included (kg)
+  Eigen::Vector2d torso_centre;  ///< centre of mass from the hip (m)
+  Eigen::Vector2d upper_centre;  ///< centre of mass from the hip (m)
+  Eigen::Vector2d lower_centre;  ///< centre of mass from the knee (m)
+  double upper_length = 0.0;     ///< hip to knee (m)
+  double lower_length = 0.0;     ///< knee to axle (m)
+  /// Sign that makes hip and knee angles positive forward: left, right.
+  std::array<double, 2> forward = {1.0, -1.0};
+
+  /// Vector (m) from the axle to the centre of mass of the robot without wheels. The angles of
+  /// hips, knees and torso are positive forward (rad).
+  Eigen::Vector2d centre(double hip, double knee, double pitch) const;
+};
+
 /// The line from hip to axle of a leg with its knee bent forward.
 struct LegLine {
   double lever;       ///< lever arm at the knee of a force along the line (m)
@@ -76,8 +99,6 @@ LegLine line_of(const SideView& robot, double knee) {
           std::atan2(l * std::sin(knee), u + l * std::cos(knee)),
           (l * l + u * l * std::cos(knee)) / square};
 }
-
-}  // namespace
 
 Eigen::Vector2d SideView::centre(double hip, double knee, double pitch) const {
   const Eigen::Vector2d to_knee = bent(hip, {0.0, -upper_length});
@@ -120,18 +141,47 @@ SideView side_view(const models::RobotModel& robot) {
   return view;
 }
 
-SoftLander::SoftLander(const WheelBalancerConfig& config, Course course, const SideView& robot,
-                       WheelContact contact)
-    : config_(config),
-      course_(std::move(course)),
-      robot_(robot),
-      contact_source_(std::move(contact)),
-      standing_(long_ago),
-      on_ground_(long_ago) {}
+/// A balancer that uses contact. It differs from `WheelBalancer` in three ways:
+/// - It balances the centre of mass, not the torso.
+/// - In the air it keeps the ground speed on its wheels.
+/// - It softens its knees for a landing, each leg along its own line. It also does so when one
+///   wheel hangs over an edge, and sinks instead of tipping over the other wheel.
+/// Wheel commands and gains are those of `WheelBalancer`. Equations and the effect of
+/// each part: docs/explanation/policy.md.
+class SoftLander : public Policy {
+ public:
+  SoftLander(PolicyParts parts, const SideView& robot)
+      : parts_(std::move(parts)), robot_(robot), standing_(long_ago), on_ground_(long_ago) {}
+
+  void reset(const models::Observation& observation) override;
+  models::Action act(const models::Observation& observation) override;
+
+ private:
+  /// Whether both wheels have been without contact for longer than a false alarm.
+  bool is_flying() const;
+  void update_ground_velocity(const models::Observation& observation);
+  void update_softness();
+  void command_leg(std::size_t side, const models::Observation& observation,
+                   models::Action& action) const;
+
+  PolicyParts parts_;
+  SideView robot_;
+
+  std::array<bool, models::wheel_count> contact_ = {true, true};
+  double held_velocity_ = 0.0;    ///< ground speed during the last contact (m/s)
+  double integral_ = 0.0;         ///< m/s
+  double ground_velocity_ = 0.0;  ///< commanded to the wheels (m/s)
+  double in_air_ = 0.0;           ///< time since both wheels lost contact (s)
+  double one_in_air_ = 0.0;       ///< time since either wheel lost contact (s)
+  double standing_ = 0.0;         ///< time since the first contact after a flight (s)
+  double on_ground_ = 0.0;        ///< time since both regained contact, bumps ignored (s)
+  double softness_ = 0.0;         ///< of the legs: 0 is as stiff as on the ground, 1 is softest
+  std::optional<models::Action> previous_;  ///< the last action
+};
 
 void SoftLander::reset(const models::Observation& observation) {
-  *this = SoftLander(config_, std::move(course_), robot_, std::move(contact_source_));
-  course_.begin(observation, config_);
+  *this = SoftLander(std::move(parts_), robot_);
+  parts_.course.begin(observation, parts_.gains);
 }
 
 void SoftLander::update_ground_velocity(const models::Observation& observation) {
@@ -142,38 +192,39 @@ void SoftLander::update_ground_velocity(const models::Observation& observation) 
   const Eigen::Vector2d centre = robot_.centre(mean(0), mean(1), observation.pitch);
   const double lean = std::atan2(centre.x(), centre.y());
   if (contact_[0] || contact_[1]) {
-    const double gain = -std::expm1(-course_.period / speed_low_pass);
-    held_velocity_ += gain * (course_.rolling_speed(observation) - held_velocity_);
+    const double gain = -std::expm1(-parts_.course.period / speed_low_pass);
+    held_velocity_ += gain * (parts_.course.rolling_speed(observation) - held_velocity_);
   }
   if (!is_flying()) {
-    const double position_error = course_.target_position - course_.position;
-    integral_ =
-        std::clamp(integral_ + course_.period * (config_.position_stiffness * position_error -
-                                                 config_.pitch_stiffness * lean),
-                   -config_.max_integral, config_.max_integral);
-    ground_velocity_ =
-        config_.pitch_damping * lean - config_.position_damping * position_error - integral_;
+    const double position_error = parts_.course.target_position - parts_.course.position;
+    integral_ = std::clamp(
+        integral_ + parts_.course.period * (parts_.gains.position_stiffness * position_error -
+                                            parts_.gains.pitch_stiffness * lean),
+        -parts_.gains.max_integral, parts_.gains.max_integral);
+    ground_velocity_ = parts_.gains.pitch_damping * lean -
+                       parts_.gains.position_damping * position_error - integral_;
   } else {
-    course_.target_position = course_.position;
-    course_.target_velocity = held_velocity_;
+    parts_.course.target_position = parts_.course.position;
+    parts_.course.target_velocity = held_velocity_;
     integral_ = -held_velocity_;
-    ground_velocity_ = config_.pitch_damping * lean + held_velocity_;
+    ground_velocity_ = parts_.gains.pitch_damping * lean + held_velocity_;
   }
-  ground_velocity_ = std::clamp(ground_velocity_, -config_.max_velocity, config_.max_velocity);
+  ground_velocity_ =
+      std::clamp(ground_velocity_, -parts_.gains.max_velocity, parts_.gains.max_velocity);
 }
 
 bool SoftLander::is_flying() const { return in_air_ > dead_time; }
 
 void SoftLander::update_softness() {
-  standing_ = is_flying() ? 0.0 : standing_ + course_.period;
+  standing_ = is_flying() ? 0.0 : standing_ + parts_.course.period;
   const double sinking = std::max(in_air_ - dead_time, one_in_air_ - one_dead_time);
   if (sinking > 0.0) {
     on_ground_ = 0.0;
     softness_ = std::max(softness_, std::min(sinking / softening_time, 1.0));
   } else {
-    on_ground_ += course_.period;
+    on_ground_ += parts_.course.period;
     if (on_ground_ > soft_time) {
-      softness_ = std::max(0.0, softness_ - course_.period / stiffening_time);
+      softness_ = std::max(0.0, softness_ - parts_.course.period / stiffening_time);
     }
   }
 }
@@ -184,7 +235,7 @@ void SoftLander::command_leg(std::size_t side, const models::Observation& observ
   const std::size_t knee = hip + 1;
   const double forward = robot_.forward[side];
   const double stiff = 1.0 - softness_;
-  const double target = forward * course_.posture[knee];
+  const double target = forward * parts_.course.posture[knee];
   const double knee_angle = forward * observation.servo[knee].position;
   const LegLine line = line_of(robot_, knee_angle);
   const double square = line.lever * line.lever;
@@ -192,25 +243,26 @@ void SoftLander::command_leg(std::size_t side, const models::Observation& observ
                                          std::min(1.0, standing_ / load_ramp)
                                    : 0.0;
   action.servo[knee] = {.feedforward_torque = -forward * load,
-                        .position = course_.posture[knee],
-                        .kp_scale = stiff * config_.leg_kp_scale +
+                        .position = parts_.course.posture[knee],
+                        .kp_scale = stiff * parts_.gains.leg_kp_scale +
                                     softness_ * soft_stiffness * square / models::servo_kp,
-                        .kd_scale = stiff * config_.leg_kd_scale +
+                        .kd_scale = stiff * parts_.gains.leg_kd_scale +
                                     softness_ * soft_damping * square / models::servo_kd};
   // The hip turns against the line, in proportion to the softness: the leg folds along its line.
   const double folded = stiff * target + softness_ * knee_angle;
-  action.servo[hip] = {.position = course_.posture[hip] + forward * (line_of(robot_, target).angle -
-                                                                     line_of(robot_, folded).angle),
-                       .velocity = -softness_ * line.angle_rate * observation.servo[knee].velocity,
-                       .kp_scale = config_.leg_kp_scale,
-                       .kd_scale = config_.leg_kd_scale};
+  action.servo[hip] = {
+      .position = parts_.course.posture[hip] +
+                  forward * (line_of(robot_, target).angle - line_of(robot_, folded).angle),
+      .velocity = -softness_ * line.angle_rate * observation.servo[knee].velocity,
+      .kp_scale = parts_.gains.leg_kp_scale,
+      .kd_scale = parts_.gains.leg_kd_scale};
 }
 
 models::Action SoftLander::act(const models::Observation& observation) {
-  course_.follow(observation, config_);
-  contact_ = contact_source_(observation, previous_ ? &*previous_ : nullptr);
-  in_air_ = contact_[0] || contact_[1] ? 0.0 : in_air_ + course_.period;
-  one_in_air_ = contact_[0] && contact_[1] ? 0.0 : one_in_air_ + course_.period;
+  parts_.course.follow(observation, parts_.gains);
+  contact_ = parts_.contact(observation, previous_ ? &*previous_ : nullptr);
+  in_air_ = contact_[0] || contact_[1] ? 0.0 : in_air_ + parts_.course.period;
+  one_in_air_ = contact_[0] && contact_[1] ? 0.0 : one_in_air_ + parts_.course.period;
   update_ground_velocity(observation);
   update_softness();
   models::Action action;
@@ -218,10 +270,16 @@ models::Action SoftLander::act(const models::Observation& observation) {
     command_leg(side, observation, action);
   }
   // With both wheels in the air, the wheels cannot turn the robot.
-  const double turn = !is_flying() ? course_.yaw_torque(observation, config_) : 0.0;
-  command_wheels(ground_velocity_, {turn, turn}, course_.wheel_radius, config_, action);
+  const double turn = !is_flying() ? parts_.course.yaw_torque(observation, parts_.gains) : 0.0;
+  command_wheels(ground_velocity_, {turn, turn}, parts_.course.wheel_radius, parts_.gains, action);
   previous_ = action;
   return action;
+}
+
+}  // namespace
+
+std::unique_ptr<Policy> make_soft_lander(PolicyParts parts, const models::RobotModel& robot) {
+  return std::make_unique<SoftLander>(std::move(parts), side_view(robot));
 }
 
 }  // namespace touchdown::policies

@@ -40,8 +40,8 @@ WheelContact scripted_contact(ContactScript script);
 /// The control law of the robot and its contact source.
 struct PolicyConfig {
   enum class Law : int {
-    balancer,     ///< policies/wheel_balancer.hpp
-    soft_landing  ///< policies/soft_lander.hpp
+    balancer,     ///< policies/wheel_balancer.cpp
+    soft_landing  ///< policies/soft_lander.cpp
   };
   Law law = Law::balancer;
   /// An estimator that needs no fit, `always`, `script`, or the oracle `truth`, which no robot has.

@@ -13,8 +13,6 @@
 #include "estimator/free_fall.hpp"
 #include "logs/signals_from.hpp"
 #include "models/robot_model.hpp"
-#include "policies/soft_lander.hpp"
-#include "policies/wheel_balancer.hpp"
 #include "scenarios/leg_geometry.hpp"
 #include "scenarios/start_pose.hpp"
 
@@ -93,14 +91,13 @@ std::unique_ptr<policies::Policy> make_policy(
     const simulators::Simulator& simulator, policies::WheelContact contact_source) {
   policies::Course course{std::move(scripts), simulator.model().wheel_radius,
                           simulator.control_period()};
-  policies::WheelContact contact = policy_contact(scenario, simulator, std::move(contact_source));
-  if (scenario.policy.law == policies::PolicyConfig::Law::soft_landing) {
-    return std::make_unique<policies::SoftLander>(scenario.balancer, std::move(course),
-                                                  policies::side_view(simulator.model()),
-                                                  std::move(contact));
-  }
-  return std::make_unique<policies::WheelBalancer>(scenario.balancer, std::move(course),
-                                                   std::move(contact), keeps_lean(simulator));
+  return policies::make_policy(
+      scenario.policy.law,
+      {.gains = scenario.balancer,
+       .course = std::move(course),
+       .contact = policy_contact(scenario, simulator, std::move(contact_source)),
+       .keep_lean = keeps_lean(simulator)},
+      simulator.model());
 }
 
 /// Makes `command` the last one of its script.

@@ -1,10 +1,7 @@
-#include "simulators/bullet_simulator.hpp"
-
-#include <array>
 #include <vector>
 
-#include "models/robot_model.hpp"
-#include "simulators/bullet_world.hpp"
+#include "simulators/bullet.hpp"
+#include "simulators/engines.hpp"
 
 namespace touchdown::simulators {
 
@@ -108,6 +105,11 @@ BulletSimulator::BulletSimulator(const std::shared_ptr<const models::RobotModel>
 }
 
 BulletSimulator::~BulletSimulator() = default;
+
+std::unique_ptr<Simulator> make_bullet(const std::shared_ptr<const models::RobotModel>& model,
+                                       const SimulatorOptions& options) {
+  return std::make_unique<BulletSimulator>(model, options);
+}
 
 void BulletSimulator::place(const RobotState& start) {
   world_ = std::make_unique<BulletWorld>(model(), options());

@@ -1,11 +1,10 @@
-#include "simulators/bullet_world.hpp"
-
 #include <algorithm>
 
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "simulators/bullet.hpp"
 #include "simulators/collision_model.hpp"
 #include "simulators/tyres.hpp"
 
@@ -63,7 +62,7 @@ struct InertiaFrame {
   Eigen::Vector3d inertia;  ///< about its axes (kg·m²)
 };
 
-/// Includes the rotor of the body's joint (see rotors.hpp), which changes the principal axes.
+/// Includes the rotor of the body's joint (bullet_simulator.cpp), which changes the principal axes.
 InertiaFrame inertia_frame(const mjModel& mj, int body) {
   InertiaFrame frame = {models::vector_at(mj.body_ipos, body),
                         models::quaternion_at(mj.body_iquat, body),

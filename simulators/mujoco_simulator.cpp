@@ -1,11 +1,13 @@
-#include "simulators/mujoco_simulator.hpp"
-
 #include <cmath>
 #include <limits>
 #include <new>
+#include <optional>
+#include <string_view>
+#include <vector>
 
 #include "core/error.hpp"
 #include "simulators/collision_model.hpp"
+#include "simulators/engines.hpp"
 #include "simulators/tyres.hpp"
 
 namespace touchdown::simulators {
@@ -30,7 +32,55 @@ bool diverged(const mjData& data) {
          0;
 }
 
-}  // namespace
+/// The tyres of a robot in MuJoCo.
+class MujocoTyres {
+ public:
+  /// `engine_model` may have fewer geoms than the robot's model.
+  MujocoTyres(const models::RobotModel& robot, const mjModel& engine_model);
+
+  /// The wheel with a tyre that contains this geom of the engine's model, if any.
+  std::optional<std::size_t> wheel_of(int geom) const {
+    return wheel_of_geom_[static_cast<std::size_t>(geom)];
+  }
+
+  /// Makes tyre contacts springs and dampers; called between `mj_step1` and `mj_step2`. MuJoCo's
+  /// contacts are reference accelerations, which the solver tries to reach for any mass. But a row
+  ///
+  ///     f = (a_ref − a)/R
+  ///
+  /// with a_ref = R·F and R much larger than the inverse mass at the contact is a force F that
+  /// hardly depends on the motion. Only normal rows are changed. Friction stays MuJoCo's, within
+  /// the friction cone of that force.
+  void press(mjData& data) const;
+
+ private:
+  models::Tyre tyre_;
+  double share_;  ///< of one strip in its tyre
+  std::vector<std::optional<std::size_t>> wheel_of_geom_;
+};
+
+/// MuJoCo as a `Simulator`: it steps a copy of the compiled model.
+class MujocoSimulator : public Simulator {
+ public:
+  MujocoSimulator(const std::shared_ptr<const models::RobotModel>& model,
+                  const SimulatorOptions& options);
+
+  std::string_view name() const override { return "mujoco"; }
+
+ protected:
+  void place(const RobotState& start) override;
+  void advance(const AppliedTorques& torques, std::span<const ExternalWrench> wrenches) override;
+  void read(RobotState& state) const override;
+  void read(ContactForces& forces) const override;
+
+ private:
+  /// The model that the engine steps: without geoms that cannot collide, and with the time step and
+  /// the contact model of the options.
+  models::MjModelPtr mj_;
+  models::MjDataPtr data_;
+  MujocoTyres tyres_;
+  Eigen::Vector3d base_com_;  ///< centre of mass of the base body in its frame (m)
+};
 
 MujocoTyres::MujocoTyres(const models::RobotModel& robot, const mjModel& engine_model)
     : tyre_(robot.tyre),
@@ -168,6 +218,13 @@ void MujocoSimulator::read(ContactForces& forces) const {
       forces.body_touches_terrain = true;
     }
   }
+}
+
+}  // namespace
+
+std::unique_ptr<Simulator> make_mujoco(const std::shared_ptr<const models::RobotModel>& model,
+                                       const SimulatorOptions& options) {
+  return std::make_unique<MujocoSimulator>(model, options);
 }
 
 }  // namespace touchdown::simulators

@@ -4,25 +4,14 @@
 #include <fmt/ranges.h>
 
 #include "core/yaml.hpp"
-#include "simulators/bullet_simulator.hpp"
-#include "simulators/mujoco_simulator.hpp"
+#include "simulators/engines.hpp"
 
 namespace touchdown::simulators {
 
-namespace {
-
-template <typename Engine>
-std::unique_ptr<Simulator> make(const std::shared_ptr<const models::RobotModel>& model,
-                                const SimulatorOptions& options) {
-  return std::make_unique<Engine>(model, options);
-}
-
-}  // namespace
-
 std::span<const SimulatorEntry> simulator_entries() {
   static const std::vector<SimulatorEntry> entries = {
-      {"mujoco", "MuJoCo", "soft contacts by convex optimisation", make<MujocoSimulator>},
-      {"bullet", "Bullet", "the paper's engine: contacts by impulses", make<BulletSimulator>},
+      {"mujoco", "MuJoCo", "soft contacts by convex optimisation", make_mujoco},
+      {"bullet", "Bullet", "the paper's engine: contacts by impulses", make_bullet},
   };
   return entries;
 }

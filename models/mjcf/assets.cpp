@@ -14,8 +14,7 @@ using tinyxml2::XMLElement;
 /// A compiler attribute; the last one counts.
 std::string compiler_attribute(const MjcfDocument& document, const char* name) {
   std::string value;
-  for (const auto* e = document.root().FirstChildElement("compiler"); e != nullptr;
-       e = e->NextSiblingElement("compiler")) {
+  for (auto* e : children(document.root(), "compiler")) {
     if (e->Attribute(name) != nullptr) value = attribute(*e, name);
   }
   return value;
@@ -94,23 +93,18 @@ std::string drop_texture(MjcfDocument& document, const XMLElement& texture,
 
 std::vector<std::string> drop_missing_assets(MjcfDocument& document) {
   std::vector<std::string> notes;
-  for (auto* section = document.root().FirstChildElement("asset"); section != nullptr;
-       section = section->NextSiblingElement("asset")) {
-    for (XMLElement* asset = section->FirstChildElement(); asset != nullptr;) {
-      XMLElement* const next = asset->NextSiblingElement();
+  for (auto* section : children(document.root(), "asset")) {
+    for (XMLElement* const asset : children(*section)) {
       const std::string_view tag = asset->Name();
       const bool is_mesh = tag == "mesh";
-      if ((is_mesh || tag == "texture") && asset->Attribute("file") != nullptr) {
-        const std::filesystem::path file =
-            file_of(document, *asset, is_mesh ? "meshdir" : "texturedir");
-        if (is_missing(file)) {
-          notes.push_back(document.place_of(*asset) + ": " +
-                          (is_mesh ? drop_mesh(document, *asset, file.string())
-                                   : drop_texture(document, *asset, file.string())));
-          document.remove(*asset);
-        }
-      }
-      asset = next;
+      if ((!is_mesh && tag != "texture") || asset->Attribute("file") == nullptr) continue;
+      const std::filesystem::path file =
+          file_of(document, *asset, is_mesh ? "meshdir" : "texturedir");
+      if (!is_missing(file)) continue;
+      notes.push_back(document.place_of(*asset) + ": " +
+                      (is_mesh ? drop_mesh(document, *asset, file.string())
+                               : drop_texture(document, *asset, file.string())));
+      document.remove(*asset);
     }
   }
   return notes;

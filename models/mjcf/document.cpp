@@ -7,9 +7,10 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/yaml.hpp"
 
 namespace touchdown::models {
 
@@ -44,8 +45,6 @@ const XMLElement* default_of(const MjcfDocument& document, std::string_view name
   });
   return found;
 }
-
-using tinyxml2::XMLElement;
 
 std::unique_ptr<tinyxml2::XMLDocument> parsed(const std::string& text,
                                               const std::filesystem::path& file) {
@@ -84,6 +83,16 @@ std::string escaped(std::string_view value) {
     }
   }
   return text;
+}
+
+template <typename Element>
+std::vector<Element*> children_of(Element& element, const char* tag) {
+  std::vector<Element*> all;
+  for (Element* child = element.FirstChildElement(tag); child != nullptr;
+       child = child->NextSiblingElement(tag)) {
+    all.push_back(child);
+  }
+  return all;
 }
 
 std::string start_of(const XMLElement& element, const char* end) {
@@ -154,16 +163,14 @@ void MjcfDocument::inherit_places(const XMLElement& element, const MjcfDocument&
     if (origin != nullptr) place = urdf.place_.at(origin);
   }
   place_[&element] = place;
-  for (const auto* child = element.FirstChildElement(); child != nullptr;
-       child = child->NextSiblingElement()) {
+  for (auto* child : children(element)) {
     inherit_places(*child, urdf, place);
   }
 }
 
 void MjcfDocument::add_places(const XMLElement& element, const std::filesystem::path& file) {
   place_[&element] = {file, element.GetLineNum()};
-  for (const auto* child = element.FirstChildElement(); child != nullptr;
-       child = child->NextSiblingElement()) {
+  for (auto* child : children(element)) {
     add_places(*child, file);
   }
 }
@@ -200,8 +207,7 @@ void MjcfDocument::expand(XMLElement& element, const std::filesystem::path& fold
         };
     tinyxml2::XMLNode* last = child;
     XMLElement* first = nullptr;
-    for (const auto* from = other->RootElement()->FirstChildElement(); from != nullptr;
-         from = from->NextSiblingElement()) {
+    for (auto* from : children(*other->RootElement())) {
       XMLElement* const clone = from->DeepClone(document_.get())->ToElement();
       keep_places(*clone, *from);
       last = element.InsertAfterChild(last, clone);
@@ -261,8 +267,7 @@ void MjcfDocument::insert_before(XMLElement& next, const std::string& elements) 
   const auto added = parsed("<added>" + elements + "</added>", file_);
   tinyxml2::XMLNode* const parent = next.Parent();
   tinyxml2::XMLNode* before = next.PreviousSibling();
-  for (const auto* from = added->RootElement()->FirstChildElement(); from != nullptr;
-       from = from->NextSiblingElement()) {
+  for (auto* from : children(*added->RootElement())) {
     tinyxml2::XMLNode* const clone = from->DeepClone(document_.get());
     before = before == nullptr ? parent->InsertFirstChild(clone)
                                : parent->InsertAfterChild(before, clone);
@@ -298,15 +303,28 @@ MjcfDocument::Text MjcfDocument::text(const std::string& more) const {
 
 void for_each_element(XMLElement& element, const std::function<void(XMLElement&)>& visit) {
   visit(element);
-  for (XMLElement* child = element.FirstChildElement(); child != nullptr;
-       child = child->NextSiblingElement()) {
+  for (auto* child : children(element)) {
     for_each_element(*child, visit);
   }
+}
+
+std::vector<XMLElement*> children(XMLElement& element, const char* tag) {
+  return children_of(element, tag);
+}
+
+std::vector<const XMLElement*> children(const XMLElement& element, const char* tag) {
+  return children_of(element, tag);
 }
 
 std::string_view attribute(const XMLElement& element, const char* name) {
   const char* const value = element.Attribute(name);
   return value == nullptr ? std::string_view() : std::string_view(value);
+}
+
+std::string found_text(std::string_view name, const std::vector<std::string>& names) {
+  const std::string near = did_you_mean(name, names);
+  if (!near.empty()) return near;
+  return names.empty() ? ", found none" : fmt::format(", found {}", fmt::join(names, ", "));
 }
 
 std::string title_of(const XMLElement& element) {

@@ -74,8 +74,18 @@ class MjcfDocument {
 void for_each_element(tinyxml2::XMLElement& element,
                       const std::function<void(tinyxml2::XMLElement&)>& visit);
 
+/// The children of an element with a tag, or all of them, in their order. Each may be removed while
+/// it is visited.
+std::vector<tinyxml2::XMLElement*> children(tinyxml2::XMLElement& element,
+                                            const char* tag = nullptr);
+std::vector<const tinyxml2::XMLElement*> children(const tinyxml2::XMLElement& element,
+                                                  const char* tag = nullptr);
+
 /// The value of an attribute, or "" if it is absent.
 std::string_view attribute(const tinyxml2::XMLElement& element, const char* name);
+
+/// "(did you mean 'y'?)", or ", found x, y, z" with the names that there are, for messages.
+std::string found_text(std::string_view name, const std::vector<std::string>& names);
 
 /// A short name of an element for messages: "joint 'left_hip'", or "geom" without a name.
 std::string title_of(const tinyxml2::XMLElement& element);

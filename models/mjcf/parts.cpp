@@ -38,14 +38,9 @@ std::vector<std::string> names_of(const MjcfDocument& document,
 /// "expected a joint named 'x' in robot.xml (did you mean 'y'?)", or with the names that there are.
 std::string missing(const MjcfDocument& document, std::initializer_list<std::string_view> tags,
                     const std::string& name) {
-  const std::vector<std::string> names = names_of(document, tags);
-  const std::string near = did_you_mean(name, names);
-  const std::string found =
-      near.empty() ? fmt::format(", found {}",
-                                 names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")))
-                   : near;
   return fmt::format("expected a {} named '{}' in {}{}", fmt::join(tags, " or a "), name,
-                     document.file().filename().string(), found);
+                     document.file().filename().string(),
+                     found_text(name, names_of(document, tags)));
 }
 
 /// The element that holds the actuators, if any.
@@ -57,8 +52,7 @@ std::vector<XMLElement*> motors_of(MjcfDocument& document, std::string_view join
   std::vector<XMLElement*> motors;
   for (auto* section = actuators_of(document); section != nullptr;
        section = section->NextSiblingElement("actuator")) {
-    for (auto* motor = section->FirstChildElement(); motor != nullptr;
-         motor = motor->NextSiblingElement()) {
+    for (auto* motor : children(*section)) {
       if (attribute(*motor, "joint") == joint) motors.push_back(motor);
     }
   }
@@ -174,7 +168,7 @@ bool is_round_collider(const MjcfDocument& document, const XMLElement& geom) {
 /// The round colliders of a body and of the bodies that are fixed to it.
 void add_round_colliders(const MjcfDocument& document, XMLElement& body,
                          std::vector<XMLElement*>& found) {
-  for (auto* e = body.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+  for (auto* e : children(body)) {
     const std::string_view tag = e->Name();
     if (tag == "geom" && is_round_collider(document, *e)) found.push_back(e);
     if (tag == "body" && e->FirstChildElement("joint") == nullptr) {

@@ -46,8 +46,7 @@ void check_option(const MjcfDocument& document, const XMLElement& option) {
                                         name, a->Value()));
     }
   }
-  for (const auto* flag = option.FirstChildElement("flag"); flag != nullptr;
-       flag = flag->NextSiblingElement("flag")) {
+  for (auto* flag : children(option, "flag")) {
     for (const auto* a = flag->FirstAttribute(); a != nullptr; a = a->Next()) {
       const bool is_physics =
           is_any_of(a->Name(), {"constraint", "frictionloss", "limit", "contact", "passive",
@@ -61,7 +60,7 @@ void check_option(const MjcfDocument& document, const XMLElement& option) {
 }
 
 void check_equality(const MjcfDocument& document, const XMLElement& section) {
-  for (const auto* e = section.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+  for (auto* e : children(section)) {
     if (attribute(*e, "active") == "false") continue;
     const bool closes = is_any_of(e->Name(), {"connect", "weld"});
     document.fail(*e, fmt::format("equality {}: expected none: {}", title_of(*e),
@@ -97,7 +96,7 @@ std::string removed_section(const MjcfDocument& document, XMLElement& section) {
 
 /// Refuses actuators with a state of their own. (MuJoCo's complaint would be about their order.)
 void check_actuators(const MjcfDocument& document, const XMLElement& section) {
-  for (const auto* e = section.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+  for (auto* e : children(section)) {
     const std::string_view dynamics = attribute(*e, "dyntype");
     if (!dynamics.empty() && dynamics != "none") {
       document.fail(
@@ -110,7 +109,7 @@ void check_actuators(const MjcfDocument& document, const XMLElement& section) {
 }
 
 bool has_free_joint(const XMLElement& body) {
-  for (const auto* e = body.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+  for (auto* e : children(body)) {
     if (std::string_view(e->Name()) == "freejoint") return true;
     if (std::string_view(e->Name()) == "joint" && attribute(*e, "type") == "free") return true;
   }
@@ -119,7 +118,7 @@ bool has_free_joint(const XMLElement& body) {
 
 /// Whether a body holds nothing that moves or touches: a frame, a camera, a light.
 bool is_empty(const XMLElement& body) {
-  for (const auto* e = body.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+  for (auto* e : children(body)) {
     const std::string_view tag = e->Name();
     if (is_any_of(tag, {"geom", "joint", "freejoint", "composite", "flexcomp"})) return false;
     if (tag == "body" && !is_empty(*e)) return false;
@@ -156,14 +155,11 @@ void note(std::vector<std::string>& notes, const MjcfDocument& document, const X
 
 void reduce_world(MjcfDocument& document, XMLElement& world, bool has_robot,
                   std::vector<std::string>& notes) {
-  for (XMLElement* e = world.FirstChildElement(); e != nullptr;) {
-    XMLElement* const next = e->NextSiblingElement();
+  for (XMLElement* const e : children(world)) {
     const std::string removed = removed_from_world(document, *e, has_robot);
-    if (!removed.empty()) {
-      note(notes, document, *e, removed);
-      document.remove(*e);
-    }
-    e = next;
+    if (removed.empty()) continue;
+    note(notes, document, *e, removed);
+    document.remove(*e);
   }
   int geoms = 0;
   for_each_element(world, [&](XMLElement& e) {
@@ -193,8 +189,7 @@ void reduce_sizes(XMLElement& size) {
 /// Ranges count as limits without `limited`, as in MuJoCo from version 2.3 on.
 void limit_by_ranges(MjcfDocument& document) {
   XMLElement* compiler = nullptr;
-  for (auto* e = document.root().FirstChildElement("compiler"); e != nullptr;
-       e = e->NextSiblingElement("compiler")) {
+  for (auto* e : children(document.root(), "compiler")) {
     if (e->Attribute("autolimits") != nullptr) return;
     if (compiler == nullptr) compiler = e;
   }
@@ -212,27 +207,24 @@ std::vector<std::string> keep_robot_only(MjcfDocument& document) {
   limit_by_ranges(document);
   XMLElement& root = document.root();
   bool has_robot = false;
-  for (auto* world = root.FirstChildElement("worldbody"); world != nullptr;
-       world = world->NextSiblingElement("worldbody")) {
-    for (auto* body = world->FirstChildElement("body"); body != nullptr;
-         body = body->NextSiblingElement("body")) {
+  for (auto* world : children(root, "worldbody")) {
+    for (auto* body : children(*world, "body")) {
       has_robot = has_robot || has_free_joint(*body);
     }
   }
-  for (XMLElement* section = root.FirstChildElement(); section != nullptr;) {
-    XMLElement* const next = section->NextSiblingElement();
+  for (XMLElement* const section : children(root)) {
     const std::string removed = removed_section(document, *section);
+    const std::string_view tag = section->Name();
     if (!removed.empty()) {
       note(notes, document, *section, removed);
       document.remove(*section);
-    } else if (std::string_view(section->Name()) == "worldbody") {
+    } else if (tag == "worldbody") {
       reduce_world(document, *section, has_robot, notes);
-    } else if (std::string_view(section->Name()) == "actuator") {
+    } else if (tag == "actuator") {
       check_actuators(document, *section);
-    } else if (std::string_view(section->Name()) == "size") {
+    } else if (tag == "size") {
       reduce_sizes(*section);
     }
-    section = next;
   }
   return notes;
 }

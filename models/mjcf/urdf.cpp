@@ -21,23 +21,18 @@ std::string link_of(const XMLElement& joint, const char* end) {
 
 /// The link that is no other link's child.
 std::string root_link(const XMLElement& robot) {
-  std::set<std::string> children;
-  for (auto* joint = robot.FirstChildElement("joint"); joint != nullptr;
-       joint = joint->NextSiblingElement("joint")) {
-    children.insert(link_of(*joint, "child"));
-  }
-  for (auto* link = robot.FirstChildElement("link"); link != nullptr;
-       link = link->NextSiblingElement("link")) {
+  std::set<std::string> held;
+  for (auto* joint : children(robot, "joint")) held.insert(link_of(*joint, "child"));
+  for (auto* link : children(robot, "link")) {
     std::string name(attribute(*link, "name"));
-    if (!children.contains(name)) return name;
+    if (!held.contains(name)) return name;
   }
   return {};
 }
 
 std::vector<std::string> links_of(const XMLElement& robot) {
   std::vector<std::string> names;
-  for (auto* link = robot.FirstChildElement("link"); link != nullptr;
-       link = link->NextSiblingElement("link")) {
+  for (auto* link : children(robot, "link")) {
     names.emplace_back(attribute(*link, "name"));
   }
   return names;
@@ -104,8 +99,7 @@ std::string floating_link(const MjcfDocument& urdf) {
   };
   while (!has_mass(link)) {
     std::string below;
-    for (auto* joint = robot.FirstChildElement("joint"); joint != nullptr;
-         joint = joint->NextSiblingElement("joint")) {
+    for (auto* joint : children(robot, "joint")) {
       const std::string_view type = attribute(*joint, "type");
       const std::string child = link_of(*joint, "child");
       if (link_of(*joint, "parent") != link || (type != "fixed" && type != "floating")) continue;
@@ -149,8 +143,7 @@ ConvertedUrdf converted_urdf(const std::filesystem::path& file, const std::strin
   }
   prepare(urdf);
   ConvertedUrdf converted;
-  for (auto* joint = robot.FirstChildElement("joint"); joint != nullptr;
-       joint = joint->NextSiblingElement("joint")) {
+  for (auto* joint : children(robot, "joint")) {
     if (joint->FirstChildElement("mimic") != nullptr) {
       urdf.fail(*joint, fmt::format("{}: expected no <mimic>: coupled joints are not supported",
                                     title_of(*joint)));

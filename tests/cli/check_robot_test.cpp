@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "program.hpp"
-#include "tests/models/edited_upkie.hpp"
+#include "tests/models/upkie.hpp"
 
 namespace touchdown::cli {
 namespace {

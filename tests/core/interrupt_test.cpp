@@ -1,23 +1,12 @@
 #include <csignal>
-#include <functional>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <gtest/gtest.h>
 
 #include "core/program.hpp"
+#include "tests/core/child_process.hpp"
 
 namespace touchdown {
 namespace {
-
-/// How a process of its own ends that does this: its exit code, or minus the signal that killed it.
-int end_of(const std::function<int()>& work) {
-  const pid_t process = ::fork();
-  if (process == 0) ::_exit(work());
-  int status = -1;
-  ::waitpid(process, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-}
 
 class Interrupt : public ::testing::TestWithParam<int> {};
 

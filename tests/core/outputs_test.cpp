@@ -1,15 +1,14 @@
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/program.hpp"
 #include "tests/complaint.hpp"
+#include "tests/core/child_process.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown {
@@ -94,20 +93,11 @@ TEST_F(Outputs, ThatCannotBeWrittenAreRefused) {
 int status_with_streams(const fs::path& in, const fs::path& out,
                         const std::vector<InputFile>& inputs,
                         const std::vector<fs::path>& outputs) {
-  const pid_t process = ::fork();
-  if (process == 0) {
+  return end_of([&] {
     ::dup2(::open(in.c_str(), O_RDONLY), STDIN_FILENO);
     ::dup2(::open(out.c_str(), O_WRONLY | O_APPEND), STDOUT_FILENO);
-    try {
-      check_outputs(inputs, outputs);
-    } catch (const InputError&) {
-      ::_exit(2);
-    }
-    ::_exit(0);
-  }
-  int status = -1;
-  ::waitpid(process, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return complaint_of([&] { check_outputs(inputs, outputs); }) == "no complaint" ? 0 : 2;
+  });
 }
 
 TEST_F(Outputs, AreComparedWithWhatTheStandardStreamsAre) {

@@ -2,11 +2,12 @@
 
 #include <csignal>
 #include <fcntl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "tests/core/child_process.hpp"
 
 namespace touchdown {
 namespace {
@@ -38,8 +39,7 @@ TEST(Progress, PrintsNothingIfNothingWasDone) {
 /// signal that ended it is negative.
 template <typename Spoil>
 int status_of_printer(const Spoil& spoil) {
-  const pid_t process = ::fork();
-  if (process == 0) {
+  return end_of([&] {
     ::signal(SIGPIPE, SIG_DFL);
     spoil();
     {
@@ -47,11 +47,8 @@ int status_of_printer(const Spoil& spoil) {
       progress.advance();
     }
     print_message(std::string(1 << 20, 'x'));
-    ::_exit(7);
-  }
-  int status = -1;
-  ::waitpid(process, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    return 7;
+  });
 }
 
 TEST(PrintMessage, NeverEndsTheProcessWhateverStandardErrorIs) {

@@ -10,9 +10,8 @@
 namespace touchdown::experiments {
 namespace {
 
-RunOutline outline_of_file(const std::filesystem::path& file, const ScratchFolder& folder) {
-  return outline_of(experiment_from_yaml(YamlDocument::load(file)),
-                    {.out = folder / "run", .command = "test"});
+RunOutline outline(const Experiment& experiment, const ScratchFolder& folder) {
+  return outline_of(experiment, {.out = folder / "run", .command = "test"});
 }
 
 TEST(Outline, CountsTheRunsAndPartsOfEveryShippedExperimentAndWritesNothing) {
@@ -23,7 +22,7 @@ TEST(Outline, CountsTheRunsAndPartsOfEveryShippedExperimentAndWritesNothing) {
     const std::string name = file.stem().string();
     if (name.starts_with("nmn")) continue;  // how a network is trained
     const Experiment experiment = experiment_from_yaml(YamlDocument::load(file));
-    const RunOutline outline = outline_of_file(file, folder);
+    const RunOutline outline = experiments::outline(experiment, folder);
     const auto runs = [&](const RunsConfig& config) {
       return experiment.simulators.size() * config.scenarios.size() *
              static_cast<std::size_t>(config.runs);
@@ -45,22 +44,24 @@ TEST(Outline, CountsTheRunsAndPartsOfEveryShippedExperimentAndWritesNothing) {
 
 TEST(Outline, CountsOneSimulationForRunsThatDifferInTheirSensors) {
   const ScratchFolder folder;
-  const RunOutline plain = outline_of_file(
-      folder.write("plain.yaml",
-                   "name: plain\nestimators: [robust]\n"
-                   "fit: {scenarios: [scenarios/stairs.yaml], runs: 1}\n"
-                   "test: {scenarios: [scenarios/hop.yaml], runs: 3}\nnoise: {seeds: 5}\n"),
-      folder);
+  const RunOutline plain =
+      outline(experiment_from_yaml(YamlDocument::load(folder.write(
+                  "plain.yaml",
+                  "name: plain\nestimators: [robust]\n"
+                  "fit: {scenarios: [scenarios/stairs.yaml], runs: 1}\n"
+                  "test: {scenarios: [scenarios/hop.yaml], runs: 3}\nnoise: {seeds: 5}\n"))),
+              folder);
   EXPECT_EQ(plain.fitted_runs, 2U);  // two engines
   EXPECT_EQ(plain.test_runs, 6U);
   EXPECT_EQ(plain.tasks, 30U);
-  const RunOutline wide = outline_of_file(
-      folder.write("wide.yaml",
-                   "name: wide\nestimators: [robust]\n"
-                   "fit: {scenarios: [scenarios/stairs.yaml], runs: 1}\n"
-                   "test: {scenarios: [scenarios/hop.yaml], runs: 3}\nnoise: {seeds: 5}\n"
-                   "benchmark: {sensors: [noise/profiles/upkie.yaml]}\n"),
-      folder);
+  const RunOutline wide =
+      outline(experiment_from_yaml(YamlDocument::load(folder.write(
+                  "wide.yaml",
+                  "name: wide\nestimators: [robust]\n"
+                  "fit: {scenarios: [scenarios/stairs.yaml], runs: 1}\n"
+                  "test: {scenarios: [scenarios/hop.yaml], runs: 3}\nnoise: {seeds: 5}\n"
+                  "benchmark: {sensors: [noise/profiles/upkie.yaml]}\n"))),
+              folder);
   EXPECT_EQ(wide.fitted_runs, 4U);
   EXPECT_EQ(wide.test_runs, 12U);
   EXPECT_EQ(wide.tasks, 60U);

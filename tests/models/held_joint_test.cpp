@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "models/robot_model.hpp"
-#include "tests/models/rolling_upkie.hpp"
+#include "tests/models/upkie.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::models {

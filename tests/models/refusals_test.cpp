@@ -1,13 +1,10 @@
 #include <algorithm>
-#include <fstream>
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "models/robot_model.hpp"
-#include "tests/models/rolling_upkie.hpp"
+#include "tests/complaint.hpp"
+#include "tests/models/upkie.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::models {
@@ -18,98 +15,104 @@ using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 using ::testing::Not;
 
+/// A place in Upkie's MJCF with what is written there, and words of the complaint.
+using RefusedEdit = std::pair<Edit, std::string>;
+/// The same of keys in a YAML file about Upkie, or of elements that are added to the MJCF.
+using RefusedText = std::pair<std::string, std::string>;
+
 class RefusedRobot : public ::testing::Test {
  protected:
-  std::string complaint(const std::string& mjcf, const std::string& yaml = {}) {
+  /// The complaint about a robot, which is one line and begins with a place in a file.
+  std::string complaint(const std::string& mjcf, const std::string& keys = {}) {
     std::filesystem::path file = folder_.write("robot.xml", mjcf);
-    if (!yaml.empty()) file = folder_.write("robot.yaml", "# a robot\nmjcf: robot.xml\n" + yaml);
-    try {
-      (void)compile_robot_model(file, Terrain{});
-    } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
-      EXPECT_THAT(error.what(), MatchesRegex("[^:]*[.](xml|yaml):[0-9]+:[0-9]+: .+"));
-      return error.what();
+    if (!keys.empty()) file = folder_.write("robot.yaml", "# a robot\nmjcf: robot.xml\n" + keys);
+    const std::string found = complaint_of([&] { (void)compile_robot_model(file, Terrain{}); });
+    if (found == "no complaint") return found;
+    EXPECT_THAT(found, Not(HasSubstr("\n")));
+    EXPECT_THAT(found, MatchesRegex("[^:]*[.](xml|yaml):[0-9]+:[0-9]+: .+"));
+    return found;
+  }
+
+  void expect(const std::vector<RefusedEdit>& table, const std::string& keys = {}) {
+    for (const auto& [edit, words] : table) {
+      EXPECT_THAT(complaint(edited_upkie({edit}), keys), HasSubstr(words)) << edit.second;
     }
-    return "no complaint";
+  }
+  void expect_added(const std::vector<RefusedText>& table) {
+    for (const auto& [elements, words] : table) {
+      EXPECT_THAT(complaint(edited_upkie({added(elements)})),
+                  AllOf(MatchesRegex(".*robot.xml:[0-9]+:1: .*"), HasSubstr(words)))
+          << elements;
+    }
   }
 
   ScratchFolder folder_;
 };
 
-/// An addition that is refused, and words of the complaint.
-using Refusal = std::pair<std::string, std::string>;
-
-TEST_F(RefusedRobot, OptionsThatChangeThePhysicsAreNamed) {
-  for (const auto& [option, words] : std::vector<Refusal>{
-           {"<option gravity=\"0 0 0\"/>", "gravity"},
-           {"<option gravity=\"0 0 -1.62\"/>", "gravity \"0 0 -1.62\""},
-           {"<option gravity=\"0 0 9.81\"/>", "gravity"},
-           {"<option gravity=\"1 0 -9.81\"/>", "gravity"},
-           {"<option gravity=\"down\"/>", "gravity"},
-           {"<option density=\"1000\"/>", "density"},
-           {"<option viscosity=\"0.001\"/>", "viscosity"},
-           {"<option wind=\"3 0 0\"/>", "wind"},
-           {"<option><flag contact=\"disable\"/></option>", "flag: contact"},
-           {"<option><flag gravity=\"disable\"/></option>", "flag: gravity"},
-           {"<option><flag limit=\"disable\"/></option>", "flag: limit"},
-           {"<option><flag constraint=\"disable\"/></option>", "flag: constraint"},
-           {"<option><flag passive=\"disable\"/></option>", "flag: passive"},
-           {"<option><flag frictionloss=\"disable\"/></option>", "flag: frictionloss"},
-           {"<option><flag actuation=\"disable\"/></option>", "flag: actuation"},
-           {"<option><flag clampctrl=\"disable\"/></option>", "flag: clampctrl"}}) {
-    EXPECT_THAT(complaint(edited_upkie({added(option)})),
-                AllOf(MatchesRegex(".*robot.xml:[0-9]+:1: .*"), HasSubstr(words)))
-        << option;
-  }
+/// The line of a text in which a mark is.
+std::ptrdiff_t line_of(const std::string& text, const std::string& mark) {
+  const std::size_t at = text.find(mark);
+  EXPECT_NE(at, std::string::npos) << mark;
+  return 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
 }
 
-TEST_F(RefusedRobot, WhatOneEngineAloneWouldSimulateIsNamed) {
-  for (const auto& [element, words] : std::vector<Refusal>{
-           {"<equality><joint joint1=\"left_knee\" polycoef=\"1 0 0 0 0\"/></equality>",
-            "coupled joints"},
-           {"<equality><connect body1=\"left_wheel\" body2=\"torso\" anchor=\"0 0 0\"/></equality>",
-            "closed chains"},
-           {"<equality><weld body1=\"left_wheel\" body2=\"torso\"/></equality>", "closed chains"},
-           {"<tendon><fixed name=\"rope\"><joint joint=\"left_hip\" coef=\"1\"/></fixed></tendon>",
-            "tendon fixed 'rope'"},
-           {"<worldbody><geom name=\"table\" type=\"box\" size=\"1 1 1\"/></worldbody>",
-            "geom 'table' of the world"},
-           {"<worldbody><geom type=\"sphere\" size=\"1\"/></worldbody>", "of the world"},
-           {"<worldbody><body name=\"box\"><geom size=\"1\"/></body></worldbody>", "body 'box'"},
-           {"<worldbody><body name=\"ball\"><joint/><geom size=\"1\"/></body></worldbody>",
-            "body 'ball'"},
-           {"<worldbody><body name=\"hand\" mocap=\"true\"/></worldbody>", "mocap"},
-           {"<asset><hfield name=\"h\" nrow=\"2\" ncol=\"2\" size=\"1 1 1 1\"/></asset><worldbody>"
-            "<geom name=\"hills\" type=\"hfield\" hfield=\"h\"/></worldbody>",
-            "'hills'"},
-           {"<extension><plugin plugin=\"a.b\"/></extension>", "plugins"}}) {
-    EXPECT_THAT(complaint(edited_upkie({added(element)})),
-                AllOf(MatchesRegex(".*robot.xml:[0-9]+:1: .*"), HasSubstr(words)))
-        << element;
-  }
+TEST_F(RefusedRobot, HasOptionsThatChangeThePhysics) {
+  expect_added({{"<option gravity=\"0 0 0\"/>", "gravity"},
+                {"<option gravity=\"0 0 -1.62\"/>", "gravity \"0 0 -1.62\""},
+                {"<option gravity=\"0 0 9.81\"/>", "gravity"},
+                {"<option gravity=\"1 0 -9.81\"/>", "gravity"},
+                {"<option gravity=\"down\"/>", "gravity"},
+                {"<option density=\"1000\"/>", "density"},
+                {"<option viscosity=\"0.001\"/>", "viscosity"},
+                {"<option wind=\"3 0 0\"/>", "wind"},
+                {"<option><flag contact=\"disable\"/></option>", "flag: contact"},
+                {"<option><flag gravity=\"disable\"/></option>", "flag: gravity"},
+                {"<option><flag limit=\"disable\"/></option>", "flag: limit"},
+                {"<option><flag constraint=\"disable\"/></option>", "flag: constraint"},
+                {"<option><flag passive=\"disable\"/></option>", "flag: passive"},
+                {"<option><flag frictionloss=\"disable\"/></option>", "flag: frictionloss"},
+                {"<option><flag actuation=\"disable\"/></option>", "flag: actuation"},
+                {"<option><flag clampctrl=\"disable\"/></option>", "flag: clampctrl"}});
 }
 
-TEST_F(RefusedRobot, PartsOfTheRobotThatOneEngineAloneWouldSimulateAreNamed) {
+TEST_F(RefusedRobot, HasElementsThatOneEngineAloneWouldSimulate) {
+  expect_added(
+      {{"<equality><joint joint1=\"left_knee\" polycoef=\"1 0 0 0 0\"/></equality>",
+        "coupled joints"},
+       {"<equality><connect body1=\"left_wheel\" body2=\"torso\" anchor=\"0 0 0\"/></equality>",
+        "closed chains"},
+       {"<equality><weld body1=\"left_wheel\" body2=\"torso\"/></equality>", "closed chains"},
+       {"<tendon><fixed name=\"rope\"><joint joint=\"left_hip\" coef=\"1\"/></fixed></tendon>",
+        "tendon fixed 'rope'"},
+       {"<worldbody><geom name=\"table\" type=\"box\" size=\"1 1 1\"/></worldbody>",
+        "geom 'table' of the world"},
+       {"<worldbody><geom type=\"sphere\" size=\"1\"/></worldbody>", "of the world"},
+       {"<worldbody><body name=\"box\"><geom size=\"1\"/></body></worldbody>", "body 'box'"},
+       {"<worldbody><body name=\"ball\"><joint/><geom size=\"1\"/></body></worldbody>",
+        "body 'ball'"},
+       {"<worldbody><body name=\"hand\" mocap=\"true\"/></worldbody>", "mocap"},
+       {"<asset><hfield name=\"h\" nrow=\"2\" ncol=\"2\" size=\"1 1 1 1\"/></asset><worldbody>"
+        "<geom name=\"hills\" type=\"hfield\" hfield=\"h\"/></worldbody>",
+        "'hills'"},
+       {"<extension><plugin plugin=\"a.b\"/></extension>", "plugins"}});
+
   const std::string knee = "<joint name=\"left_knee\"";
   const std::string torso = "<geom name=\"torso\" class=\"collider\" type=\"box\"";
-  for (const auto& [edit, words] : std::vector<std::pair<Edit, std::string>>{
-           {{knee, knee + " stiffness=\"20\""}, "joint 'left_knee': expected no spring"},
-           {{knee, knee + " springdamper=\"0.1 1\""}, "joint 'left_knee': expected no spring"},
-           {{"<default>", "<default><joint stiffness=\"3\"/>"}, "expected no spring"},
-           {{"<freejoint name=\"root\"/>", "<joint type=\"free\" damping=\"1\"/>"}, "free joint"},
-           {{torso, "<geom name=\"torso\" class=\"collider\" type=\"ellipsoid\""}, "geom 'torso'"},
-           {{"<site name=\"imu\"",
-             "<composite type=\"rope\" count=\"3 1 1\" spacing=\"0.1\"><geom type=\"sphere\" "
-             "size=\"0.01\"/></composite><site name=\"imu\""},
-            "composite"}}) {
-    EXPECT_THAT(complaint(edited_upkie({edit})), HasSubstr(words)) << edit.second;
-  }
+  expect({{{knee, knee + " stiffness=\"20\""}, "joint 'left_knee': expected no spring"},
+          {{knee, knee + " springdamper=\"0.1 1\""}, "joint 'left_knee': expected no spring"},
+          {{"<default>", "<default><joint stiffness=\"3\"/>"}, "expected no spring"},
+          {{"<freejoint name=\"root\"/>", "<joint type=\"free\" damping=\"1\"/>"}, "free joint"},
+          {{torso, "<geom name=\"torso\" class=\"collider\" type=\"ellipsoid\""}, "geom 'torso'"},
+          {{"<site name=\"imu\"",
+            "<composite type=\"rope\" count=\"3 1 1\" spacing=\"0.1\"><geom type=\"sphere\" "
+            "size=\"0.01\"/></composite><site name=\"imu\""},
+           "composite"}});
 }
 
-TEST_F(RefusedRobot, ActuatorsThatAreNoMotorsAreNamed) {
+TEST_F(RefusedRobot, HasActuatorsThatAreNoMotors) {
   const std::string motor = "<motor name=\"left_hip\" joint=\"left_hip\" ctrlrange=\"-16 16\"/>";
   const std::string names = " name=\"left_hip\" joint=\"left_hip\" ";
-  for (const auto& [by, words] : std::vector<Refusal>{
+  for (const auto& [by, words] : std::vector<RefusedText>{
            {"<position" + names + "kp=\"8\" ctrlrange=\"-1 1\"/>", "expected a motor"},
            {"<velocity" + names + "kv=\"1\" ctrlrange=\"-1 1\"/>", "expected a motor"},
            {"<intvelocity" + names + "kp=\"8\" actrange=\"-1 1\"/>", "expected a motor"},
@@ -124,34 +127,39 @@ TEST_F(RefusedRobot, ActuatorsThatAreNoMotorsAreNamed) {
            {"<motor" + names + "ctrlrange=\"-16 16\" ctrllimited=\"false\"/>", "ctrlrange"},
            {motor + "<motor name=\"more\" joint=\"left_hip\" ctrlrange=\"-1 1\"/>",
             "actuator 'more'"}}) {
-    EXPECT_THAT(complaint(edited_upkie({{motor, by}})), HasSubstr(words)) << by;
+    expect({{{motor, by}, words}});
   }
 }
 
-TEST_F(RefusedRobot, AxesAndShapesThatCannotBeOursAreNamed) {
+TEST_F(RefusedRobot, HasNamesKindsAxesOrShapesThatAreNotOurs) {
   const std::string hip = "<joint name=\"left_hip\" axis=\"0 -1 0\"";
   const std::string tyre =
       "<geom name=\"left_tire\" class=\"collider\" type=\"sphere\" size=\"0.05\"";
-  for (const auto& [edit, words] : std::vector<std::pair<Edit, std::string>>{
-           {{hip, "<joint name=\"left_hip\" axis=\"1 0 0\""},
-            "joint 'left_hip': its axis in the base is (1 0 0), expected (0 -1 0)"},
-           {{hip, "<joint name=\"left_hip\" axis=\"0 0 1\""}, "its axis in the base is (0 0 1)"},
-           {{hip, "<joint name=\"left_hip\" axis=\"1 1 0\""},
-            "its axis in the base is (0.707 0.707"},
-           {{"pos=\"0 0.1142 -0.164\">", "pos=\"0 0.1142 -0.164\" euler=\"0 0 1.5708\">"},
-            "its axis in the base is (1 0 0)"},
-           {{tyre,
-             "<geom name=\"left_tire\" class=\"collider\" type=\"cylinder\" size=\"0.05 0.01\""},
-            "geom 'left_tire': its axis in the base is (0 0 1)"},
-           {{tyre,
-             "<geom name=\"left_tire\" class=\"collider\" type=\"capsule\" size=\"0.05 0.01\""},
-            "geom 'left_tire': its axis in the base is (0 0 1)"},
-           {{tyre, "<geom name=\"left_tire\" class=\"collider\" type=\"sphere\" size=\"0.06\""},
-            "geom 'right_tire': expected the radius of the other tyre"},
-           {{"size=\"0.05\" pos=\"0 -0.046 0\"", "size=\"0.05\" pos=\"0.01 -0.046 0\""},
-            "10 mm beside"}}) {
-    EXPECT_THAT(complaint(edited_upkie({edit})), HasSubstr(words)) << edit.second;
-  }
+  expect(
+      {{{"<motor name=\"left_knee\"", "<motor name=\"knee_left\""}, "motor named 'left_knee'"},
+       {{"geom name=\"right_tire\"", "geom name=\"right_wheel_rubber\""},
+        "geom named 'right_tire'"},
+       {{"site name=\"imu\"", "site name=\"sensor\""}, "site named 'imu'"},
+       {{"<freejoint name=\"root\"/>", ""}, "freejoint"},
+       {{"name=\"left_hip\" joint=\"left_hip\"", "name=\"left_hip\" joint=\"right_hip\""},
+        "drive joint 'left_hip'"},
+       {{"<joint name=\"left_knee\"", "<joint type=\"slide\" name=\"left_knee\""},
+        "'left_knee': expected a hinge"},
+       {{"joint=\"left_hip\" ctrlrange=\"-16 16\"", "joint=\"left_hip\""}, "ctrlrange"},
+       {{hip, "<joint name=\"left_hip\" axis=\"1 0 0\""},
+        "joint 'left_hip': its axis in the base is (1 0 0), expected (0 -1 0)"},
+       {{hip, "<joint name=\"left_hip\" axis=\"0 0 1\""}, "its axis in the base is (0 0 1)"},
+       {{hip, "<joint name=\"left_hip\" axis=\"1 1 0\""}, "its axis in the base is (0.707 0.707"},
+       {{"pos=\"0 0.1142 -0.164\">", "pos=\"0 0.1142 -0.164\" euler=\"0 0 1.5708\">"},
+        "its axis in the base is (1 0 0)"},
+       {{tyre, "<geom name=\"left_tire\" class=\"collider\" type=\"cylinder\" size=\"0.05 0.01\""},
+        "geom 'left_tire': its axis in the base is (0 0 1)"},
+       {{tyre, "<geom name=\"left_tire\" class=\"collider\" type=\"capsule\" size=\"0.05 0.01\""},
+        "geom 'left_tire': its axis in the base is (0 0 1)"},
+       {{tyre, "<geom name=\"left_tire\" class=\"collider\" type=\"sphere\" size=\"0.06\""},
+        "geom 'right_tire': expected the radius of the other tyre"},
+       {{"size=\"0.05\" pos=\"0 -0.046 0\"", "size=\"0.05\" pos=\"0.01 -0.046 0\""},
+        "10 mm beside"}});
 }
 
 /// A place in Upkie's MJCF, what is written there instead, and the name and version of what it has.
@@ -161,7 +169,7 @@ struct Later {
 
 /// The versions are those of the sections of MuJoCo's changelog that list it as added, and of the
 /// notes of the releases 3.11.0 and 3.12.0.
-TEST_F(RefusedRobot, WhatLaterVersionsOfMuJoCoAddedIsNamedAsSuch) {
+TEST_F(RefusedRobot, HasWhatLaterVersionsOfMuJoCoAdded) {
   const std::string motor = "<motor name=\"left_hip\" joint=\"left_hip\" ctrlrange=\"-16 16\"";
   const std::string servo = "<position name=\"left_hip\" joint=\"left_hip\" kp=\"9\" ";
   const std::string general = "<general name=\"left_hip\" joint=\"left_hip\" ";
@@ -209,12 +217,14 @@ TEST_F(RefusedRobot, WhatLaterVersionsOfMuJoCoAddedIsNamedAsSuch) {
                 AllOf(MatchesRegex(".*robot.xml:[0-9]+:1: .*"),
                       HasSubstr(fmt::format("`{}` came with MuJoCo {};", name, version))));
   }
-  EXPECT_THAT(complaint(edited_upkie({{motor, motor + " colour=\"red\""}})),
-              AllOf(HasSubstr("colour"), Not(HasSubstr("came with"))));
+  const std::string unknown = edited_upkie({{motor, motor + " colour=\"red\""}});
+  EXPECT_THAT(complaint(unknown),
+              AllOf(HasSubstr(fmt::format("robot.xml:{}:", line_of(unknown, "colour"))),
+                    HasSubstr("colour"), Not(HasSubstr("came with"))));
 }
 
 /// MuJoCo 2.2 knows these already.
-TEST_F(RefusedRobot, WhatThisVersionKnowsIsRead) {
+TEST_F(RefusedRobot, HasNothingThatThisVersionKnows) {
   const std::string geom = "<geom name=\"torso\"";
   const std::string compiler = "<compiler angle=\"radian\" autolimits=\"true\"";
   const std::string motor = "<motor name=\"left_hip\"";
@@ -229,7 +239,7 @@ TEST_F(RefusedRobot, WhatThisVersionKnowsIsRead) {
   }
 }
 
-TEST_F(RefusedRobot, ErrorsInIncludedFilesAreLocatedThere) {
+TEST_F(RefusedRobot, HasItsErrorsInIncludedFiles) {
   folder_.write("more.xml", "<mujoco>\n  <option\n   wind=\"1 0 0\"/>\n</mujoco>\n");
   EXPECT_THAT(complaint(edited_upkie({added("<include file=\"more.xml\"/>")})),
               HasSubstr("more.xml:2:1: option: wind"));
@@ -244,14 +254,25 @@ TEST_F(RefusedRobot, ErrorsInIncludedFilesAreLocatedThere) {
               HasSubstr("included already"));
 }
 
-TEST_F(RefusedRobot, TooManyGeomsAreRefusedAtOnce) {
+TEST_F(RefusedRobot, HasNoRobotInItsFile) {
+  for (const char* text : {"<!-- nothing -->", "<?xml version=\"1.0\"?>\n", "<!DOCTYPE mujoco>", "",
+                           " \n", "</mujoco>", "<!-- </mujoco> -->"}) {
+    EXPECT_THAT(complaint(text), HasSubstr(":1: expected ")) << text;
+  }
+  EXPECT_THAT(complaint("<mujoco>\n<worldbody>\n"), HasSubstr("XML"));
+  EXPECT_THAT(complaint("<robot name=\"upkie\"></robot>"), HasSubstr("<mujoco>"));
+  EXPECT_THAT(complaint("<mujoco/>"), HasSubstr("<mujoco>"));
+  EXPECT_THROW((void)compile_robot_model(folder_ / "nothing.xml", Terrain{}), InputError);
+}
+
+TEST_F(RefusedRobot, HasTooManyGeoms) {
   std::string many;
   for (int i = 0; i < 50'000; ++i) many += "<geom class=\"visual\" size=\"0.01\"/>\n";
   EXPECT_THAT(complaint(edited_upkie({{"<site name=\"imu\"", many + "<site name=\"imu\""}})),
               HasSubstr("expected at most 5000 geoms"));
 }
 
-TEST_F(RefusedRobot, OtherJointsAndLegsAreNamedWithTheWayOut) {
+TEST_F(RefusedRobot, HasOtherJointsAndIsToldTheWayOut) {
   EXPECT_THAT(complaint(edited_upkie(
                   {{"<body name=\"left_wheel\"",
                     "<body name=\"ankle\"><inertial pos=\"0 0 0\" mass=\"0.1\" diaginertia=\"1e-4 "
@@ -269,17 +290,12 @@ TEST_F(RefusedRobot, OtherJointsAndLegsAreNamedWithTheWayOut) {
               HasSubstr("that names its joints: knee_l"));
 }
 
-TEST_F(RefusedRobot, EveryComplaintHasTheLineThatItIsAbout) {
+TEST_F(RefusedRobot, IsComplainedAboutAtTheLineInQuestion) {
   const std::string motor = "<motor name=\"left_hip\" joint=\"left_hip\" ctrlrange=\"-16 16\"/>";
   const std::string torso = "<geom name=\"torso\" class=\"collider\" type=\"box\"";
   const std::string wheel = "<joint name=\"left_wheel\"";
-  const auto line_of = [](const std::string& text, const std::string& mark) {
-    const std::size_t at = text.find(mark);
-    EXPECT_NE(at, std::string::npos) << mark;
-    return 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-  };
   // What is written, and a mark in the line that the complaint must name.
-  for (const auto& [edit, mark] : std::vector<std::pair<Edit, std::string>>{
+  for (const auto& [edit, mark] : std::vector<RefusedEdit>{
            {{motor, motor + "\n<motor name=\"more\" joint=\"left_hip\" ctrlrange=\"-1 1\"/>"},
             "\"more\""},
            {{motor, motor + "\n<motor joint=\"left_knee\" gear=\"3\" ctrlrange=\"-1 1\"/>"},
@@ -314,31 +330,84 @@ TEST_F(RefusedRobot, EveryComplaintHasTheLineThatItIsAbout) {
   }
 }
 
-TEST_F(RefusedRobot, EveryComplaintAboutNamesHasTheKeyOfTheYamlFile) {
+TEST_F(RefusedRobot, HasKeysThatAreComplainedAboutAtTheirPlace) {
   const std::string upkie = edited_upkie({});
-  for (const auto& [yaml, words] : std::vector<Refusal>{
+  for (const auto& [keys, words] : std::vector<RefusedText>{
            {"joints: {left_hip: left_hipp}\n",
             "robot.yaml:3:20: joints.left_hip: expected a joint named 'left_hipp' in robot.xml "
             "(did you mean 'left_hip'?)"},
            {"joints:\n  right_wheel: wheel_of_the_right\n",
             "robot.yaml:4:16: joints.right_wheel: "},
+           {"joints: {hip_left: left_hip}\n", "left_hip"},
            {"held: [left_hip, other]\n", "robot.yaml:3:18: held: expected a joint named 'other'"},
            {"held: [left_hip, left_hip]\n", "robot.yaml:3:18: held: 'left_hip' is listed twice"},
            {"held: [a, b, c, d, e, f, g, h, i]\n", "robot.yaml:3:7: held: expected at most 8"},
            {"tyres: {right: right_tyre}\n",
             "robot.yaml:3:16: tyres.right: expected a geom or a body named 'right_tyre'"},
            {"imu: gyro\n", "robot.yaml:3:6: imu: expected a site or a body named 'gyro'"},
-           {"stance: {knee: 3}\n", "robot.yaml:3:16: stance.knee: expected -2.51 to 2.51"},
+           {"hip: no\n", "hip"},
+           {"hip: none\n", "joint 'left_hip'"},  // neither a servo nor held
            {"held_servo: {kp: -1}\n", "robot.yaml:3:18: held_servo.kp: expected"},
-           {"held_servo: {stiffness: 1}\n", "robot.yaml:3:14: held_servo.stiffness"}}) {
-    EXPECT_THAT(complaint(upkie, yaml), HasSubstr(words)) << yaml;
+           {"held_servo: {stiffness: 1}\n", "robot.yaml:3:14: held_servo.stiffness"},
+           {"mas: 1.5\n", "robot.yaml:3:1: mas: unknown key (did you mean 'mass'?)"},
+           {"mass: heavy\n", "robot.yaml:3:7: mass: expected"},
+           {"mass: .nan\n", "mass: expected"},
+           {"wheel_radius: 0\n", "wheel_radius: expected"},
+           {"legs: {left: {lenght: 1}}\n",
+            "robot.yaml:3:15: legs.left.lenght: unknown key (did you mean 'length'?)"},
+           {"legs: {middle: {length: 1}}\n", "middle"},
+           {"legs: {right: {length: -1}}\n", "legs.right.length"},
+           {"stance: {knee: 3}\n", "robot.yaml:3:16: stance.knee: expected -2.51 to 2.51"},
+           {"stance: {hip: 3}\n", "stance.hip: expected"},
+           {"actuators:\n  knee: {friction: -1}\n", "robot.yaml:4:20: actuators.knee.friction"},
+           {"actuators:\n  knee: {command_delay: -0.1}\n", "command_delay"},
+           {"actuators:\n  knee: {fricton: 1}\n", "did you mean 'friction'?"},
+           {"actuators: {elbow: {}}\n", "elbow"},
+           {"tyre: {law: spring_damper, stiffness: 5}\n",
+            "tyre.stiffness: expected a number from 100"},
+           {"tyre: {law: spring_damper, damping: 0}\n", "tyre.damping"},
+           {"tyre: {law: spring_damper, width: -1}\n", "tyre.width"},
+           {"tyre: {law: spring_damper, stifness: 1e4}\n", "did you mean 'stiffness'?"},
+           {"tyre: {law: springdamper}\n", "robot.yaml:3:13: tyre.law: "},
+           {"tyre: {law: springdamper}\n", "engine, spring_damper (did you mean 'spring_damper'?)"},
+           {"tyre: {stiffness: 1e4}\n", "tyre.stiffness"},
+           {"tyre: {stiffness: 1e4}\n", "law: spring_damper"},
+           {"tyre: {law: engine, width: 0.04}\n", "law: spring_damper"}}) {
+    EXPECT_THAT(complaint(upkie, keys), HasSubstr(words)) << keys;
   }
 }
 
-TEST_F(RefusedRobot, HeldJointsThatNoServoCanHoldAreNamed) {
+TEST_F(RefusedRobot, HasAnMjcfThatIsNotThere) {
+  folder_.write("upkie.xml", edited_upkie({}));
+  const auto load = [&](const std::string& text) {
+    return compile_robot_model(folder_.write("robot.yaml", text), Terrain{});
+  };
+  expect_refused(
+      {{"actuators: {}\n", {"mjcf"}},
+       {"mjcf: nothing.xml\n", {"robot.yaml:1:7: mjcf: ", "nothing.xml: no such file"}},
+       {"mass: 2\nmjcf: upky.xml\n", {"robot.yaml:2:7: mjcf: ", "did you mean 'upkie.xml'?"}},
+       {"mjcf: " TOUCHDOWN_SOURCE_DIR "/models/upky.xml\n", {"did you mean 'upkie.xml'?"}}},
+      load);
+}
+
+TEST_F(RefusedRobot, HasPartsThatItsKeysCannotChange) {
+  const std::string lower = "<body name=\"left_lower_leg\"";
+  const std::string right = "<body name=\"right_upper_leg\"";
+  EXPECT_THAT(
+      complaint(edited_upkie({{lower, "<body name=\"shim\">" + lower}, {right, "</body>" + right}}),
+                "legs: {length: 1.1}\n"),
+      AllOf(HasSubstr("robot.yaml:3:7: legs: expected"), HasSubstr("'left_knee'")))
+      << "a leg of three links";
+  expect({{{"type=\"sphere\" size=\"0.05\" pos=\"0 -0.046 0\"",
+            "type=\"cylinder\" size=\"0.05 0.02\" pos=\"0 -0.046 0\""},
+           "robot.xml:80:1: geom 'left_tire': expected a sphere"}},
+         "tyre: {law: spring_damper, width: 0.04}\n");
+}
+
+TEST_F(RefusedRobot, HasHeldJointsThatNoServoCanHold) {
   const std::string keys = "held: [left_roll, right_roll]\n";
   const std::string motor = "<motor joint=\"{0}_roll\" ctrlrange=\"-9 9\"/>\n";
-  for (const auto& [mjcf, words] : std::vector<Refusal>{
+  for (const auto& [mjcf, words] : std::vector<RefusedText>{
            {rolling_upkie("", ""), "joint 'left_roll': expected a motor that holds it"},
            {rolling_upkie("", "<position joint=\"{0}_roll\" kp=\"9\"/>\n"), "forcerange"},
            {rolling_upkie("", "<motor joint=\"{0}_roll\" ctrlrange=\"0 9\"/>\n"), "symmetric"},
@@ -350,7 +419,7 @@ TEST_F(RefusedRobot, HeldJointsThatNoServoCanHoldAreNamed) {
   }
 }
 
-TEST_F(RefusedRobot, MeshesThatAreMissingAreNamedIfTheyCount) {
+TEST_F(RefusedRobot, HasNoMeshesThatCount) {
   const Edit asset = {"<asset>", "<asset>\n<mesh name=\"shell\" file=\"shell.stl\"/>\n"};
   const auto with = [&](const std::string& geom) {
     return edited_upkie({asset, {"<site name=\"imu\"", geom + "<site name=\"imu\""}});
@@ -363,21 +432,6 @@ TEST_F(RefusedRobot, MeshesThatAreMissingAreNamedIfTheyCount) {
       AllOf(HasSubstr("body 'hat' has its mass from it"), HasSubstr("<inertial>")));
   EXPECT_EQ(complaint(with("<geom class=\"visual\" type=\"mesh\" mesh=\"shell\"/>")),
             "no complaint");
-}
-
-TEST_F(RefusedRobot, NamesThatTheMjcfDoesNotHaveAreNamed) {
-  const std::string upkie = edited_upkie({});
-  for (const auto& [yaml, words] : std::vector<Refusal>{
-           {"joints: {left_hip: hip_l}\n", "joints.left_hip: expected a joint named 'hip_l'"},
-           {"joints: {hip_left: left_hip}\n", "left_hip"},
-           {"held: [left_roll]\n", "held: expected a joint named 'left_roll'"},
-           {"tyres: {left: rubber}\n", "tyres.left: expected a geom or a body named 'rubber'"},
-           {"imu: gyro\n", "imu: expected a site or a body named 'gyro'"},
-           {"hip: no\n", "hip"}}) {
-    EXPECT_THAT(complaint(upkie, yaml), HasSubstr(words)) << yaml;
-  }
-  // Joints that are neither servos nor held.
-  EXPECT_THAT(complaint(upkie, "hip: none\n"), HasSubstr("joint 'left_hip'"));
 }
 
 }  // namespace

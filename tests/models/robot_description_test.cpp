@@ -2,21 +2,15 @@
 
 #include <filesystem>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "models/robot_model.hpp"
-#include "tests/complaint.hpp"
-#include "tests/models/upkie_mjcf.hpp"
+#include "tests/models/upkie.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::models {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 
 class RobotFile : public ::testing::Test {
  protected:
@@ -25,10 +19,6 @@ class RobotFile : public ::testing::Test {
   std::filesystem::path with(const std::string& text) const {
     write_atomically(folder_ / "robot.yaml", text);
     return folder_ / "robot.yaml";
-  }
-
-  std::string complaint_about(const std::string& text) const {
-    return complaint_of([&] { (void)compile_robot_model(with(text), Terrain{}); });
   }
 
   ScratchFolder folder_;
@@ -51,15 +41,6 @@ TEST_F(RobotFile, GivesBothLegsTheirActuators) {
   EXPECT_TRUE(robot.actuator[index(Servo::left_hip)].is_ideal());
 }
 
-TEST_F(RobotFile, WithTheMjcfAloneIsTheMjcfItself) {
-  const RobotModel plain = compile_robot_model(upkie_mjcf, Terrain{});
-  const RobotModel described = compile_robot_model(with("mjcf: upkie.xml\n"), Terrain{});
-  ASSERT_EQ(plain.mj->nbuffer, described.mj->nbuffer);
-  const auto* const bytes = static_cast<const char*>(plain.mj->buffer);
-  EXPECT_TRUE(
-      std::equal(bytes, bytes + plain.mj->nbuffer, static_cast<const char*>(described.mj->buffer)));
-}
-
 TEST_F(RobotFile, TakesFrictionFromTheJointsOfAnMjcf) {
   std::string text = read_file(upkie_mjcf);
   const std::string knee = "<joint name=\"left_knee\"";
@@ -76,30 +57,32 @@ TEST_F(RobotFile, TakesFrictionFromTheJointsOfAnMjcf) {
   EXPECT_EQ(robot.mj->dof_damping[dof], 0.0);
 }
 
-TEST_F(RobotFile, WithABadValueReportsItsPositionAndTheExpectation) {
-  EXPECT_THAT(complaint_about("mjcf: upkie.xml\nactuators:\n  knee: {friction: -1}\n"),
-              AllOf(HasSubstr("robot.yaml:3:20"), HasSubstr("friction")));
-  EXPECT_THAT(complaint_about("mjcf: upkie.xml\nactuators:\n  knee: {command_delay: -0.1}\n"),
-              HasSubstr("command_delay"));
-  EXPECT_THAT(complaint_about("mjcf: upkie.xml\nactuators:\n  knee: {fricton: 1}\n"),
-              HasSubstr("did you mean 'friction'?"));
-  EXPECT_THAT(complaint_about("mjcf: upkie.xml\nactuators: {elbow: {}}\n"), HasSubstr("elbow"));
-  EXPECT_THAT(complaint_about("actuators: {}\n"), HasSubstr("mjcf"));
-  EXPECT_THAT(complaint_about("mjcf: nothing.xml\n"),
-              AllOf(HasSubstr("robot.yaml:1:7: mjcf: "), HasSubstr("nothing.xml: no such file")));
-  EXPECT_THAT(complaint_about("mass: 2\nmjcf: upky.xml\n"),
-              AllOf(HasSubstr("robot.yaml:2:7: mjcf: "), HasSubstr("did you mean 'upkie.xml'?")));
-  EXPECT_THAT(complaint_about("mjcf: " TOUCHDOWN_SOURCE_DIR "/models/upky.xml\n"),
-              HasSubstr("did you mean 'upkie.xml'?"))
-      << "elsewhere";
-}
-
 TEST_F(RobotFile, CountsWithTheMjcfThatItNamesWhereContentCounts) {
   const std::filesystem::path file = with("mjcf: upkie.xml\n");
   const std::string before = robot_text(file);
   write_atomically(folder_ / "upkie.xml", read_file(upkie_mjcf) + "\n");
   EXPECT_NE(robot_text(file), before);
   EXPECT_EQ(robot_text(upkie_mjcf), read_file(upkie_mjcf));
+}
+
+TEST_F(RobotFile, MayHaveIncludesAndDefaults) {
+  // Degrees, hostile defaults, and the actuators in an included file beside the robot's.
+  std::string text = read_file(upkie_mjcf);
+  const std::size_t begin = text.find("<actuator>");
+  const std::size_t end = text.find("</actuator>") + 11;
+  folder_.write("motors.xml",
+                "<mujocoinclude>" + text.substr(begin, end - begin) + "</mujocoinclude>");
+  text.replace(begin, end - begin, "<include file=\"motors.xml\"/>");
+  text.replace(text.find("<default>"), 9,
+               "<default><geom friction=\"9 9 9\" margin=\"0.1\" condim=\"1\" rgba=\"1 0 0 1\"/>");
+  Terrain terrain{.pieces = {Flat{3.0}, StairFlight{}}};
+  const RobotModel robot = compile_robot_model(folder_.write("robot.xml", text), terrain);
+  EXPECT_EQ(robot.effort[0], 16.0);
+  const int tread = mj_name2id(robot.mj.get(), mjOBJ_GEOM, "touchdown_terrain_0");
+  ASSERT_GE(tread, 0);
+  EXPECT_EQ(robot.mj->geom_friction[3 * tread], 1.0);
+  EXPECT_EQ(robot.mj->geom_margin[tread], 0.0);
+  EXPECT_EQ(robot.mj->geom_condim[tread], 3);
 }
 
 }  // namespace

@@ -10,8 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "tests/models/terrains.hpp"
-#include "tests/models/upkie_mjcf.hpp"
+#include "tests/models/upkie.hpp"
 
 namespace touchdown::models {
 namespace {
@@ -22,16 +21,10 @@ double total_mass(const mjModel& model) {
   return mass;
 }
 
-TEST(Upkie, WeighsWhatTheRobotWeighs) {
-  const RobotModel robot = compile_robot_model(upkie_mjcf, stairs());
-  EXPECT_EQ(robot.name, "upkie");
-  EXPECT_NEAR(total_mass(*robot.mj), 5.33922, 1e-5);
-}
-
 TEST(Upkie, WheelAxlesAre507MillimetresBelowTheBase) {
   const RobotModel robot = compile_robot_model(upkie_mjcf, Terrain{});
-  mjData* data = mj_makeData(robot.mj.get());
-  mj_forward(robot.mj.get(), data);
+  const MjDataPtr data(mj_makeData(robot.mj.get()));
+  mj_forward(robot.mj.get(), data.get());
   for (std::size_t i = 0; i < wheel_count; ++i) {
     const int geom = robot.tyre_geom[i];
     EXPECT_NEAR(data->geom_xpos[3 * geom + 2] - data->qpos[2], -0.507, 1e-12);
@@ -42,11 +35,12 @@ TEST(Upkie, WheelAxlesAre507MillimetresBelowTheBase) {
   for (int k = 0; k < 9; ++k) {
     EXPECT_NEAR(data->site_xmat[9 * robot.imu_site + k], expected[k], 1e-12);
   }
-  mj_deleteData(data);
 }
 
-TEST(Upkie, HasTheServosLimits) {
+TEST(Upkie, HasTheMassAndTheServosOfTheRobot) {
   const RobotModel robot = compile_robot_model(upkie_mjcf, Terrain{});
+  EXPECT_EQ(robot.name, "upkie");
+  EXPECT_NEAR(total_mass(*robot.mj), 5.33922, 1e-5);
   const std::array<double, servo_count> effort = {16, 16, 1.7, 16, 16, 1.7};
   EXPECT_EQ(robot.effort, effort);
   for (std::size_t i = 0; i < servo_count; ++i) {
@@ -64,31 +58,29 @@ TEST(Upkie, HasTheServosLimits) {
 /// Signs of the real robot: left hip + swings the left foot forward, the right one is mirrored.
 TEST(Upkie, JointsTurnTheRightWay) {
   const RobotModel robot = compile_robot_model(upkie_mjcf, Terrain{});
-  mjData* data = mj_makeData(robot.mj.get());
+  const MjDataPtr data(mj_makeData(robot.mj.get()));
   data->qpos[robot.qpos_address[index(Servo::left_hip)]] = 0.3;
   data->qpos[robot.qpos_address[index(Servo::right_hip)]] = -0.3;
-  mj_forward(robot.mj.get(), data);
+  mj_forward(robot.mj.get(), data.get());
   for (const int geom : robot.tyre_geom) {
     EXPECT_NEAR(data->geom_xpos[3 * geom], (0.168 + 0.175) * std::sin(0.3), 1e-12);
   }
-  mj_deleteData(data);
 }
 
-TEST(Upkie, ForWhichMemoryIsShortIsNoErrorOfTheEngine) {
-  compile_robot_model(upkie_mjcf, stairs());  // from then on MuJoCo complains to us
+TEST(Upkie, WithoutMemoryIsNoErrorOfTheEngine) {
+  compile_robot_model(upkie_mjcf, Terrain{});  // from then on MuJoCo complains to us
   EXPECT_THROW(mju_error("Could not allocate mjData buffer"), std::bad_alloc);
   EXPECT_THROW(mju_error("mjData has no body"), Error);
 }
 
 TEST(Upkie, OnlyCollidesWithTheTerrain) {
   const RobotModel robot = compile_robot_model(upkie_mjcf, Terrain{});
-  mjData* data = mj_makeData(robot.mj.get());
+  const MjDataPtr data(mj_makeData(robot.mj.get()));
   data->qpos[2] = 3.0;
   data->qpos[robot.qpos_address[index(Servo::left_hip)]] = 1.2;
   data->qpos[robot.qpos_address[index(Servo::left_knee)]] = -2.5;
-  mj_forward(robot.mj.get(), data);
+  mj_forward(robot.mj.get(), data.get());
   EXPECT_EQ(data->ncon, 0);
-  mj_deleteData(data);
 }
 
 // ---- against the official description ----
@@ -160,9 +152,9 @@ TEST(Upkie, AgreesWithTheOfficialDescription) {
   const auto* description = document.RootElement();
 
   const RobotModel robot = compile_robot_model(upkie_mjcf, Terrain{});
-  mjData* data = mj_makeData(robot.mj.get());
+  const MjDataPtr data(mj_makeData(robot.mj.get()));
   for (int k = 0; k < 3; ++k) data->qpos[k] = 0.0;  // base at the world's origin
-  mj_forward(robot.mj.get(), data);
+  mj_forward(robot.mj.get(), data.get());
 
   std::map<std::string, std::pair<std::string, Eigen::Isometry3d>> open = {
       {"", {"base", Eigen::Isometry3d::Identity()}}};
@@ -202,7 +194,6 @@ TEST(Upkie, AgreesWithTheOfficialDescription) {
   }
   EXPECT_EQ(seen.size(), 7u);
   EXPECT_NEAR(total_mass(*robot.mj), mass, 1e-5);
-  mj_deleteData(data);
 }
 
 }  // namespace

@@ -3,35 +3,22 @@
 #include <filesystem>
 #include <numeric>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "models/robot_model.hpp"
-#include "tests/complaint.hpp"
-#include "tests/models/upkie_mjcf.hpp"
+#include "tests/models/upkie.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::models {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-
 class TyreInARobotFile : public ::testing::Test {
  protected:
-  TyreInARobotFile() { write_mjcf(read_file(upkie_mjcf)); }
-
-  void write_mjcf(const std::string& text) const { write_atomically(folder_ / "upkie.xml", text); }
-
   RobotModel robot_with(const std::string& tyre) const {
-    write_atomically(folder_ / "robot.yaml", "mjcf: upkie.xml\ntyre: " + tyre + "\n");
-    return compile_robot_model(folder_ / "robot.yaml", Terrain{});
-  }
-
-  std::string complaint_about(const std::string& tyre) const {
-    return complaint_of([&] { (void)robot_with(tyre); });
+    folder_.write("upkie.xml", read_file(upkie_mjcf));
+    return compile_robot_model(folder_.write("robot.yaml", "mjcf: upkie.xml\ntyre: " + tyre + "\n"),
+                               Terrain{});
   }
 
   ScratchFolder folder_;
@@ -76,33 +63,6 @@ TEST_F(TyreInARobotFile, OfSomeWidthIsMasslessSpheresBesideEachOther) {
     EXPECT_EQ(robot.mj->body_mass[body], plain.mj->body_mass[body]);
     EXPECT_EQ(vector_at(robot.mj->body_inertia, body), vector_at(plain.mj->body_inertia, body));
   }
-}
-
-TEST_F(TyreInARobotFile, WithABadValueReportsItsPositionAndTheExpectation) {
-  EXPECT_THAT(complaint_about("{law: spring_damper, stiffness: 5}"),
-              AllOf(HasSubstr("robot.yaml:2:"), HasSubstr("tyre.stiffness"), HasSubstr("100")));
-  EXPECT_THAT(complaint_about("{law: spring_damper, damping: 0}"), HasSubstr("tyre.damping"));
-  EXPECT_THAT(complaint_about("{law: spring_damper, width: -1}"), HasSubstr("tyre.width"));
-  EXPECT_THAT(complaint_about("{law: spring_damper, stifness: 1e4}"),
-              HasSubstr("did you mean 'stiffness'?"));
-  EXPECT_THAT(complaint_about("{law: springdamper}"),
-              AllOf(HasSubstr("robot.yaml:2:13"), HasSubstr("engine, spring_damper"),
-                    HasSubstr("did you mean 'spring_damper'?")));
-  EXPECT_THAT(complaint_about("{stiffness: 1e4}"),
-              AllOf(HasSubstr("tyre.stiffness"), HasSubstr("law: spring_damper")));
-  EXPECT_THAT(complaint_about("{law: engine, width: 0.04}"), HasSubstr("law: spring_damper"));
-}
-
-TEST_F(TyreInARobotFile, OfSomeWidthWantsASphereInTheMjcf) {
-  const std::string text = read_file(upkie_mjcf);
-  std::string other = text;
-  const std::string sphere = "type=\"sphere\" size=\"0.05\" pos=\"0 -0.046 0\"";
-  ASSERT_NE(other.find(sphere), std::string::npos);
-  write_mjcf(other.replace(other.find(sphere), sphere.size(),
-                           "type=\"cylinder\" size=\"0.05 0.02\" pos=\"0 -0.046 0\""));
-  EXPECT_THAT(
-      complaint_about("{law: spring_damper, width: 0.04}"),
-      AllOf(HasSubstr("upkie.xml:80:1: "), HasSubstr("'left_tire'"), HasSubstr("a sphere")));
 }
 
 }  // namespace

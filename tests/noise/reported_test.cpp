@@ -9,7 +9,7 @@
 #include "core/fields.hpp"
 #include "core/resources.hpp"
 #include "noise/reported_signals.hpp"
-#include "tests/noise/statistics.hpp"
+#include "tests/noise/observations.hpp"
 
 namespace touchdown::noise {
 namespace {
@@ -20,8 +20,6 @@ using ::testing::IsEmpty;
 constexpr NoiseKey key{42, 3};
 constexpr double period = 0.001;
 const Eigen::Vector3d gravity(0.0, 0.0, 9.81);  // in the attitude reference system: z down
-
-using Steps = std::vector<models::Observation>;
 
 /// A tumbling robot with all joints in motion.
 Steps tumbling(std::size_t steps) {
@@ -57,44 +55,6 @@ Steps reported(const SensorProfile& profile, Steps run, const NoiseKey& of = key
 
 Steps reported(const std::string& text, Steps run) {
   return reported(profile_of(text), std::move(run));
-}
-
-/// All numbers of an observation by name.
-std::vector<std::pair<std::string, double>> numbers(const models::Observation& o) {
-  std::vector<std::pair<std::string, double>> all = {{"time", o.time},
-                                                     {"pitch", o.pitch},
-                                                     {"pitch rate", o.pitch_rate},
-                                                     {"yaw", o.yaw},
-                                                     {"yaw rate", o.yaw_rate}};
-  for (std::size_t j = 0; j < models::servo_count; ++j) {
-    const std::string name(models::servo_names[j]);
-    all.emplace_back(name + " position", o.servo[j].position);
-    all.emplace_back(name + " velocity", o.servo[j].velocity);
-    all.emplace_back(name + " torque", o.servo[j].torque);
-  }
-  for (int i = 0; i < 3; ++i) {
-    const std::string axis(1, "xyz"[i]);
-    all.emplace_back("raw " + axis, o.imu.raw_linear_acceleration[i]);
-    all.emplace_back("linear " + axis, o.imu.linear_acceleration[i]);
-    all.emplace_back("gyro " + axis, o.imu.angular_velocity[i]);
-  }
-  for (int i = 0; i < 4; ++i) all.emplace_back("attitude", o.imu.orientation.coeffs()[i]);
-  return all;
-}
-
-/// Names of the numbers that differ between two runs, compared to the bit.
-std::set<std::string> different(const Steps& a, const Steps& b) {
-  std::set<std::string> names;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    const auto left = numbers(a[k]), right = numbers(b[k]);
-    for (std::size_t i = 0; i < left.size(); ++i) {
-      if (std::bit_cast<std::uint64_t>(left[i].second) !=
-          std::bit_cast<std::uint64_t>(right[i].second)) {
-        names.insert(left[i].first);
-      }
-    }
-  }
-  return names;
 }
 
 /// All disturbances on every sensor.
@@ -164,6 +124,10 @@ TEST(Reported, ARunInPartsIsReportedAsTheWholeRunToTheBit) {
       EXPECT_THAT(different(parts, whole), IsEmpty()) << length;
     }
   }
+  Steps longer = reported(all_sensors, tumbling(900));  // begins as the shorter run
+  longer.resize(700);
+  EXPECT_THAT(different(longer, reported(all_sensors, run)), IsEmpty());
+  EXPECT_TRUE(reported(all_sensors, Steps()).empty());
 }
 
 /// Zero torque of a knee as reported through a channel.
@@ -185,24 +149,6 @@ TEST(Reported, DisturbancesTogetherAreTheSumOfEachAlone) {
   }
 }
 
-TEST(Reported, DisturbancesDoNotShareDraws) {
-  constexpr std::size_t steps = 40'000;
-  const auto white = knee_torque("{white: 1.0}", steps);
-  // A process without memory between steps leaves only its draws.
-  const auto coloured = knee_torque("{coloured: {sd: 1.0, time_constant: 1e-6}}", steps);
-  auto walk = knee_torque("{bias: {walk: 1.0}}", steps);
-  for (std::size_t k = steps; k-- > 1;) walk[k] = (walk[k] - walk[k - 1]) / std::sqrt(period);
-  const std::vector<std::vector<double>> all = {white, coloured, walk};
-  for (std::size_t a = 0; a < all.size(); ++a) {
-    EXPECT_NEAR(correlation(all[a]), 1.0, 0.05) << a;
-    for (std::size_t b = 0; b < a; ++b) {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < steps; ++k) sum += all[a][k] * all[b][k];
-      EXPECT_NEAR(sum / steps, 0.0, 5.0 / std::sqrt(steps)) << a << " and " << b;
-    }
-  }
-}
-
 TEST(Reported, EveryNumberOfEverySensorHasDrawsOfItsOwn) {
   const std::string white = "{white: 1.0}\n";
   const Steps all = reported("torque: " + white + "position: " + white + "velocity: " + white +
@@ -214,25 +160,6 @@ TEST(Reported, EveryNumberOfEverySensorHasDrawsOfItsOwn) {
     EXPECT_TRUE(draws.insert(number).second) << name;
   }
   EXPECT_EQ(draws.size(), 3 * models::servo_count + 6U);
-}
-
-TEST(Reported, LegsRunsAndSeedsHaveDrawsOfTheirOwn) {
-  const Steps still(20'000);
-  const auto knee = [&](const NoiseKey& of, models::Servo servo) {
-    std::vector<double> values;
-    for (const auto& o : reported(profile_of("torque: {white: 1.0}"), still, of)) {
-      values.push_back(o.servo[models::index(servo)].torque);
-    }
-    return values;
-  };
-  const auto one = knee(key, models::Servo::left_knee);
-  for (const auto& other :
-       {knee(key, models::Servo::right_knee), knee({42, 4}, models::Servo::left_knee),
-        knee({43, 3}, models::Servo::left_knee)}) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < one.size(); ++k) sum += one[k] * other[k];
-    EXPECT_NEAR(sum / 20'000.0, 0.0, 5.0 / std::sqrt(20'000.0));
-  }
 }
 
 TEST(Reported, IsTheSameInWhateverOrderAndInHoweverManyThreadsRunsAreReported) {
@@ -249,13 +176,6 @@ TEST(Reported, IsTheSameInWhateverOrderAndInHoweverManyThreadsRunsAreReported) {
     EXPECT_THAT(different(in_turn[i], whole_run[i]), IsEmpty());
     EXPECT_THAT(different(in_turn[i], in_turn[(i + 1) % 8]), ::testing::Not(IsEmpty()));
   }
-}
-
-TEST(Reported, RepeatsTheFirstStepsWhenARunIsLonger) {
-  const SensorProfile profile = profile_of(all_sensors);
-  Steps longer = reported(profile, tumbling(900));
-  longer.resize(500);
-  EXPECT_THAT(different(longer, reported(profile, tumbling(500))), IsEmpty());
 }
 
 // The accelerometer, with and without gravity.
@@ -388,8 +308,6 @@ TEST(ReportedDropouts, OfAMissingRecordLeaveNoNumberOfTheStep) {
   EXPECT_GT(missing, 50U);
   EXPECT_LT(missing, 1'000U);
 }
-
-TEST(ReportedRun, OfNoStepsIsLeftAlone) { EXPECT_TRUE(reported(all_sensors, Steps()).empty()); }
 
 TEST(ReportTargets, KeepTheTrackingErrorOfTheServos) {
   // Zero errors of joints move positions and targets alike, drawn or given, on every joint.

@@ -28,13 +28,18 @@ std::vector<double> of_nothing(const SensorChannel& channel, std::size_t steps =
   return through(channel, std::vector<double>(steps), run);
 }
 
-TEST(SensorValues, AGivenBiasIsAdded) {
-  EXPECT_EQ(through({.bias = {.value = 0.25}}, {1.0, -2.0}), (std::vector{1.25, -1.75}));
-}
-
-TEST(SensorValues, AGivenScaleErrorMultipliesWhatIsMeasuredAndNotTheBias) {
-  EXPECT_EQ(through({.scale = {.value = 0.5}, .bias = {.value = 1.0}}, {2.0, -4.0}),
-            (std::vector{4.0, -5.0}));
+TEST(SensorValues, AreScaledBiasedClippedAndRoundedInTurn) {
+  using Values = std::vector<double>;
+  for (const auto& [channel, values, expected] :
+       std::vector<std::tuple<SensorChannel, Values, Values>>{
+           {{.bias = {.value = 0.25}}, {1.0, -2.0}, {1.25, -1.75}},
+           {{.scale = {.value = 0.5}, .bias = {.value = 1.0}}, {2.0, -4.0}, {4.0, -5.0}},
+           {{.range = 2.0}, {-3.0, -2.0, 0.5, 2.5}, {-2.0, -2.0, 0.5, 2.0}},
+           {{.resolution = 0.25}, {0.1, 0.13, -0.4, 1.0}, {0.0, 0.25, -0.5, 1.0}},
+           // 1.25 is beyond the range by a part of a step.
+           {{.range = 1.2, .resolution = 0.25}, {9.0}, {1.25}}}) {
+    EXPECT_EQ(through(channel, values), expected);
+  }
 }
 
 TEST(SensorValues, ADrawnBiasAndADrawnScaleErrorAreConstantInARunAndDifferFromRunToRun) {
@@ -198,20 +203,6 @@ TEST(SensorValues, WhiteNoiseIsAddedAfterTheLowPassAndColouredNoiseBefore) {
   EXPECT_NEAR(correlation(coloured), gain / (2.0 - gain), 0.1 * gain / (2.0 - gain));
 }
 
-TEST(SensorValues, NoValueIsBeyondTheRangeAndTheOthersStay) {
-  EXPECT_EQ(through({.range = 2.0}, {-3.0, -2.0, 0.5, 2.5}), (std::vector{-2.0, -2.0, 0.5, 2.0}));
-}
-
-TEST(SensorValues, ValuesAreRoundedToTheNearestStep) {
-  EXPECT_EQ(through({.resolution = 0.25}, {0.1, 0.13, -0.4, 1.0}),
-            (std::vector{0.0, 0.25, -0.5, 1.0}));
-}
-
-TEST(SensorValues, ARangeIsThatOfWhatIsRounded) {
-  // Clipped at 1.1 first, then rounded: 1.25 is beyond the range by a part of a step.
-  EXPECT_EQ(through({.range = 1.2, .resolution = 0.25}, {9.0}), (std::vector{1.25}));
-}
-
 /// A wheel that turns at a constant speed (rad/s) from an angle on.
 WheelTurns turning(double speed, double from, double order, std::size_t steps) {
   std::vector<double> position, velocity;
@@ -259,11 +250,9 @@ TEST(Vibration, OfBothWheelsAddsUpAndAWheelThatStandsDoesNotShake) {
   EXPECT_NEAR(amplitude_at(values, fast), 0.1 * fast, 1e-9);
   const WheelTurns still = turning(0.0, 1.0, 1.0, 100);
   EXPECT_EQ(shaken({still, still}, 0.1, 0), std::vector<double>(100));
-}
-
-TEST(Vibration, HasAPhaseOfItsOwnForEachWheel) {
-  const WheelTurns turns = turning(10.0, 0.0, 1.0, 100), still = turning(0.0, 0.0, 1.0, 100);
-  EXPECT_NE(shaken({turns, still}, 0.1, 0), shaken({still, turns}, 0.1, 0));
+  const WheelTurns turns = turning(10.0, 0.0, 1.0, 100);
+  EXPECT_NE(shaken({turns, still}, 0.1, 0), shaken({still, turns}, 0.1, 0))
+      << "phases of their own";
 }
 
 TEST(Vibration, HasAPhaseThatIsUniformOverTheRuns) {

@@ -72,8 +72,8 @@ TEST(WheeledPendulum, CountsTheWheelsRotors) {
 }
 
 TEST(LqrGains, OfUpkieAreNearThoseFoundByHand) {
-  const WheelBalancerConfig by_hand;
-  const WheelBalancerConfig lqr = with_lqr_gains({}, pendulum_of(upkie()));
+  const WheelBalancerConfig by_hand{.max_acceleration = 0.3, .keep_heading = true};
+  const WheelBalancerConfig lqr = with_lqr_gains(by_hand, pendulum_of(upkie()));
   EXPECT_NEAR(lqr.pitch_stiffness, by_hand.pitch_stiffness, 0.05 * by_hand.pitch_stiffness);
   EXPECT_NEAR(lqr.pitch_damping, by_hand.pitch_damping, 0.2 * by_hand.pitch_damping);
   EXPECT_NEAR(lqr.position_stiffness, by_hand.position_stiffness, 0.05);
@@ -85,6 +85,8 @@ TEST(LqrGains, OfUpkieAreNearThoseFoundByHand) {
   EXPECT_NEAR(lqr.yaw_damping, by_hand.yaw_damping, 0.001);
   EXPECT_NEAR(lqr.leg_kp_scale, by_hand.leg_kp_scale, 0.02);
   EXPECT_NEAR(lqr.leg_kd_scale, by_hand.leg_kd_scale, 0.02);
+  EXPECT_TRUE(lqr.keep_heading) << "not the robot's";
+  EXPECT_EQ(lqr.max_acceleration, 0.3);
 }
 
 TEST(LqrGains, OfAHeavierRobotAskForTheSameMotionWithMoreTorque) {
@@ -99,15 +101,6 @@ TEST(LqrGains, OfAHeavierRobotAskForTheSameMotionWithMoreTorque) {
   EXPECT_NEAR(heavy.wheel_kd_scale, 2.0 * light.wheel_kd_scale, 1e-9);
   EXPECT_NEAR(heavy.yaw_stiffness, 2.0 * light.yaw_stiffness, 1e-9);
   EXPECT_NEAR(heavy.leg_kp_scale, 2.0 * light.leg_kp_scale, 1e-9);
-}
-
-TEST(LqrGains, LeaveWhatIsNotTheRobots) {
-  WheelBalancerConfig config;
-  config.keep_heading = true;
-  config.max_acceleration = 0.3;
-  const WheelBalancerConfig lqr = with_lqr_gains(config, pendulum_of(upkie()));
-  EXPECT_TRUE(lqr.keep_heading);
-  EXPECT_EQ(lqr.max_acceleration, 0.3);
 }
 
 TEST(LqrGains, OfARobotThatHangsBelowItsAxleAreRefused) {

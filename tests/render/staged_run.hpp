@@ -7,7 +7,7 @@
 #include "models/profile.hpp"
 #include "models/robot_model.hpp"
 #include "render/film/video.hpp"
-#include "tests/models/upkie_mjcf.hpp"
+#include "tests/models/upkie.hpp"
 
 namespace touchdown::render {
 

@@ -1,4 +1,3 @@
-
 #include <gtest/gtest.h>
 
 #include "core/resources.hpp"
@@ -14,22 +13,6 @@ Scenario stairs() {
   Scenario scenario = find_scenario("scenarios/stairs.yaml");
   scenario.end.duration = 0.5;
   return scenario;
-}
-
-TEST(CompiledScenes, SharesTheModelOfScenariosWithTheSameScene) {
-  CompiledScenes scenes;
-  const Scenario scenario = stairs();
-  Scenario faster = scenario;
-  faster.velocity.front().velocity = 0.9;
-  faster.end.duration = 3.0;
-  const auto model = scenes.of(scenario);
-  EXPECT_EQ(scenes.of(faster), model);
-  Scenario heavier = scenario;
-  heavier.mass_scale = 1.1;
-  EXPECT_NEAR(scenes.of(heavier)->mj->body_mass[1], 1.1 * model->mj->body_mass[1], 1e-12);
-  Scenario smoother = scenario;
-  smoother.terrain.friction *= 0.5;
-  EXPECT_NE(scenes.of(smoother), model);
 }
 
 TEST(CompiledScenes, ApplyTheDeviationsOfTheRobot) {
@@ -55,17 +38,6 @@ TEST(CompiledScenes, ApplyTheDeviationsOfTheRobot) {
   // The recorded scenario, which a run is repeated from, contains them.
   const Scenario again = scenario_from_yaml(YamlDocument::parse(to_yaml(scenario), "again.yaml"));
   EXPECT_TRUE(again.deviations == scenario.deviations);
-}
-
-TEST(CompiledScenes, ReleasesScenesThatAreNoLongerUsed) {
-  CompiledScenes scenes;
-  Scenario scenario = stairs();
-  const std::weak_ptr<const models::RobotModel> first = scenes.of(scenario);
-  for (int i = 0; i < 100; ++i) {
-    scenario.terrain.friction += 1e-3;
-    scenes.of(scenario);
-  }
-  EXPECT_TRUE(first.expired());
 }
 
 TEST(CompiledScenes, GiveTheSameRunsAsSceneCompiledForOneRun) {

@@ -38,6 +38,11 @@ Scenario base() {
 }
 
 TEST(Perturbed, IsAFunctionOfSeedAndRun) {
+  Scenario still = base();
+  still.perturbation = {};
+  EXPECT_EQ(to_yaml(perturbed(still, 4, 2)), to_yaml(still));
+  const Scenario once = perturbed(base(), 4, 2);
+  EXPECT_EQ(to_yaml(perturbed(once, 8, 8)), to_yaml(once)) << "it is not perturbed again";
   EXPECT_EQ(to_yaml(perturbed(base(), 5, 3)), to_yaml(perturbed(base(), 5, 3)));
   EXPECT_NE(to_yaml(perturbed(base(), 5, 3)), to_yaml(perturbed(base(), 5, 4)));
   EXPECT_NE(to_yaml(perturbed(base(), 5, 3)), to_yaml(perturbed(base(), 6, 3)));
@@ -78,7 +83,11 @@ TEST(Perturbed, AddingAQuantityChangesNoOtherDraw) {
   Scenario less = base();
   less.perturbation = {};
   less.perturbation.yaw = 0.3;
+  Scenario wheels = base();
+  wheels.perturbation = {};
+  wheels.perturbation.wheel_radius_scale = 0.03;
   Scenario more = base();
+  more.perturbation.crouching = RandomCrouches{};
   more.perturbation.drive = RandomDrive{};
   more.perturbation.lift = RandomLifts{};
   for (int run = 0; run < 5; ++run) {
@@ -90,39 +99,13 @@ TEST(Perturbed, AddingAQuantityChangesNoOtherDraw) {
     EXPECT_EQ(some.start.yaw, all.start.yaw);
     EXPECT_EQ(some.mass_scale, all.mass_scale);
     EXPECT_EQ(some.forces[0].force, all.forces[0].force);
-  }
-}
-
-TEST(Perturbed, DeviationsOfTheRobotAreIndependentAndChangeNoOtherDraw) {
-  Scenario fixed = base();
-  fixed.perturbation.com_x = fixed.perturbation.com_z = fixed.perturbation.torque_error = 0.0;
-  fixed.perturbation.wheel_radius_scale = fixed.perturbation.actuator_friction_scale = 0.0;
-  Scenario wheels = fixed;
-  wheels.perturbation.wheel_radius_scale = 0.03;
-  for (int run = 0; run < 5; ++run) {
-    Scenario all = perturbed(base(), 9, run);
+    // The errors of the robot are drawn independently, too.
     EXPECT_EQ(perturbed(wheels, 9, run).deviations.wheel_radius_scale,
-              all.deviations.wheel_radius_scale);
-    const Deviations drawn = all.deviations;
-    std::set<double> shares = {drawn.com_x / 0.01, drawn.com_z / 0.02};
-    for (const double error : drawn.torque_error) shares.insert(error / 0.05);
+              some.deviations.wheel_radius_scale);
+    std::set<double> shares = {some.deviations.com_x / 0.01, some.deviations.com_z / 0.02};
+    for (const double error : some.deviations.torque_error) shares.insert(error / 0.05);
     EXPECT_EQ(shares.size(), 8U);
-    all.deviations = {};
-    EXPECT_EQ(to_yaml(all), to_yaml(perturbed(fixed, 9, run)));
   }
-  EXPECT_THAT(to_yaml(fixed), ::testing::Not(::testing::HasSubstr("com_x")))
-      << "scenarios without deviations stay unchanged";
-}
-
-TEST(Perturbed, WithoutPerturbationNothingChanges) {
-  Scenario still = base();
-  still.perturbation = {};
-  EXPECT_EQ(to_yaml(perturbed(still, 4, 2)), to_yaml(still));
-}
-
-TEST(Perturbed, APerturbedScenarioIsNotPerturbedAgain) {
-  const Scenario once = perturbed(base(), 4, 2);
-  EXPECT_EQ(to_yaml(perturbed(once, 8, 8)), to_yaml(once));
 }
 
 TEST(Perturbed, QuantitiesAreIndependent) {
@@ -220,6 +203,114 @@ TEST(Perturbed, KeepsTheDrawsOfBentRobots) {
     const double u = uniform01(3, static_cast<std::uint64_t>(run), 4);
     EXPECT_DOUBLE_EQ(perturbed(roam, 3, run).start.hip, 0.455 + 0.15 * (2.0 * u - 1.0));
   }
+}
+
+const RandomDrive drive = {
+    .velocity = 0.6, .yaw_rate = 0.8, .standing = 0.25, .hold = {0.5, 2.0}, .start = 1.0};
+
+TEST(RandomDrive, HoldsEachCommandWithinItsRange) {
+  int commands = 0;
+  int standing = 0;
+  for (int run = 0; run < 50; ++run) {
+    const policies::VelocityScript script = random_drive(drive, 60.0, 3, run);
+    ASSERT_FALSE(script.empty());
+    EXPECT_EQ(script.front().time, 1.0);
+    for (std::size_t i = 0; i < script.size(); ++i) {
+      EXPECT_LE(std::abs(script[i].velocity), 0.6);
+      EXPECT_LE(std::abs(script[i].yaw_rate), 0.8);
+      EXPECT_LT(script[i].time, 60.0);
+      if (i > 0) {
+        EXPECT_GE(script[i].time - script[i - 1].time, 0.5);
+        EXPECT_LE(script[i].time - script[i - 1].time, 2.0);
+      }
+      ++commands;
+      standing += script[i].velocity == 0.0 && script[i].yaw_rate == 0.0 ? 1 : 0;
+    }
+    EXPECT_GT(script.back().time, 58.0);
+  }
+  EXPECT_NEAR(static_cast<double>(standing) / commands, 0.25, 0.04);
+}
+
+TEST(RandomLifts, LiftAndPauseWithinTheirRanges) {
+  const RandomLifts lifts;
+  const policies::ForceScript script = random_lifts(lifts, 60.0, 3, 1);
+  ASSERT_GT(script.size(), 20U);
+  for (std::size_t i = 0; i < script.size(); ++i) {
+    EXPECT_EQ(script[i].force.head<2>(), Eigen::Vector2d::Zero());
+    EXPECT_GE(script[i].force.z(), lifts.force.low);
+    EXPECT_LE(script[i].force.z(), lifts.force.high);
+    EXPECT_GE(script[i].duration, lifts.hold.low);
+    EXPECT_LE(script[i].duration, lifts.hold.high);
+    if (i == 0) continue;
+    const double pause = script[i].time - script[i - 1].time - script[i - 1].duration;
+    EXPECT_GE(pause, lifts.pause.low - 1e-12);
+    EXPECT_LE(pause, lifts.pause.high + 1e-12);
+  }
+}
+
+const RandomCrouches crouches = {
+    .hip = {-0.05, 0.27}, .exponent = 1.35, .hold = {2.0, 6.0}, .rate = 0.3, .start = 0.5};
+
+TEST(RandomCrouches, HoldEachHeightWithinItsRange) {
+  int commands = 0;
+  double mean = 0.0;
+  for (int run = 0; run < 200; ++run) {
+    const policies::CrouchScript script = random_crouches(crouches, 60.0, 3, run);
+    ASSERT_FALSE(script.empty());
+    EXPECT_EQ(script.front().time, 0.5);
+    EXPECT_GT(script.back().time, 54.0);
+    for (std::size_t i = 0; i < script.size(); ++i) {
+      EXPECT_GE(script[i].hip, -0.05);
+      EXPECT_LE(script[i].hip, 0.27);
+      EXPECT_EQ(script[i].rate, 0.3);
+      if (i > 0) {
+        EXPECT_GE(script[i].time - script[i - 1].time, 2.0);
+        EXPECT_LE(script[i].time - script[i - 1].time, 6.0);
+      }
+      ++commands;
+      mean += script[i].hip;
+    }
+  }
+  EXPECT_NEAR(mean / commands, -0.05 + 0.32 / 2.35, 0.005);  // the mean of U^1.35 is 1/2.35
+}
+
+TEST(RandomScripts, ReplaceTheVelocitiesAndAddToTheForces) {
+  Scenario scenario = standing(10.0);
+  scenario.velocity = {{1.0, 0.5, 0.0}};
+  scenario.forces = {{.time = 0.5, .duration = 0.1, .force = {1.0, 0.0, 0.0}}};
+  scenario.perturbation.drive = drive;
+  scenario.perturbation.lift = RandomLifts{};
+  const Scenario varied = perturbed(scenario, 3, 1);
+  EXPECT_GT(varied.velocity.size(), 3U);
+  EXPECT_GT(varied.forces.size(), 3U);
+  EXPECT_EQ(varied.forces.front().force.x(), 1.0);
+}
+
+template <typename Draw>
+void expect_longer_script_to_begin_the_same(const Draw& draw) {
+  const auto one = draw(20.0, 3, 1);
+  const auto longer = draw(40.0, 3, 1);
+  ASSERT_GT(longer.size(), one.size());
+  EXPECT_TRUE(std::equal(one.begin(), one.end(), longer.begin()));
+  EXPECT_NE(one[0], draw(20.0, 3, 2)[0]);
+  EXPECT_NE(one[0], draw(20.0, 4, 1)[0]);
+}
+
+TEST(RandomScripts, DependOnSeedAndRunOnlyAndALongerOneBeginsTheSame) {
+  expect_longer_script_to_begin_the_same([](double duration, std::uint64_t seed, int run) {
+    std::vector<std::array<double, 2>> script;
+    for (const auto& one : random_drive(drive, duration, seed, run)) {
+      script.push_back({one.time, one.velocity});
+    }
+    return script;
+  });
+  expect_longer_script_to_begin_the_same([](double duration, std::uint64_t seed, int run) {
+    std::vector<std::array<double, 2>> script;
+    for (const auto& one : random_crouches(crouches, duration, seed, run)) {
+      script.push_back({one.time, one.hip});
+    }
+    return script;
+  });
 }
 
 }  // namespace

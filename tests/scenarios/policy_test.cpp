@@ -5,7 +5,6 @@
 
 #include "scenarios/rollout.hpp"
 #include "scenarios/start_pose.hpp"
-#include "tests/complaint.hpp"
 #include "tests/scenarios/runs.hpp"
 
 namespace touchdown::scenarios {
@@ -13,8 +12,6 @@ namespace {
 
 using logs::Outcome;
 using policies::PolicyConfig;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 PolicyConfig soft(const std::string& contact, double delay = 0.0) {
   return {PolicyConfig::Law::soft_landing, contact, delay};
@@ -52,15 +49,6 @@ TEST_P(Policies, ASoftLanderFinishesWhereTheBalancerDoes) {
   }
 }
 
-TEST_P(Policies, AreDeterministic) {
-  Scenario scenario = high_steps(0.5);
-  scenario.policy = soft("support_force", 0.005);
-  const logs::Recording once = play(scenario, GetParam());
-  const logs::Recording again = play(scenario, GetParam());
-  ASSERT_EQ(once.steps(), again.steps());
-  EXPECT_EQ(once.truth.back().base_position, again.truth.back().base_position);
-}
-
 TEST(PolicyContact, OfTheTruthHasTheConfiguredDelay) {
   Scenario scenario = standing(1.0);
   scenario.start.clearance = 0.5;  // falls first
@@ -82,26 +70,6 @@ TEST(PolicyContact, OfTheTruthHasTheConfiguredDelay) {
   for (std::size_t k = 10; k < contact.size(); ++k) {
     EXPECT_EQ(delayed_contact[k], contact[k - 10]);
   }
-}
-
-TEST(PolicyFile, IsReadBackAndOmittedForTheDefault) {
-  Scenario scenario = standing(1.0);
-  EXPECT_THAT(to_yaml(scenario), Not(HasSubstr("policy")));
-  scenario.policy = soft("truth", 0.25);
-  const std::string text = to_yaml(scenario);
-  EXPECT_THAT(text, HasSubstr("law: soft_landing"));
-  EXPECT_EQ(scenario_from_yaml(YamlDocument::parse(text, "again.yaml")).policy, scenario.policy);
-}
-
-TEST(PolicyFile, ComplainsOnTheLine) {
-  const auto error_of = [](const std::string& text) -> std::string {
-    return complaint_of(
-        [&] { (void)scenario_from_yaml(YamlDocument::parse("name: x\n" + text, "s.yaml")); });
-  };
-  EXPECT_THAT(error_of("policy: {contact: trut}\n"),
-              AllOf(HasSubstr("s.yaml:2:"), HasSubstr("did you mean 'truth'?")));
-  EXPECT_THAT(error_of("policy: {law: soft}\n"), HasSubstr("soft_landing"));
-  EXPECT_THAT(error_of("policy: {delay: -1}\n"), HasSubstr("policy.delay"));
 }
 
 /// The history is the oracle: step k − d, or contact before the first step.

@@ -2,7 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/resources.hpp"
-#include "tests/models/edited_upkie.hpp"
+#include "tests/models/upkie.hpp"
 #include "tests/scenarios/runs.hpp"
 #include "tests/scratch_folder.hpp"
 

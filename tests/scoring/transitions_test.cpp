@@ -8,7 +8,6 @@
 namespace touchdown::scoring {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using enum EventKind;
 using enum Judgement;
@@ -24,103 +23,89 @@ ContactSequence with_flights(std::size_t steps, const std::vector<Flight>& all) 
   return contact;
 }
 
-std::vector<JudgedTransition> judge(const std::vector<Flight>& truth,
-                                    const std::vector<Flight>& predicted,
-                                    std::size_t steps = 3000) {
-  return judge_transitions(with_flights(steps, truth), with_flights(steps, predicted), millisecond,
-                           {});
-}
+/// True and predicted flights of 3000 steps, and what becomes of their takeoffs and landings.
+struct Case {
+  const char* what;
+  std::vector<Flight> truth, predicted;
+  std::vector<JudgedTransition> expected;
+};
 
-const std::vector<Flight> one_flight = {{1000, 1200}};
-
-TEST(Transitions, ALateDetectionHasPositiveLatency) {
-  EXPECT_THAT(judge(one_flight, {{1077, 1218}}),
-              ElementsAre(JudgedTransition{takeoff, detected, 1000, 77},
-                          JudgedTransition{landing, detected, 1200, 18}));
-}
-
-TEST(Transitions, AnEarlyDetectionInsideTheWindowHasNegativeLatency) {
-  EXPECT_THAT(judge(one_flight, {{940, 1180}}),
-              ElementsAre(JudgedTransition{takeoff, detected, 1000, -60},
-                          JudgedTransition{landing, detected, 1200, -20}));
-}
-
-TEST(Transitions, ATakeoffPredictedBeforeItsWindowIsMissedAndAFalseAlarm) {
-  EXPECT_THAT(judge(one_flight, {{939, 1200}}),
-              ElementsAre(JudgedTransition{takeoff, missed, 1000, 0},
-                          JudgedTransition{takeoff, false_alarm, 939, 0},
-                          JudgedTransition{landing, detected, 1200, 0}));
-}
-
-TEST(Transitions, ATakeoffPredictedAfterTheFlightIsMissed) {
-  EXPECT_THAT(judge(one_flight, {{1200, 1230}}),
-              ElementsAre(JudgedTransition{takeoff, missed, 1000, 0},
-                          JudgedTransition{landing, detected, 1200, 30}));
-}
-
-TEST(Transitions, ChatterInsideTheHoldOffIsIrrelevant) {
-  EXPECT_THAT(judge(one_flight, {{1010, 1050}, {1060, 1205}, {1300, 1310}, {1440, 1450}}),
-              ElementsAre(JudgedTransition{takeoff, detected, 1000, 10},
-                          JudgedTransition{landing, detected, 1200, 5}));
-}
-
-TEST(Transitions, ChatterAfterTheHoldOffIsOneFalseAlarmOfEachKind) {
-  EXPECT_THAT(judge(one_flight, {{1000, 1200}, {1600, 1610}, {1620, 1640}}),
-              ElementsAre(JudgedTransition{takeoff, detected, 1000, 0},
-                          JudgedTransition{takeoff, false_alarm, 1600, 0},
-                          JudgedTransition{landing, detected, 1200, 0},
-                          JudgedTransition{landing, false_alarm, 1610, 0}));
-}
-
-TEST(Transitions, FalseAlarmsFartherApartThanTheHoldOffCountEach) {
-  EXPECT_THAT(judge({}, {{1000, 1010}, {1251, 1261}}),
-              ElementsAre(JudgedTransition{takeoff, false_alarm, 1000, 0},
-                          JudgedTransition{takeoff, false_alarm, 1251, 0},
-                          JudgedTransition{landing, false_alarm, 1010, 0},
-                          JudgedTransition{landing, false_alarm, 1261, 0}));
-}
-
-TEST(Transitions, ALandingThatIsNeverPredictedIsMissed) {
-  EXPECT_THAT(judge(one_flight, {{1005, 3000}}),
-              ElementsAre(JudgedTransition{takeoff, detected, 1000, 5},
-                          JudgedTransition{landing, missed, 1200, 0}));
-}
-
-TEST(Transitions, AFlightAtTheEndHasNoLandingAndCountsIfItsWindowFits) {
-  EXPECT_THAT(judge({{2700, 3000}}, {{2720, 3000}}),
-              ElementsAre(JudgedTransition{takeoff, detected, 2700, 20}));
-  EXPECT_THAT(judge({{2700, 3000}}, {}), ElementsAre(JudgedTransition{takeoff, missed, 2700, 0}));
-  // Only 200 of the 250 ms window are in the run: neither found nor missed.
-  EXPECT_THAT(judge({{2800, 3000}}, {}), IsEmpty());
-  EXPECT_THAT(judge({{2800, 3000}}, {{2810, 3000}}), IsEmpty());
-}
-
-TEST(Transitions, EventsInTheSkippedBeginningDoNotCount) {
-  EXPECT_THAT(judge({}, {{50, 299}}), IsEmpty());
-  // The window of a takeoff at 340 would open at 280.
-  EXPECT_THAT(judge({{340, 500}}, {{340, 500}}),
-              ElementsAre(JudgedTransition{landing, detected, 500, 0}));
-}
-
-TEST(Transitions, AShortFlightIsNeitherMissedNorAFalseAlarm) {
-  EXPECT_THAT(judge({{1000, 1049}}, {}), IsEmpty());
-  EXPECT_THAT(judge({{1000, 1049}}, {{1010, 1060}}), IsEmpty());
-  EXPECT_EQ(judge({{1000, 1050}}, {}).size(), 2U);
-}
-
-TEST(Transitions, OnePredictionDetectsOneEvent) {
-  // A takeoff predicted once, in the first of two flights 100 ms apart, does not detect the second.
-  EXPECT_THAT(judge({{1000, 1200}, {1300, 1500}}, {{1050, 1510}}),
-              ElementsAre(JudgedTransition{takeoff, detected, 1000, 50},
-                          JudgedTransition{takeoff, missed, 1300, 0},
-                          JudgedTransition{landing, missed, 1200, 0},
-                          JudgedTransition{landing, detected, 1500, 10}));
-}
-
-TEST(Transitions, EmptyAndConstantSequencesHaveNone) {
+TEST(Transitions, AreDetectedMissedOrFalseByTheDefinitionOfThePaper) {
+  const std::vector<Flight> one = {{1000, 1200}};
+  for (const Case& c : std::vector<Case>{
+           {"late",
+            one,
+            {{1077, 1218}},
+            {{takeoff, detected, 1000, 77}, {landing, detected, 1200, 18}}},
+           {"early inside the window",
+            one,
+            {{940, 1180}},
+            {{takeoff, detected, 1000, -60}, {landing, detected, 1200, -20}}},
+           {"a takeoff before its window",
+            one,
+            {{939, 1200}},
+            {{takeoff, missed, 1000, 0},
+             {takeoff, false_alarm, 939, 0},
+             {landing, detected, 1200, 0}}},
+           {"a takeoff after the flight",
+            one,
+            {{1200, 1230}},
+            {{takeoff, missed, 1000, 0}, {landing, detected, 1200, 30}}},
+           {"chatter inside the hold-off",
+            one,
+            {{1010, 1050}, {1060, 1205}, {1300, 1310}, {1440, 1450}},
+            {{takeoff, detected, 1000, 10}, {landing, detected, 1200, 5}}},
+           {"chatter after the hold-off",
+            one,
+            {{1000, 1200}, {1600, 1610}, {1620, 1640}},
+            {{takeoff, detected, 1000, 0},
+             {takeoff, false_alarm, 1600, 0},
+             {landing, detected, 1200, 0},
+             {landing, false_alarm, 1610, 0}}},
+           {"false alarms farther apart than the hold-off",
+            {},
+            {{1000, 1010}, {1251, 1261}},
+            {{takeoff, false_alarm, 1000, 0},
+             {takeoff, false_alarm, 1251, 0},
+             {landing, false_alarm, 1010, 0},
+             {landing, false_alarm, 1261, 0}}},
+           {"a landing that is never predicted",
+            one,
+            {{1005, 3000}},
+            {{takeoff, detected, 1000, 5}, {landing, missed, 1200, 0}}},
+           {"a flight at the end has no landing",
+            {{2700, 3000}},
+            {{2720, 3000}},
+            {{takeoff, detected, 2700, 20}}},
+           {"it counts if its window fits", {{2700, 3000}}, {}, {{takeoff, missed, 2700, 0}}},
+           {"only 200 of the 250 ms window are in the run", {{2800, 3000}}, {}, {}},
+           {"the same", {{2800, 3000}}, {{2810, 3000}}, {}},
+           {"events in the skipped beginning", {}, {{50, 299}}, {}},
+           {"the window would open at 280",
+            {{340, 500}},
+            {{340, 500}},
+            {{landing, detected, 500, 0}}},
+           {"a short flight", {{1000, 1049}}, {}, {}},
+           {"a short flight is no false alarm", {{1000, 1049}}, {{1010, 1060}}, {}},
+           {"a flight just long enough",
+            {{1000, 1050}},
+            {},
+            {{takeoff, missed, 1000, 0}, {landing, missed, 1050, 0}}},
+           {"one prediction detects one event",
+            {{1000, 1200}, {1300, 1500}},
+            {{1050, 1510}},
+            {{takeoff, detected, 1000, 50},
+             {takeoff, missed, 1300, 0},
+             {landing, missed, 1200, 0},
+             {landing, detected, 1500, 10}}},
+           {"a constant sequence", {{0, 3000}}, {{0, 3000}}, {}}}) {
+    EXPECT_EQ(judge_transitions(with_flights(3000, c.truth), with_flights(3000, c.predicted),
+                                millisecond, {}),
+              c.expected)
+        << c.what;
+  }
   EXPECT_THAT(judge_transitions({}, {}, millisecond, {}), IsEmpty());
   EXPECT_THAT(judge_transitions({1}, {0}, millisecond, {}), IsEmpty());
-  EXPECT_THAT(judge({{0, 3000}}, {{0, 3000}}), IsEmpty());
 }
 
 TEST(TransitionCounts, GiveThePrecisionRecallAndLatencyOfThePaper) {
@@ -138,24 +123,24 @@ TEST(TransitionCounts, GiveThePrecisionRecallAndLatencyOfThePaper) {
 }
 
 TEST(LatencyHistogram, CountsEventsAroundItsCentresAndClampsOutliers) {
-  LatencyHistogram histogram;
-  const auto bin_of = [](std::int64_t us) {
-    LatencyHistogram one;
-    one.add(us);
-    return static_cast<std::size_t>(std::find(one.events.begin(), one.events.end(), 1) -
-                                    one.events.begin());
-  };
-  EXPECT_EQ(LatencyHistogram::centre_ms(bin_of(0)), 0.0);
-  EXPECT_EQ(LatencyHistogram::centre_ms(bin_of(2'000)), 0.0);
-  EXPECT_EQ(LatencyHistogram::centre_ms(bin_of(-2'000)), 0.0);
-  EXPECT_EQ(LatencyHistogram::centre_ms(bin_of(3'000)), 5.0);
-  EXPECT_EQ(LatencyHistogram::centre_ms(bin_of(-3'000)), -5.0);
-  EXPECT_EQ(LatencyHistogram::centre_ms(bin_of(250'000)), 250.0);
-  EXPECT_EQ(bin_of(-10'000'000), 0u);
-  EXPECT_EQ(bin_of(10'000'000), LatencyHistogram::bins - 1);
-  histogram.add(0);
-  histogram += histogram;
-  EXPECT_EQ(histogram.events[bin_of(0)], 2);
+  const double last = LatencyHistogram::centre_ms(LatencyHistogram::bins - 1);
+  for (const auto& [us, centre] :
+       std::vector<std::pair<std::int64_t, double>>{{0, 0.0},
+                                                    {2'000, 0.0},
+                                                    {-2'000, 0.0},
+                                                    {3'000, 5.0},
+                                                    {-3'000, -5.0},
+                                                    {250'000, 250.0},
+                                                    {-10'000'000, LatencyHistogram::centre_ms(0)},
+                                                    {10'000'000, last}}) {
+    LatencyHistogram histogram;
+    histogram.add(us);
+    histogram += histogram;
+    const auto bin = std::find(histogram.events.begin(), histogram.events.end(), 2);
+    EXPECT_EQ(LatencyHistogram::centre_ms(static_cast<std::size_t>(bin - histogram.events.begin())),
+              centre)
+        << us;
+  }
 }
 
 /// The histogram and the sums count the same events: the detected ones.

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/simulators/standing.hpp"
+#include "tests/simulators/upkie.hpp"
 
 namespace touchdown::simulators {
 namespace {
@@ -21,10 +21,7 @@ constexpr std::size_t left_wheel = models::index(Servo::left_wheel);
 void hold_all_but_a_lower_leg(models::RobotModel& robot) {
   without_gravity(robot);
   const int lower = robot.mj->body_parentid[robot.mj->geom_bodyid[robot.tyre_geom[0]]];
-  for (const int body : {robot.base_body, robot.mj->body_parentid[lower]}) {
-    robot.mj->body_mass[body] = 1e7;
-    for (int axis = 0; axis < 3; ++axis) robot.mj->body_inertia[3 * body + axis] = 1e7;
-  }
+  for (const int body : {robot.base_body, robot.mj->body_parentid[lower]}) make_heavy(robot, body);
 }
 
 /// Puts the wheel's centre of mass on its axle and returns its inertia about it (kg·m²).
@@ -41,6 +38,40 @@ void set(models::RobotModel& robot, std::size_t servo, const Actuator& actuator)
   robot.actuator[servo] = actuator;
   robot.mj->dof_armature[robot.dof_address[servo]] = actuator.armature;
   robot.effort[servo] = std::min(robot.effort[servo], actuator.maximum_torque);
+}
+
+TEST(Servo, FollowsTheLaw) {
+  constexpr double no_position = std::numeric_limits<double>::quiet_NaN();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  struct Case {
+    const char* what;
+    models::ServoCommand command;  // feedforward, position, velocity, kp, kd, maximum torque
+    double position, velocity, effort, torque;
+  };
+  for (const Case& c : std::vector<Case>{
+           {"no command", {0.0, no_position, 0.0, 1.0, 0.0}, 1.0, 2.0, 16.0, 0.0},
+           {"by default it brakes", {}, 1.0, 2.0, 16.0, -2.0},
+           {"feedforward adds", {3.0}, 0.0, 1.0, 16.0, 2.0},
+           {"position", {0.0, 0.5}, 0.4, 0.0, 16.0, 2.0},
+           {"position scaled", {0.0, 0.5, 0.0, 2.0}, 0.4, 0.0, 16.0, 4.0},
+           {"no position", {0.0, no_position, 0.0, 2.0}, 0.4, 0.0, 16.0, 0.0},
+           {"velocity", {0.0, no_position, 3.0}, 0.0, 1.0, 16.0, 2.0},
+           {"velocity scaled", {0.0, no_position, 3.0, 1.0, 0.2}, 0.0, 1.0, 16.0, 0.4},
+           {"all terms", {1.0, 0.1, 1.0, 0.5, 0.5}, 0.0, 3.0, 16.0, 1.0 + 0.5 * -2.0 + 10.0 * 0.1},
+           {"the motor's limit", {99.0}, 0.0, 0.0, 1.7, 1.7},
+           {"either way", {-99.0}, 0.0, 0.0, 1.7, -1.7},
+           {"the command's limit", {99.0, no_position, 0.0, 1.0, 1.0, 0.5}, 0.0, 0.0, 1.7, 0.5},
+           {"the smaller of both", {99.0, no_position, 0.0, 1.0, 1.0, 5.0}, 0.0, 0.0, 1.7, 1.7},
+           {"a limit below zero is zero",
+            {99.0, no_position, 0.0, 1.0, 1.0, -1.0},
+            0.0,
+            0.0,
+            1.7,
+            0.0},
+           {"an infinite command", {0.0, no_position, infinity}, 0.0, 0.0, 16.0, 16.0}}) {
+    EXPECT_NEAR(servo_torque(c.command, c.position, c.velocity, c.effort), c.torque, 1e-12)
+        << c.what;
+  }
 }
 
 class Actuated : public EveryEngine {
@@ -219,6 +250,39 @@ TEST_P(Actuated, RobotOnStiffLegsStandsWithHeavyRotors) {
     }
     EXPECT_LT(fastest, 0.05) << "hip at " << hip;
   }
+}
+
+TEST_P(Actuated, TheRobotReportsTheTorqueItApplied) {
+  const auto simulator = make(upkie());
+  simulator->reset(at_height(5.0));
+  simulator->step(torques({1.0, -2.0, 9.0, -99.0, 0.5, -0.25}));
+  const double expected[] = {1.0, -2.0, 1.7, -16.0, 0.5, -0.25};
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
+    EXPECT_EQ(simulator->observation().servo[i].torque, expected[i]) << models::servo_names[i];
+  }
+}
+
+TEST_P(Actuated, TheLegsReachTheirCommandedPositions) {
+  const auto simulator = make(upkie(without_gravity));
+  simulator->reset(at_height(5.0));
+  models::Action action = torques();
+  const double target[] = {0.4, -0.7, 0.0, -0.4, 0.7, 0.0};
+  for (const std::size_t i : {0U, 1U, 3U, 4U}) {
+    action.servo[i] = {.position = target[i]};
+  }
+  for (int i = 0; i < 4000; ++i) simulator->step(action);
+  for (const std::size_t i : {0U, 1U, 3U, 4U}) {
+    EXPECT_NEAR(simulator->state().joint_position[i], target[i], 1e-3) << models::servo_names[i];
+  }
+}
+
+TEST_P(Actuated, JointLimitsStopTheLegs) {
+  const auto simulator = make(upkie(without_gravity));
+  simulator->reset(at_height(5.0));
+  for (int i = 0; i < 1000; ++i) simulator->step(torques({2.0, 0.0, 0.0, -2.0, 0.0, 0.0}));
+  EXPECT_NEAR(simulator->state().joint_position[models::index(models::Servo::left_hip)], 1.26, 0.1);
+  EXPECT_NEAR(simulator->state().joint_position[models::index(models::Servo::right_hip)], -1.26,
+              0.1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Engine, Actuated, ::testing::ValuesIn(simulator_names()), engine_name);

@@ -1,5 +1,5 @@
 #include "tests/simulators/bodies.hpp"
-#include "tests/simulators/standing.hpp"
+#include "tests/simulators/upkie.hpp"
 
 namespace touchdown::simulators {
 namespace {

@@ -1,22 +1,8 @@
-#include <numeric>
-
-#include "simulators/bullet_world.hpp"
 #include "tests/simulators/bodies.hpp"
 #include "tests/simulators/upkie.hpp"
 
 namespace touchdown::simulators {
 namespace {
-
-constexpr double upkie_mass = 5.33922;  // kg, from the robot's official description
-TEST(Flight, BulletsLinksHaveTheMassOfTheRobot) {
-  BulletWorld world(*upkie(), {});
-  double mass = world.robot().getBaseMass();
-  for (int link = 0; link < world.robot().getNumLinks(); ++link) {
-    mass += world.robot().getLinkMass(link);
-  }
-  EXPECT_EQ(world.robot().getNumLinks(), models::servo_count);
-  EXPECT_NEAR(mass, upkie_mass, 1e-5);
-}
 
 class Flight : public EveryEngine {};
 

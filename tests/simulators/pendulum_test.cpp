@@ -1,16 +1,7 @@
-#include "simulators/bullet_world.hpp"
 #include "tests/simulators/upkie.hpp"
 
 namespace touchdown::simulators {
 namespace {
-
-constexpr double heavy =
-    1e7;  // kg: its motion under the legs' forces is below every tolerance here
-
-void make_heavy(models::RobotModel& robot, int body) {
-  robot.mj->body_mass[body] = heavy;
-  for (int axis = 0; axis < 3; ++axis) robot.mj->body_inertia[3 * body + axis] = heavy;
-}
 
 /// Makes the base so heavy that a force equal to its weight holds it in place.
 void hold_base(models::RobotModel& robot) { make_heavy(robot, robot.base_body); }

@@ -10,7 +10,7 @@
 
 #include "core/random.hpp"
 #include "simulators/registry.hpp"
-#include "tests/models/upkie_mjcf.hpp"
+#include "tests/models/upkie.hpp"
 
 namespace touchdown::simulators {
 
@@ -64,6 +64,40 @@ inline RobotState at_height(double z) {
   RobotState state;
   state.position.z() = z;
   return state;
+}
+
+/// Upkie with straight legs, its tyres on the floor.
+inline RobotState upright() { return at_height(0.507 + 0.05); }
+
+/// Legs and wheels held at their angles in `state`.
+inline models::Action locked(const RobotState& state) {
+  models::Action action = stiff_legs(state);
+  for (const models::Servo wheel : models::wheel_servos) {
+    action.servo[models::index(wheel)] = {
+        .position = state.joint_position[models::index(wheel)], .kp_scale = 0.5, .kd_scale = 0.1};
+  }
+  return action;
+}
+
+/// A horizontal spring and damper that keeps the base above the origin, without vertical force.
+inline ExternalWrench guide(const RobotState& state) {
+  Eigen::Vector3d force = -400.0 * state.position - 80.0 * state.linear_velocity;
+  force.z() = 0.0;
+  return {force, Eigen::Vector3d::Zero()};
+}
+
+/// Lets the robot stand for `seconds`.
+inline void stand(Simulator& simulator, double seconds) {
+  const models::Action action = locked(simulator.state());
+  const auto steps = std::lround(seconds / simulator.control_period());
+  for (long i = 0; i < steps; ++i) simulator.step(action, guide(simulator.state()));
+}
+
+/// Makes a body too heavy for the robot's forces to move it within any tolerance of the tests.
+inline void make_heavy(models::RobotModel& robot, int body) {
+  constexpr double heavy = 1e7;  // kg, and kg·m²
+  robot.mj->body_mass[body] = heavy;
+  for (int axis = 0; axis < 3; ++axis) robot.mj->body_inertia[3 * body + axis] = heavy;
 }
 
 /// A stream of uniform numbers, the same on every machine.

@@ -12,7 +12,7 @@ namespace {
 void compile_reference(benchmark::State& state) {
   const std::string command =
       TOUCHDOWN_COMPILER " -std=c++20 -O2 -c " TOUCHDOWN_SOURCE_DIR
-                         "/benchmarks/reference/compiled_source.cpp -o /dev/null";
+                         "/tests/benchmarks/reference/compiled_source.cpp -o /dev/null";
   for (auto _ : state) {
     if (std::system(command.c_str()) != 0) throw std::runtime_error("failed: " + command);
   }

@@ -10,9 +10,8 @@
 
 #include "scenarios/engine.hpp"
 #include "scenarios/start_pose.hpp"
-#include "simulators/bullet_simulator.hpp"
-#include "simulators/bullet_world.hpp"
-#include "simulators/mujoco_simulator.hpp"
+#include "simulators/bullet.hpp"
+#include "simulators/collision_model.hpp"
 
 namespace touchdown::simulators {
 namespace {
@@ -53,18 +52,22 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 double bare_mujoco(const scenarios::Scenario& scenario, const std::vector<JointTorques>& torques,
                    Eigen::Vector3d& end) {
   const std::shared_ptr<models::RobotModel> robot = compiled(scenario);
-  MujocoSimulator mujoco(robot, scenario.simulation);
-  mujoco.reset(scenarios::start_pose(*robot, scenario.terrain, scenario.start));
-  const mjModel& model = mujoco.engine_model();
-  const models::MjDataPtr data(mj_makeData(&model));
-  mju_copy(data->qpos, mujoco.engine_data().qpos, model.nq);
-  mju_copy(data->qvel, mujoco.engine_data().qvel, model.nv);
+  const models::MjModelPtr model = collision_model(*robot->mj);
+  model->opt.timestep = 1e-6 * static_cast<double>(scenario.simulation.steps.physics_us);
+  for (int geom = 0; geom < model->ngeom; ++geom) {
+    model->geom_solref[mjNREF * geom] = scenario.simulation.contact.solref_time_constant;
+    model->geom_solref[mjNREF * geom + 1] = scenario.simulation.contact.solref_damping_ratio;
+  }
+  const models::MjDataPtr data(mj_makeData(model.get()));
+  const RobotState at_rest = scenarios::start_pose(*robot, scenario.terrain, scenario.start);
+  models::write_pose(*robot, at_rest.position, at_rest.orientation, at_rest.joint_position,
+                     data->qpos);
   const auto start = std::chrono::steady_clock::now();
   for (const JointTorques& torque : torques) {
     for (std::size_t i = 0; i < models::servo_count; ++i) {
       data->qfrc_applied[robot->dof_address[i]] = torque[i];
     }
-    mj_step(&model, data.get());
+    mj_step(model.get(), data.get());
   }
   const double seconds = seconds_since(start);
   end = {data->qpos[0], data->qpos[1], data->qpos[2]};

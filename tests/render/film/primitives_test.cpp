@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "models/robot_model.hpp"
-#include "tests/models/upkie_mjcf.hpp"
+#include "tests/models/upkie.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {

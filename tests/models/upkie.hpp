@@ -1,10 +1,35 @@
 #pragma once
 
-#include <fmt/format.h>
+#include <regex>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "tests/models/edited_upkie.hpp"
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/files.hpp"
 
 namespace touchdown {
+
+inline const std::string upkie_mjcf = TOUCHDOWN_SOURCE_DIR "/models/upkie.xml";
+
+/// A pattern in Upkie's MJCF, and its replacement.
+using Edit = std::pair<std::string, std::string>;
+
+/// Upkie's MJCF with all matches of each pattern replaced, one edit after the other.
+inline std::string edited_upkie(const std::vector<Edit>& edits) {
+  std::string text = read_file(upkie_mjcf);
+  for (const auto& [pattern, by] : edits) {
+    const std::regex expression(pattern);
+    EXPECT_TRUE(std::regex_search(text, expression)) << pattern;
+    text = std::regex_replace(text, expression, by);
+  }
+  return text;
+}
+
+/// Elements that are added before the end of the MJCF.
+inline Edit added(const std::string& elements) { return {"</mujoco>", elements + "</mujoco>"}; }
 
 /// Upkie with a hip roll above each leg, `left_roll` and `right_roll`, about the x axis of the
 /// base. `joint`: more attributes of these hinges; `servo`: the elements that drive one, with {}
