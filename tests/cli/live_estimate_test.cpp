@@ -22,7 +22,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 /// Runs `touchdown estimate - --estimator free_fall` with pipes at its input and output.
-class LiveEstimate : public ::testing::Test {
+class LiveEstimate : public InFolder {
  protected:
   LiveEstimate() {
     std::array<int, 2> in = {};
@@ -33,7 +33,7 @@ class LiveEstimate : public ::testing::Test {
       ::dup2(in[0], STDIN_FILENO);
       ::dup2(out[1], STDOUT_FILENO);
       for (const int end : {in[0], in[1], out[0], out[1]}) ::close(end);
-      if (::freopen(errors().c_str(), "w", stderr) == nullptr) ::_exit(126);
+      if (::freopen((folder_ / "errors").c_str(), "w", stderr) == nullptr) ::_exit(126);
       ::execl(TOUCHDOWN_PROGRAM, "touchdown", "estimate", "-", "--estimator", "free_fall", nullptr);
       ::_exit(127);
     }
@@ -49,8 +49,6 @@ class LiveEstimate : public ::testing::Test {
     ::close(from_);
     if (program_ > 0) ::waitpid(program_, nullptr, 0);
   }
-
-  std::string errors() const { return (folder_ / "errors").string(); }
 
   void send(std::string_view bytes) const {
     while (!bytes.empty()) {
@@ -82,7 +80,6 @@ class LiveEstimate : public ::testing::Test {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 
-  const ScratchFolder folder_;
   pid_t program_ = -1;
   int to_ = -1;
   int from_ = -1;
@@ -120,31 +117,29 @@ TEST_F(LiveEstimate, PrintsALineForEveryRecordAsSoonAsItIsThere) {
   close_input();
   wait_for_output(everything);
   EXPECT_EQ(exit_code(), 0);
-  EXPECT_THAT(read_file(errors()), HasSubstr("standard input: 210 steps"));
+  EXPECT_THAT(folder_.text("errors"), HasSubstr("standard input: 210 steps"));
 }
 
 TEST_F(LiveEstimate, EndsInOrderOnCtrlC) {
-  const std::vector<std::string> log = records(test::robot_log(0.25));
-  for (const std::string& record : log) send(record);
+  for (const std::string& record : records(test::robot_log(0.25))) send(record);
   wait_for_output(251);
   ::kill(program_, SIGINT);
   const std::string& output = wait_for_output(everything);
   EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 251);
   EXPECT_EQ(output.back(), '\n');
   EXPECT_EQ(exit_code(), 0);
-  EXPECT_THAT(read_file(errors()),
+  EXPECT_THAT(folder_.text("errors"),
               AllOf(HasSubstr("standard input: 250 steps"), HasSubstr("left wheel")));
 }
 
 TEST_F(LiveEstimate, PrintsTheBeliefsBeforeGarbage) {
-  const std::vector<std::string> log = records(test::robot_log(0.25));
-  for (const std::string& record : log) send(record);
+  for (const std::string& record : records(test::robot_log(0.25))) send(record);
   send("garbage");
   close_input();
   const std::string& output = wait_for_output(everything);
   EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 251);
   EXPECT_EQ(exit_code(), 2);
-  EXPECT_THAT(read_file(errors()), HasSubstr("standard input: byte "));
+  EXPECT_THAT(folder_.text("errors"), HasSubstr("standard input: byte "));
 }
 
 TEST_F(LiveEstimate, PrintsTheSameAsFromAFile) {
@@ -159,8 +154,8 @@ TEST_F(LiveEstimate, PrintsTheSameAsFromAFile) {
   const std::string printed = wait_for_output(everything);
   EXPECT_EQ(exit_code(), 0);
   logs::write_recording(log, folder_ / "a.mpack");
-  touchdown_program("estimate a.mpack --estimator free_fall -o a.csv", folder_.path());
-  EXPECT_EQ(printed, read_file(folder_ / "a.csv"));
+  folder_.output_of("estimate a.mpack --estimator free_fall -o a.csv");
+  EXPECT_EQ(printed, folder_.text("a.csv"));
 }
 
 }  // namespace

@@ -1,12 +1,10 @@
-#include <cstdlib>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/files.hpp"
 #include "logs/log/recording_file.hpp"
 #include "program.hpp"
 #include "synthetic_log.hpp"
@@ -19,100 +17,65 @@ using ::testing::IsEmpty;
 
 namespace fs = std::filesystem;
 
-/// Exit code of the program with standard streams that the shell redirects.
-int exit_code(const std::string& arguments_and_streams, const ScratchFolder& folder) {
-  const std::string command = fmt::format("cd '{}' && '{}' {}", folder.path().string(),
-                                          TOUCHDOWN_PROGRAM, arguments_and_streams);
-  const int status = std::system(command.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-}
+using StandardError = InFolder;
+using StandardOutput = InFolder;
+using TextThatIsNotUtf8 = InFolder;
 
-TEST(StandardError, ThatIsFullOrClosedDoesNotStopARun) {
-  const ScratchFolder folder;
-  const std::string experiment = write_tiny_experiment(folder);
-  ASSERT_EQ(exit_code("run " + experiment + " --no-pictures --out plain >plain.txt 2>&1", folder),
-            0);
-  const std::string scores = read_file(folder / "plain/tables/views.csv");
-  const std::string other = "run " + experiment + " --no-pictures --out other >out.txt ";
+TEST_F(StandardError, ThatIsFullOrClosedDoesNotStopARunOrChangeItsExitCode) {
+  const std::string run = "run " + write_tiny_experiment(folder_) + " --no-pictures --out ";
+  folder_.output_of(run + "plain");
   for (const std::string stream : {"2>/dev/full", "2>&-"}) {
-    fs::remove_all(folder / "other");
-    EXPECT_EQ(exit_code(other + stream, folder), 0) << stream;
-    EXPECT_EQ(read_file(folder / "other/tables/views.csv"), scores) << stream;
+    fs::remove_all(folder_ / "other");
+    EXPECT_EQ(folder_.run(run + "other " + stream).exit_code, 0) << stream;
+    EXPECT_EQ(folder_.text("other/tables/views.csv"), folder_.text("plain/tables/views.csv"));
   }
-}
-
-TEST(StandardError, ThatIsFullOrClosedKeepsTheExitCode) {
-  const ScratchFolder folder;
   for (const std::string stream : {"2>/dev/full", "2>&-", "<&- >&- 2>&-"}) {
-    EXPECT_EQ(exit_code("fit missing.mpack -o m.npz " + stream, folder), 2) << stream;
+    EXPECT_EQ(folder_.run("fit missing.mpack -o m.npz " + stream).exit_code, 2) << stream;
   }
 }
 
-TEST(StandardError, ThatIsClosedDoesNotEndUpInAFile) {
-  const ScratchFolder folder;
-  logs::write_recording(test::synthetic_log(1.0), folder / "a.mpack");
-  const std::string bytes = read_file(folder / "a.mpack");
-  folder.write("cut.mpack", bytes.substr(0, bytes.size() - 5));  // which causes a warning
+TEST_F(StandardError, ThatIsClosedDoesNotEndUpInAFile) {
+  logs::write_recording(test::synthetic_log(1.0), folder_ / "a.mpack");
+  const std::string bytes = folder_.text("a.mpack");
+  folder_.write("cut.mpack", bytes.substr(0, bytes.size() - 5));  // which causes a warning
   const std::string estimate = "estimate cut.mpack --estimator free_fall -o ";
-  ASSERT_EQ(exit_code(estimate + "plain.csv >plain.txt 2>warning.txt", folder), 0);
-  EXPECT_THAT(read_file(folder / "warning.txt"), HasSubstr("cut off"));
-  ASSERT_EQ(exit_code(estimate + "b.csv <&- 2>&- >out.txt", folder), 0);
-  EXPECT_EQ(read_file(folder / "b.csv"), read_file(folder / "plain.csv"));
+  EXPECT_THAT(folder_.messages_of(estimate + "plain.csv"), HasSubstr("cut off"));
+  folder_.output_of(estimate + "b.csv <&- 2>&-");
+  EXPECT_EQ(folder_.text("b.csv"), folder_.text("plain.csv"));
 }
 
-TEST(StandardOutput, ThatIsFullOrClosedIsAnError) {
-  const ScratchFolder folder;
+TEST_F(StandardOutput, ThatIsFullOrClosedIsAnError) {
   for (const auto& [stream, reason] : std::map<std::string, std::string>{
            {">/dev/full", "No space left on device"}, {">&-", "Bad file descriptor"}}) {
-    const std::string complaint = "touchdown: standard output cannot be written: " + reason + "\n";
     for (const std::string command :
          {"list", "keys", "manual --markdown", "--help", "run --help", "--version"}) {
-      EXPECT_EQ(exit_code(fmt::format("{} {} 2>errors.txt", command, stream), folder), 1)
+      EXPECT_EQ(folder_.refusal_of(fmt::format("{} {}", command, stream), 1),
+                "touchdown: standard output cannot be written: " + reason + "\n")
           << command << stream;
-      EXPECT_EQ(read_file(folder / "errors.txt"), complaint) << command << stream;
     }
-    EXPECT_EQ(exit_code("listt " + stream + " 2>errors.txt", folder), 2) << stream;
-    EXPECT_THAT(read_file(folder / "errors.txt"), HasSubstr("did you mean 'list'?"));
+    folder_.expect_refusals({{"listt " + stream, {"did you mean 'list'?"}}});
   }
-  EXPECT_EQ(exit_code("list >out.txt 2>errors.txt", folder), 0);
-  EXPECT_THAT(read_file(folder / "errors.txt"), IsEmpty());
+  EXPECT_THAT(folder_.messages_of("list"), IsEmpty());
 }
 
-TEST(StandardOutput, ThatIsFullDoesNotPreventTheReport) {
-  const ScratchFolder folder;
-  const std::string experiment = write_tiny_experiment(folder);
-  EXPECT_EQ(exit_code("run " + experiment + " --out out >/dev/full 2>errors.txt", folder), 1);
-  EXPECT_THAT(read_file(folder / "errors.txt"),
-              HasSubstr("standard output cannot be written: No space left on device"));
-  EXPECT_TRUE(fs::exists(folder / "out/report.html"));
+TEST_F(StandardOutput, ThatIsFullStopsALiveTableButNotTheReport) {
+  const Ended run = folder_.run("run " + write_tiny_experiment(folder_) + " --out out >/dev/full");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.errors, HasSubstr("standard output cannot be written: No space left on device"));
+  EXPECT_TRUE(folder_.has("out/report.html"));
+  logs::write_recording(test::synthetic_log(2.0), folder_ / "a.mpack");
+  const Ended live = folder_.run("estimate - --estimator free_fall <a.mpack >/dev/full");
+  EXPECT_EQ(live.exit_code, 1);
+  EXPECT_THAT(live.errors, HasSubstr("cannot be written"));
 }
 
-TEST(StandardOutput, ThatIsFullStopsALiveTable) {
-  const ScratchFolder folder;
-  logs::write_recording(test::synthetic_log(2.0), folder / "a.mpack");
-  EXPECT_EQ(exit_code("estimate - --estimator free_fall <a.mpack >/dev/full 2>errors.txt", folder),
-            1);
-  EXPECT_THAT(read_file(folder / "errors.txt"), HasSubstr("cannot be written"));
-}
-
-TEST(TextThatIsNotUtf8, InAFileIsShownBeforeAnythingIsComputed) {
-  const ScratchFolder folder;
-  write_tiny_experiment(folder);
-  folder.write("bad.yaml",
-               fmt::format("# caf\xc3\xa9\n{}# \xe9\n", read_file(folder / "tiny.yaml")));
-  const Ended ended = touchdown_program("run bad.yaml --out out", folder.path());
-  EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_THAT(ended.errors, HasSubstr("bad.yaml:13:3: not UTF-8: byte 0xe9"));
-  EXPECT_FALSE(fs::exists(folder / "out"));
-}
-
-TEST(TextThatIsNotUtf8, OnTheCommandLineEndsUpReadableInTheManifest) {
-  const ScratchFolder folder;
-  const std::string experiment = write_tiny_experiment(folder);
-  const Ended ended =
-      touchdown_program("run " + experiment + " --no-pictures --out 'o\xff'", folder.path());
-  EXPECT_EQ(ended.exit_code, 0) << ended.errors;
-  const auto manifest = nlohmann::json::parse(read_file(folder / "o\xff/manifest.json"));
+TEST_F(TextThatIsNotUtf8, IsRefusedInAFileAndReadableInTheManifest) {
+  const std::string experiment = write_tiny_experiment(folder_);
+  folder_.write("bad.yaml", fmt::format("# caf\xc3\xa9\n{}# \xe9\n", folder_.text(experiment)));
+  folder_.expect_refusals({{"run bad.yaml --out out", {"bad.yaml:13:3: not UTF-8: byte 0xe9"}}});
+  EXPECT_FALSE(folder_.has("out"));
+  folder_.output_of("run " + experiment + " --no-pictures --out 'o\xff'");
+  const auto manifest = nlohmann::json::parse(folder_.text("o\xff/manifest.json"));
   EXPECT_THAT(manifest["command"].get<std::string>(), HasSubstr("--out o?"));
 }
 
