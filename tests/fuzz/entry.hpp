@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <string>
 #include <string_view>
@@ -35,6 +33,15 @@ struct Target {
   void (*fuzz)(std::string_view input);
 };
 
+/// Calls the function. An `Error` is expected.
+inline void call(const Target& target, std::string_view input) {
+  try {
+    target.fuzz(input);
+  } catch (const Error& error) {
+    expected(error, input);
+  }
+}
+
 /// All fuzzed functions of this program.
 inline std::vector<Target>& targets() {
   static std::vector<Target> all;
@@ -44,20 +51,9 @@ inline std::vector<Target>& targets() {
 }  // namespace touchdown::fuzz
 
 /// Begins the definition of a fuzzed function of `std::string_view input`. For any input, it must
-/// not crash, hang, or throw anything but `touchdown::Error` with a message of touchdown's own. A
-/// fuzzer makes it libFuzzer's entry point; the replay of the corpus links all of them together.
-#ifdef TOUCHDOWN_FUZZER
-#define TOUCHDOWN_FUZZ(name)                                                          \
-  static void fuzz_##name(std::string_view input);                                    \
-  extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) { \
-    fuzz_##name({reinterpret_cast<const char*>(data), size});                         \
-    return 0;                                                                         \
-  }                                                                                   \
-  static void fuzz_##name(std::string_view input)
-#else
+/// not crash, hang, or throw anything but `touchdown::Error` with a message of touchdown's own.
 #define TOUCHDOWN_FUZZ(name)                             \
   static void fuzz_##name(std::string_view input);       \
   [[maybe_unused]] static const bool is_target_##name =  \
       (targets().push_back({#name, fuzz_##name}), true); \
   static void fuzz_##name(std::string_view input)
-#endif
