@@ -19,6 +19,9 @@ struct Ended {
   std::string errors;  ///< standard error
 };
 
+/// The lines of standard error other than progress, which appears after a second.
+std::vector<std::string> messages_in(const std::string& errors);
+
 /// A command, and texts in the line with which it is refused.
 struct Refusal {
   std::string arguments;
@@ -35,7 +38,7 @@ class ProgramFolder : public ScratchFolder {
   std::string output_of(const std::string& arguments) const;
   /// What the program prints on standard error. Its exit code must be 0.
   std::string messages_of(const std::string& arguments) const;
-  /// The one line with which a command is refused. Nothing else may be printed.
+  /// The one line with which a command is refused. Nothing but progress may be printed beside it.
   std::string refusal_of(const std::string& arguments, int exit_code = 2) const;
   void expect_refusals(const std::vector<Refusal>& refusals, int exit_code = 2) const;
 
