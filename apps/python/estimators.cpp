@@ -106,7 +106,7 @@ class Estimator {
     const AssemblyConfig imu = with_gravity(gravity_included);
     const ExclusiveUse use(busy_);
     const Signals step =
-        loop_ ? loop_->next(signals) : signals_of_step(signals, needs_of(source_.entry), imu);
+        loop_ ? loop_->next(signals) : SignalArrays::of_step(signals, needs_of(source_.entry), imu);
     ++steps_;
     return estimator_->update(step);
   }

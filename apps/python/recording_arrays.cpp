@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/python/signal_arrays.hpp"
 #include "core/error.hpp"
 #include "logs/log/writer.hpp"
 #include "logs/signals_from.hpp"
@@ -113,14 +114,7 @@ void add_truth(py::dict& arrays, logs::Recording& recording) {
         recording.truth, [](const auto& row) { return row.joint_torque.value_or(PerServo{}); });
   }
   add_held_joints(arrays, recording);
-  const auto labels = scoring::contact_labels(recording, {});
-  std::vector<std::array<bool, models::wheel_count>> contact;
-  contact.reserve(recording.steps());
-  for (std::size_t k = 0; k < recording.steps(); ++k) {
-    contact.push_back({labels[0][k] != 0, labels[1][k] != 0});
-  }
-  SharedRows<std::array<bool, models::wheel_count>> shared(std::move(contact));
-  arrays["contact"] = shared.view(shared.front().data(), models::wheel_count);
+  arrays["contact"] = array_of(scoring::contact_labels(recording, {}));
   SharedRows<models::GroundTruth> rows(std::move(recording.truth));
   add_views(arrays, rows);
   arrays["body_touches_terrain"] = rows.view(&rows.front().body_touches_terrain);
@@ -137,14 +131,9 @@ void add_targets(py::dict& arrays, const logs::Recording& recording) {
   }
   SharedRows<std::array<JointTarget, models::servo_count>> shared(std::move(rows));
   JointTarget& first = shared.front()[0];
-  const auto view = [&](const char* name, double JointTarget::*member) {
+  for (const auto& [name, member] : target_arrays) {
     arrays[name] = shared.view(&(first.*member), models::servo_count, sizeof(JointTarget));
-  };
-  view("target_position", &JointTarget::position);
-  view("target_velocity", &JointTarget::velocity);
-  view("target_torque", &JointTarget::feedforward_torque);
-  view("target_kp", &JointTarget::kp);
-  view("target_kd", &JointTarget::kd);
+  }
 }
 
 /// Adds the signals of estimators that are computed from the recording.
@@ -266,6 +255,15 @@ std::array<double, count> vector_in(const py::dict& parent, const char* key,
 }
 
 }  // namespace
+
+py::array_t<bool> array_of(const WheelLabels& labels) {
+  std::vector<std::array<bool, models::wheel_count>> contact;
+  for (std::size_t k = 0; k < labels[0].size(); ++k) {
+    contact.push_back({labels[0][k] != 0, labels[1][k] != 0});
+  }
+  SharedRows<std::array<bool, models::wheel_count>> rows(std::move(contact));
+  return rows.view(rows.front().data(), models::wheel_count);
+}
 
 py::dict arrays_of(logs::Recording recording) {
   py::dict derived;

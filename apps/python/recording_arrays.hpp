@@ -1,12 +1,18 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 
 #include "apps/python/arrays.hpp"
 #include "logs/recording.hpp"
+#include "scoring/labels.hpp"
 
 namespace touchdown::python {
+
+/// Contact by wheel and step.
+using WheelLabels = std::array<scoring::ContactSequence, models::wheel_count>;
+py::array_t<bool> array_of(const WheelLabels& labels);
 
 /// A recording as arrays, which view its rows where possible, and its info as a dict.
 py::dict arrays_of(logs::Recording recording);

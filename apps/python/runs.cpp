@@ -29,7 +29,6 @@ namespace touchdown::python {
 namespace {
 
 namespace fs = std::filesystem;
-using Labels = std::array<scoring::ContactSequence, models::wheel_count>;
 
 py::tuple with_info(logs::Recording recording) {
   py::dict info = dict_of(recording.info);
@@ -86,15 +85,13 @@ py::array_t<bool> labels_of(const py::object& normal_force, double period,
   arrays["normal_force"] = normal_force;
   ArrayMap map(arrays, "labels");
   const StepArray force = map.column("normal_force", models::wheel_count);
-  std::vector<std::array<bool, models::wheel_count>> contact(force.steps());
+  WheelLabels labels;
   for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
     std::vector<double> of_wheel(force.steps());
     for (std::size_t k = 0; k < of_wheel.size(); ++k) of_wheel[k] = force(k, wheel);
-    const scoring::ContactSequence labels = scoring::contact_labels(of_wheel, period, config);
-    for (std::size_t k = 0; k < labels.size(); ++k) contact[k][wheel] = labels[k] != 0;
+    labels[wheel] = scoring::contact_labels(of_wheel, period, config);
   }
-  SharedRows<std::array<bool, models::wheel_count>> rows(std::move(contact));
-  return rows.view(rows.front().data(), models::wheel_count);
+  return array_of(labels);
 }
 
 py::dict score(const py::object& given_beliefs, const py::object& truth, double period,
@@ -104,7 +101,7 @@ py::dict score(const py::object& given_beliefs, const py::object& truth, double 
   ArrayMap map(arrays, "score");
   const StepArray contact = map.column("contact", models::wheel_count);
   const std::vector<Belief> beliefs = beliefs_of(given_beliefs, contact.steps(), "score");
-  Labels labels;
+  WheelLabels labels;
   scoring::Prediction prediction;
   for (const Belief& belief : beliefs) {
     const auto views = scoring::views_of(belief);

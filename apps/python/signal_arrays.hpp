@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -8,6 +9,18 @@
 #include "estimator/record.hpp"
 
 namespace touchdown::python {
+
+/// The arrays of targets, by member of `JointTarget`.
+struct TargetArray {
+  const char* name;
+  double JointTarget::*member;
+};
+inline constexpr std::array<TargetArray, 5> target_arrays = {
+    {{"target_position", &JointTarget::position},
+     {"target_velocity", &JointTarget::velocity},
+     {"target_torque", &JointTarget::feedforward_torque},
+     {"target_kp", &JointTarget::kp},
+     {"target_kd", &JointTarget::kd}}};
 
 /// The signals that an estimator uses. Arrays of others may be missing: they are 0.
 struct SignalNeeds {
@@ -34,16 +47,24 @@ class SignalArrays {
   /// Errors: `InputError` for arrays that are needed and missing or have another shape.
   SignalArrays(const py::object& arrays, const SignalNeeds& needs, AssemblyConfig imu);
 
-  std::size_t steps() const { return map_.steps(); }
+  /// Signals of one step: numbers, and rows of six and of three. Errors: as above.
+  static Signals of_step(const py::object& step, const SignalNeeds& needs,
+                         const AssemblyConfig& imu);
+
+  std::size_t steps() const { return time_.steps(); }
   bool has_record(std::size_t step) const { return !has_record_ || (*has_record_)(step) != 0.0; }
   Signals at(std::size_t step) const;
   /// Period (s): the median of the first thousand steps; nothing for fewer than two steps.
   std::optional<double> period() const;
 
  private:
-  std::optional<StepArray> column(const char* name, std::size_t columns, bool is_needed);
+  /// An array by name, with so many numbers per step (0: one); nothing if it is missing and not
+  /// needed.
+  using Column = std::function<std::optional<StepArray>(const char* name, std::size_t columns,
+                                                        bool is_needed)>;
+  SignalArrays(const py::object& arrays, const SignalNeeds& needs, AssemblyConfig imu,
+               const Column& column);
 
-  ArrayMap map_;
   AssemblyConfig imu_;
   StepArray time_;
   std::optional<StepArray> position_;
@@ -58,10 +79,6 @@ class SignalArrays {
   std::optional<StepArray> has_record_;
   bool has_layout_of_signals_ = false;
 };
-
-/// Signals of one step: numbers, and rows of six and of three. Errors: as above.
-Signals signals_of_step(const py::object& step, const SignalNeeds& needs,
-                        const AssemblyConfig& imu);
 
 /// Arrays that view the signals of a run, with the same names.
 py::dict arrays_of(std::vector<Signals> steps);

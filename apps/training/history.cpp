@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -57,22 +56,6 @@ plot "{data}" using "iteration":"training_loss" with linespoints pt 7 ps 0.8 \
        lc rgb "#cc6677" title "validation"
 )gnuplot";
 
-/// The numbers of one line; empty for an invalid line.
-std::vector<double> numbers(const std::string& line) {
-  std::vector<double> values;
-  const char* at = line.data();
-  const char* const end = at + line.size();
-  while (true) {
-    double value = 0.0;
-    const auto [next, error] = std::from_chars(at, end, value);
-    if (error != std::errc()) return {};
-    values.push_back(value);
-    if (next == end) return values;
-    if (*next != ',') return {};
-    at = next + 1;
-  }
-}
-
 }  // namespace
 
 std::size_t best_iteration(const TrainingHistory& history) {
@@ -99,29 +82,30 @@ void write_history(const TrainingHistory& history, const std::filesystem::path& 
 }
 
 TrainingHistory read_history(const std::filesystem::path& path) {
-  std::istringstream text(read_file(path));
-  const auto fail = [&](std::size_t line) {
+  const Table table = from_csv(read_file(path));
+  const auto require = [&](bool is_good, std::size_t line) {
+    if (is_good) return;
     throw InputError(
         fmt::format("{}:{}: is not a line of a training history; remove the folder to start anew",
                     path.string(), line));
   };
-  std::string line;
+  require(table.header == header(), 1);
   TrainingHistory history;
-  for (std::size_t number = 1; std::getline(text, line); ++number) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (number == 1) {
-      if (line != fmt::format("{}", fmt::join(header(), ","))) fail(number);
-      continue;
-    }
-    const std::vector<double> values = numbers(line);
-    if (values.size() != header().size() || values[0] != static_cast<double>(number - 1)) {
-      fail(number);
-    }
-    IterationRecord record;
-    record.iteration = static_cast<int>(values[0]);
+  for (const std::vector<std::string>& row : table.rows) {
+    const std::size_t line = history.size() + 2;
+    require(row.size() == table.header.size(), line);
+    const auto number = [&](std::size_t column) {
+      const std::string& text = row[column];
+      double value = 0.0;
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+      require(error == std::errc() && end == text.data() + text.size(), line);
+      return value;
+    };
+    IterationRecord& record = history.emplace_back();
+    record.iteration = static_cast<int>(history.size());
+    require(number(0) == static_cast<double>(record.iteration), line);
     std::size_t column = 1;
-    for (const auto& [name, value] : columns(record)) *value = values[column++];
-    history.push_back(record);
+    for (const auto& [name, value] : columns(record)) *value = number(column++);
   }
   return history;
 }

@@ -4,7 +4,9 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <thread>
 #include <utility>
 
 #include <GLFW/glfw3.h>
@@ -20,17 +22,10 @@ namespace {
 
 /// 0 for a key without a meaning here.
 int key_of(int glfw_key) {
-  static const std::map<int, int> named = {{GLFW_KEY_LEFT, key_left},
-                                           {GLFW_KEY_RIGHT, key_right},
-                                           {GLFW_KEY_UP, key_up},
-                                           {GLFW_KEY_DOWN, key_down},
-                                           {GLFW_KEY_PAGE_UP, key_page_up},
-                                           {GLFW_KEY_PAGE_DOWN, key_page_down},
-                                           {GLFW_KEY_HOME, key_home},
-                                           {GLFW_KEY_END, key_end},
-                                           {GLFW_KEY_ENTER, key_enter},
-                                           {GLFW_KEY_ESCAPE, key_escape},
-                                           {GLFW_KEY_BACKSPACE, key_backspace}};
+  static const std::map<int, int> named = {
+      {GLFW_KEY_LEFT, key_left},     {GLFW_KEY_RIGHT, key_right},        {GLFW_KEY_UP, key_up},
+      {GLFW_KEY_DOWN, key_down},     {GLFW_KEY_HOME, key_home},          {GLFW_KEY_END, key_end},
+      {GLFW_KEY_ESCAPE, key_escape}, {GLFW_KEY_BACKSPACE, key_backspace}};
   if (const auto found = named.find(glfw_key); found != named.end()) return found->second;
   // GLFW numbers printable keys by the upper-case characters of a US keyboard.
   return glfw_key >= GLFW_KEY_SPACE && glfw_key <= GLFW_KEY_GRAVE_ACCENT ? std::tolower(glfw_key)
@@ -50,17 +45,13 @@ std::string last_error() {
       last_error()));
 }
 
-struct CameraMode {
-  const char* name;
-  render::SceneCamera camera;
-};
-
-const std::array<CameraMode, 4>& modes() {
-  static const std::array<CameraMode, 4> all = {{
-      {"film", {}},
-      {"behind", {.azimuth = 0.0, .elevation = -12.0, .distance = 2.2}},
-      {"side", {.azimuth = 90.0, .elevation = -4.0, .distance = 2.2}},
-      {"above", {.azimuth = 90.0, .elevation = -75.0, .distance = 3.0}},
+/// The cameras: as in films, behind the robot, at its side, above it.
+const std::array<render::SceneCamera, 4>& cameras() {
+  static const std::array<render::SceneCamera, 4> all = {{
+      {},
+      {.azimuth = 0.0, .elevation = -12.0, .distance = 2.2},
+      {.azimuth = 90.0, .elevation = -4.0, .distance = 2.2},
+      {.azimuth = 90.0, .elevation = -75.0, .distance = 3.0},
   }};
   return all;
 }
@@ -150,7 +141,8 @@ WindowInput Window::take_input() {
   return taken;
 }
 
-void act_on(const std::vector<KeyBinding>& bindings, const std::vector<KeyPress>& presses) {
+/// Acts on pressed keys, in their order. Keys without a binding do nothing.
+static void act_on(const std::vector<KeyBinding>& bindings, const std::vector<KeyPress>& presses) {
   for (const KeyPress& press : presses) {
     for (const KeyBinding& binding : bindings) {
       const auto& keys = binding.keys;
@@ -159,9 +151,10 @@ void act_on(const std::vector<KeyBinding>& bindings, const std::vector<KeyPress>
   }
 }
 
-cv::Mat key_list(const render::TextPen& pen, const std::vector<KeyBinding>& bindings,
-                 const std::vector<std::pair<std::string, std::string>>& mouse, int width,
-                 int height) {
+/// The list of keys and of what the mouse does, at most `width`·`height` pixels.
+static cv::Mat key_list(const render::TextPen& pen, const std::vector<KeyBinding>& bindings,
+                        const std::vector<std::pair<std::string, std::string>>& mouse, int width,
+                        int height) {
   std::vector<std::pair<std::string, std::string>> lines;
   for (const KeyBinding& binding : bindings) lines.emplace_back(binding.label, binding.text);
   lines.insert(lines.end(), mouse.begin(), mouse.end());
@@ -187,11 +180,9 @@ cv::Mat key_list(const render::TextPen& pen, const std::vector<KeyBinding>& bind
 }
 
 void CameraControl::next_mode() {
-  mode_ = (mode_ + 1) % modes().size();
-  camera_ = modes()[mode_].camera;
+  mode_ = (mode_ + 1) % cameras().size();
+  camera_ = cameras()[mode_];
 }
-
-std::string CameraControl::mode() const { return modes()[mode_].name; }
 
 void CameraControl::turn(double right, double down) {
   camera_.azimuth = std::remainder(camera_.azimuth - degrees_per_pixel * right, 360.0);
@@ -223,6 +214,10 @@ Chip contact_chip(int wheels) {
   return wheels == 1 ? Chip{"ON ONE WHEEL", brown} : Chip{"ON THE GROUND", green};
 }
 
+Chip running_chip(bool is_paused, double speed) {
+  return is_paused ? Chip{"PAUSED", dark} : Chip{fmt::format("{:.3g}× speed", speed), dark};
+}
+
 mjrRect Screen::viewport() const {
   const Area scene = layout().scene;
   return {scene.left, window_.height() - scene.top - scene.height, scene.width, scene.height};
@@ -240,10 +235,35 @@ void Screen::draw(const cv::Mat& picture, int left, int top) {
               {left, window_.height() - top - picture.rows, picture.cols, picture.rows});
 }
 
-void Screen::draw_at_edge(const cv::Mat& picture) {
+void Screen::draw_keys(const std::vector<std::pair<std::string, std::string>>& mouse) {
+  if (!shows_keys_) return;
   const Area scene = layout().scene;
+  const cv::Mat picture = key_list(pen_, bindings_, mouse, scene.width, scene.height);
   draw(picture, scene.left + std::max(0, scene.width - picture.cols),
        scene.top + std::max(0, (scene.height - picture.rows) / 2));
+}
+
+void Screen::bind(std::vector<KeyBinding> keys) {
+  bindings_ = {
+      {{'h'}, "h", "show or hide this list", [this](auto&) { shows_keys_ = !shows_keys_; }}};
+  std::move(keys.begin(), keys.end(), std::back_inserter(bindings_));
+  bindings_.push_back({{'v'}, "v", "next camera", [this](auto&) { camera_.next_mode(); }});
+  bindings_.push_back({{'q', key_escape}, "q  Esc", "quit", [this](auto&) { window_.close(); }});
+}
+
+void Screen::watch(const std::atomic<bool>& stop, const std::function<void(double)>& draw_picture,
+                   const std::function<void(const Mouse&)>& use_mouse) {
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last = Clock::now();
+  while (window_.is_open() && !stop) {
+    const Clock::time_point now = Clock::now();
+    draw_picture(std::chrono::duration<double>(now - last).count());
+    last = now;
+    const WindowInput input = window_.take_input();
+    act_on(bindings_, input.keys);
+    use_mouse(input.mouse);
+    std::this_thread::sleep_until(now + shortest_frame);
+  }
 }
 
 void Screen::draw_chips(const std::vector<Chip>& chips) {

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -30,11 +32,8 @@ enum Key : int {
   key_right,
   key_up,
   key_down,
-  key_page_up,
-  key_page_down,
   key_home,
   key_end,
-  key_enter,
   key_escape,
   key_backspace
 };
@@ -87,20 +86,11 @@ struct KeyBinding {
   std::function<void(const KeyPress& press)> act;
 };
 
-/// Acts on pressed keys, in their order. Keys without a binding do nothing.
-void act_on(const std::vector<KeyBinding>& bindings, const std::vector<KeyPress>& presses);
-
-/// The list of keys and of what the mouse does, at most `width`·`height` pixels.
-cv::Mat key_list(const render::TextPen& pen, const std::vector<KeyBinding>& bindings,
-                 const std::vector<std::pair<std::string, std::string>>& mouse, int width,
-                 int height);
-
 /// The camera, which follows the robot, and which a user turns and moves closer.
 class CameraControl {
  public:
   /// The next of the modes: film, behind, side, above.
   void next_mode();
-  std::string mode() const;
 
   /// Turns the camera by a motion of the mouse (pixels).
   void turn(double right, double down);
@@ -148,6 +138,9 @@ inline constexpr unsigned dark = 0x2b2f36, grey = 0x5c636e, green = 0x2f6f4f, br
 /// The state of contact, by the number of wheels in contact.
 Chip contact_chip(int wheels);
 
+/// Whether time stands still, or its speed.
+Chip running_chip(bool is_paused, double speed);
+
 /// No picture follows another one sooner: the processor has more to do.
 inline constexpr std::chrono::milliseconds shortest_frame{16};
 
@@ -169,8 +162,16 @@ class Screen {
   void draw_chips(const std::vector<Chip>& chips);
   /// Draws a picture (8UC3, BGR) at a place of the window.
   void draw(const cv::Mat& picture, int left, int top);
-  /// Draws a picture at the right edge of the scene, where it hides no robot.
-  void draw_at_edge(const cv::Mat& picture);
+
+  /// Adds the keys of the list, the camera and the end to these. Keeps their references.
+  void bind(std::vector<KeyBinding> keys);
+  /// Draws the list of all keys, and of what the mouse does, at the right edge of the scene, where
+  /// it hides no robot, if the user wants it.
+  void draw_keys(const std::vector<std::pair<std::string, std::string>>& mouse);
+  /// Draws pictures and acts on keys until the window is closed or `stop` is true. `draw_picture`
+  /// gets the time since the last picture (s).
+  void watch(const std::atomic<bool>& stop, const std::function<void(double seconds)>& draw_picture,
+             const std::function<void(const Mouse&)>& use_mouse);
 
   /// The point of the robot (m, world) under the mouse.
   std::optional<Eigen::Vector3d> robot_under(const Mouse& mouse) const;
@@ -185,6 +186,8 @@ class Screen {
   CameraControl camera_;
   std::optional<render::SceneView> view_;
   cv::Mat upload_;
+  std::vector<KeyBinding> bindings_;
+  bool shows_keys_ = false;
 };
 
 }  // namespace touchdown::viewer

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <functional>
 #include <optional>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -63,10 +62,8 @@ std::vector<Chip> live_chips(const LiveControls& controls, const LiveState& stat
                              contact_chip((state.contact[0] ? 1 : 0) + (state.contact[1] ? 1 : 0))};
   if (state.outcome) {
     chips.push_back({fmt::format("{}: r restarts", scenarios::outcome_text(*state.outcome)), red});
-  } else if (controls.is_paused()) {
-    chips.push_back({"PAUSED", dark});
-  } else if (controls.speed() != 1.0) {
-    chips.push_back({fmt::format("{:.3g}× speed", controls.speed()), dark});
+  } else if (controls.is_paused() || controls.speed() != 1.0) {
+    chips.push_back(running_chip(controls.is_paused(), controls.speed()));
   }
   const std::string wrong = wrong_estimators(controls, state);
   if (!wrong.empty() && state.steps > 0) chips.push_back({"wrong: " + wrong, red});
@@ -103,11 +100,6 @@ std::vector<PanelLine> live_panel(const LiveControls& controls, const LiveState&
   lines.push_back({.text = "h: all keys", .heading = true});
   return lines;
 }
-
-/// What keys change besides the run.
-struct WindowActions {
-  std::function<void()> toggle_list, next_camera, quit;
-};
 
 constexpr double velocity_step = 0.1;  // m/s
 
@@ -197,14 +189,11 @@ std::vector<KeyBinding> sensing_keys(LiveControls& controls) {
 }
 
 /// The keys of a live run. Keeps the reference.
-std::vector<KeyBinding> live_keys(LiveControls& controls, const WindowActions& window) {
-  std::vector<KeyBinding> keys = {
-      {{'h'}, "h", "show or hide this list", [act = window.toggle_list](auto&) { act(); }}};
-  for (const auto& more : {driving_keys(controls), time_keys(controls), sensing_keys(controls)}) {
+std::vector<KeyBinding> live_keys(LiveControls& controls) {
+  std::vector<KeyBinding> keys = driving_keys(controls);
+  for (const auto& more : {time_keys(controls), sensing_keys(controls)}) {
     keys.insert(keys.end(), more.begin(), more.end());
   }
-  keys.push_back({{'v'}, "v", "next camera", [act = window.next_camera](auto&) { act(); }});
-  keys.push_back({{'q', key_escape}, "q  Esc", "quit", [act = window.quit](auto&) { act(); }});
   return keys;
 }
 
@@ -220,27 +209,21 @@ class LiveWindow {
       : measures_(request.measures),
         window_("touchdown: " + request.scene.scenario.name, request.width, request.height),
         screen_(window_),
-        controls_(std::move(request), [this] { show_run(); }),
-        bindings_(live_keys(controls_, {.toggle_list = [this] { shows_keys_ = !shows_keys_; },
-                                        .next_camera = [this] { screen_.camera().next_mode(); },
-                                        .quit = [this] { window_.close(); }})) {
+        controls_(std::move(request), [this] { show_run(); }) {
+    screen_.bind(live_keys(controls_));
     show_run();
   }
 
   LiveSession watch(const std::atomic<bool>& stop) {
     LiveSession session;
     const Clock::time_point start = Clock::now();
-    Clock::time_point last = start;
-    while (window_.is_open() && !stop) {
-      const Clock::time_point now = Clock::now();
-      draw(std::chrono::duration<double>(now - last).count());
-      last = now;
-      ++session.frames;
-      const WindowInput input = window_.take_input();
-      act_on(bindings_, input.keys);
-      use_mouse(input.mouse);
-      std::this_thread::sleep_until(now + shortest_frame);
-    }
+    screen_.watch(
+        stop,
+        [&](double seconds) {
+          draw(seconds);
+          ++session.frames;
+        },
+        [this](const Mouse& mouse) { use_mouse(mouse); });
     session.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     controls_.save();
     session.recorded = controls_.saved();
@@ -272,12 +255,10 @@ class LiveWindow {
   Window window_;
   Screen screen_;
   LiveControls controls_;
-  std::vector<KeyBinding> bindings_;
   std::optional<LivePlots> plots_;
   LiveState state_;
   std::vector<PanelLine> lines_;  ///< of the panel
-  bool shows_keys_ = false;
-  bool jumps_ = true;  ///< the camera does not glide to the robot
+  bool jumps_ = true;             ///< the camera does not glide to the robot
   Mouse last_mouse_;
   /// What the left button holds: the point that a drag pulls to, a slider, or nothing while it
   /// turns the camera.
@@ -356,15 +337,11 @@ void LiveWindow::draw(double seconds) {
   plots_->append(state_.samples);
   const Layout layout = screen_.layout();
   screen_.draw_chips(live_chips(controls_, state_));
-  if (shows_keys_) {
-    screen_.draw_at_edge(key_list(screen_.pen(), bindings_,
-                                  {{"drag the robot", "push, pull or lift it"},
-                                   {"drag elsewhere", "turn the camera"},
-                                   {"mouse wheel", "move the camera"},
-                                   {"drag a blue bar", "set noise or delay"},
-                                   {"errors are red", "more of them: t, a, p, e, lift it"}},
-                                  layout.scene.width, layout.scene.height));
-  }
+  screen_.draw_keys({{"drag the robot", "push, pull or lift it"},
+                     {"drag elsewhere", "turn the camera"},
+                     {"mouse wheel", "move the camera"},
+                     {"drag a blue bar", "set noise or delay"},
+                     {"errors are red", "more of them: t, a, p, e, lift it"}});
   lines_ = live_panel(controls_, state_);
   screen_.draw(panel(screen_.pen(), lines_, layout.panel.width, layout.panel.height),
                layout.panel.left, layout.panel.top);

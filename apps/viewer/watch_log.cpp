@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
-#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
@@ -58,8 +56,6 @@ std::vector<StepRange> errors_of(const LoggedRun& run, std::size_t index) {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr int time_line_height = 22;
 constexpr double lead_in = 0.3;  // s: a jump stops before its event
 
@@ -78,19 +74,9 @@ class LogWindow {
   }
 
   void watch(const std::atomic<bool>& stop) {
-    Clock::time_point last = Clock::now();
-    while (window_.is_open() && !stop) {
-      const Clock::time_point now = Clock::now();
-      const double seconds = std::chrono::duration<double>(now - last).count();
-      last = now;
-      if (!paused_) seek(time_ + speed_ * seconds);
-      if (time_ >= duration()) paused_ = true;
-      draw(seconds);
-      const WindowInput input = window_.take_input();
-      act_on(bindings_, input.keys);
-      use_mouse(input.mouse);
-      std::this_thread::sleep_until(now + shortest_frame);
-    }
+    screen_.watch(
+        stop, [this](double seconds) { draw(seconds); },
+        [this](const Mouse& mouse) { use_mouse(mouse); });
   }
 
  private:
@@ -137,21 +123,18 @@ class LogWindow {
   render::Poses poses_;
   std::size_t estimator_ = 0;  ///< the one with the errors
   std::vector<StepRange> flights_, errors_;
-  std::vector<KeyBinding> bindings_;
   std::optional<render::SignalStrip> strip_;
   cv::Mat plots_;
   double time_ = 0.0;
   double speed_ = 1.0;
   bool paused_ = false;
-  bool shows_keys_ = false;
   bool jumps_ = true;
   Mouse last_mouse_;
   bool holds_time_line_ = false;
 };
 
 void LogWindow::bind_keys() {
-  bindings_ = {
-      {{'h'}, "h", "show or hide this list", [this](auto&) { shows_keys_ = !shows_keys_; }},
+  screen_.bind({
       {{' '},
        "Space",
        "pause or continue",
@@ -199,9 +182,7 @@ void LogWindow::bind_keys() {
        [this](const KeyPress& press) {
          speed_ = std::clamp(press.key == 's' ? speed_ / 2.0 : speed_ * 2.0, 1.0 / 64, 16.0);
        }},
-      {{'v'}, "v", "next camera", [this](auto&) { screen_.camera().next_mode(); }},
-      {{'q', key_escape}, "q  Esc", "quit", [this](auto&) { window_.close(); }},
-  };
+  });
 }
 
 void LogWindow::use_mouse(const Mouse& mouse) {
@@ -269,6 +250,8 @@ void LogWindow::draw_time_line(const Area& area) {
 }
 
 void LogWindow::draw(double seconds) {
+  if (!paused_) seek(time_ + speed_ * seconds);
+  if (time_ >= duration()) paused_ = true;
   poses_.apply(row(), screen_.data());
   screen_.camera().follow(poses_.base_position(row()),
                           std::exchange(jumps_, false) ? 0.0 : seconds);
@@ -279,19 +262,11 @@ void LogWindow::draw(double seconds) {
   if (row() < run_.contact[0].size()) {
     chips.push_back(contact_chip(run_.contact[0][row()] + run_.contact[1][row()]));
   }
-  if (paused_) {
-    chips.push_back({"PAUSED", dark});
-  } else if (speed_ != 1.0) {
-    chips.push_back({fmt::format("{:.3g}× speed", speed_), dark});
-  }
+  if (paused_ || speed_ != 1.0) chips.push_back(running_chip(paused_, speed_));
   screen_.draw_chips(chips);
-  if (shows_keys_) {
-    screen_.draw_at_edge(key_list(screen_.pen(), bindings_,
-                                  {{"time line", "click or drag: orange flights, red errors"},
-                                   {"drag the scene", "turn the camera"},
-                                   {"mouse wheel", "move the camera"}},
-                                  layout.scene.width, layout.scene.height));
-  }
+  screen_.draw_keys({{"time line", "click or drag: orange flights, red errors"},
+                     {"drag the scene", "turn the camera"},
+                     {"mouse wheel", "move the camera"}});
   screen_.draw(panel(screen_.pen(), panel_lines(), layout.panel.width, layout.panel.height),
                layout.panel.left, layout.panel.top);
   draw_time_line(time_line());

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -12,7 +13,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/files.hpp"
 #include "logs/log/recording_file.hpp"
 #include "program.hpp"
 #include "tests/bag_writer.hpp"
@@ -22,6 +22,8 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+
+const std::string shipped_model = TOUCHDOWN_SOURCE_DIR "/models/evidence_curves.npz";
 
 /// The robot's joints in the order of its driver, by their index in Upkie's order.
 constexpr std::array<std::pair<const char*, std::size_t>, 6> driver_joints = {
@@ -104,98 +106,72 @@ double balanced_accuracy(const std::filesystem::path& csv, const logs::Recording
   return 0.5 * (right[0] / all[0] + right[1] / all[1]);
 }
 
+/// A run, `run.mpack`, and the other robot's bag of it: `bag.mcap`, and the folder `bag`.
+class Bag : public InFolder {
+ protected:
+  Bag() {
+    folder_.output_of("simulate " TOUCHDOWN_SOURCE_DIR "/scenarios/hop.yaml -o run.mpack");
+    run_ = logs::read_recording(folder_ / "run.mpack");
+    const test::TestBag bag = other_robots_bag(run_);
+    std::filesystem::create_directories(folder_ / "bag");
+    test::write_db3(bag, folder_ / "bag" / "bag_0.db3");
+    std::ofstream(folder_ / "bag.mcap", std::ios::binary) << test::mcap_bytes(bag, {"zstd", 1000});
+    folder_.write("robot.yaml", bag_mapping);
+  }
+
+  logs::Recording run_;
+};
+
 /// One command from a bag to beliefs; they are nearly as good as those from the run's own log.
-TEST(Bag, OfAnotherRobotGivesBeliefsAsGoodAsTheRunsOwnLog) {
-  const ScratchFolder folder;
-  const std::string scenario = TOUCHDOWN_SOURCE_DIR "/scenarios/hop.yaml";
-  const std::string model = TOUCHDOWN_SOURCE_DIR "/models/evidence_curves.npz";
-  ASSERT_EQ(touchdown_program("simulate " + scenario + " -o run.mpack", folder.path()).exit_code,
-            0);
-  const logs::Recording run = logs::read_recording(folder / "run.mpack");
-  const test::TestBag bag = other_robots_bag(run);
-  std::filesystem::create_directories(folder / "bag");
-  std::ofstream(folder / "bag" / "bag_0.mcap", std::ios::binary)
-      << test::mcap_bytes(bag, {"zstd", 1000});
-  folder.write("robot.yaml", bag_mapping);
-  const Ended own =
-      touchdown_program("estimate run.mpack --model " + model + " -o own.csv", folder.path());
-  ASSERT_EQ(own.exit_code, 0) << own.errors;
-  const Ended ended = touchdown_program("estimate bag --mapping robot.yaml --transfer --model " +
-                                            model + " -o bag.csv -o annotated.mpack",
-                                        folder.path());
+TEST_F(Bag, OfAnotherRobotGivesBeliefsAsGoodAsTheRunsOwnLog) {
+  const std::string estimate = " --transfer --model " + shipped_model;
+  folder_.output_of("estimate run.mpack -o own.csv" + estimate);
+  const Ended ended =
+      folder_.run("estimate bag.mcap --mapping robot.yaml -o bag.csv -o x.mpack" + estimate);
   ASSERT_EQ(ended.exit_code, 0) << ended.errors;
-  EXPECT_THAT(ended.output, AllOf(HasSubstr("bag: "), HasSubstr("at 500 Hz")));
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("bag.mcap: "), HasSubstr("at 500 Hz")));
   EXPECT_THAT(ended.errors, HasSubstr("/imu/data: held at the rows of /joint_states"));
-  const double of_own = balanced_accuracy(folder / "own.csv", run, 0.0);
-  const double of_bag = balanced_accuracy(folder / "bag.csv", run, 0.002);
-  RecordProperty("balanced_accuracy", fmt::format("own log {:.4f}, bag {:.4f}", of_own, of_bag));
+  const double of_own = balanced_accuracy(folder_ / "own.csv", run_, 0.0);
+  const double of_bag = balanced_accuracy(folder_ / "bag.csv", run_, 0.002);
   fmt::print("balanced accuracy: own log {:.4f}, bag {:.4f}\n", of_own, of_bag);
   EXPECT_GT(of_bag, of_own - 0.02);
 
   // In two steps, and from SQLite: the same log.
-  test::write_db3(bag, folder / "bag.db3");
-  ASSERT_EQ(
-      touchdown_program("export bag --mapping robot.yaml -o a.mpack", folder.path()).exit_code, 0);
-  ASSERT_EQ(
-      touchdown_program("export bag.db3 --mapping robot.yaml -o b.mpack", folder.path()).exit_code,
-      0);
-  EXPECT_EQ(read_file(folder / "a.mpack"), read_file(folder / "b.mpack"));
-  ASSERT_EQ(
-      touchdown_program("estimate a.mpack --transfer --model " + model + " -o a.csv", folder.path())
-          .exit_code,
-      0);
-  EXPECT_EQ(read_file(folder / "a.csv"), read_file(folder / "bag.csv"));
+  folder_.output_of("export bag.mcap --mapping robot.yaml -o a.mpack");
+  folder_.output_of("export bag/bag_0.db3 --mapping robot.yaml -o b.mpack");
+  EXPECT_EQ(folder_.text("a.mpack"), folder_.text("b.mpack"));
+  folder_.output_of("estimate a.mpack -o a.csv" + estimate);
+  EXPECT_EQ(folder_.text("a.csv"), folder_.text("bag.csv"));
 }
 
 /// The same door as that of `estimate`: bags, CSV files and arrays by a mapping.
-TEST(Bag, IsCheckedByAMapping) {
-  const ScratchFolder folder;
-  const std::string scenario = TOUCHDOWN_SOURCE_DIR "/scenarios/hop.yaml";
-  ASSERT_EQ(touchdown_program("simulate " + scenario + " -o run.mpack", folder.path()).exit_code,
-            0);
-  const test::TestBag bag = other_robots_bag(logs::read_recording(folder / "run.mpack"));
-  std::filesystem::create_directories(folder / "bag");
-  test::write_db3(bag, folder / "bag" / "bag_0.db3");
-  std::ofstream(folder / "bag.mcap", std::ios::binary) << test::mcap_bytes(bag);
-  folder.write("right.yaml", bag_mapping);
-  const auto edited = [](const std::string& from, const std::string& to) {
-    const std::string mapping = bag_mapping;
-    const std::size_t at = mapping.find(from);
-    return fmt::format("{}{}{}", mapping.substr(0, at), to, mapping.substr(at + from.size()));
-  };
-  folder.write("signs.yaml", edited("[1, 1, 1, -1, -1, -1]", "1"));
-  folder.write("reference.yaml",
-               bag_mapping + std::string("imu: {orientation: {reference: z_down}}\n"));
-  folder.write(
-      "gravity.yaml",
-      bag_mapping + std::string("imu: {linear_acceleration: {from: [linear_acceleration.x, "
-                                "linear_acceleration.y, linear_acceleration.z]}}\n"));
-  folder.write("unit.yaml", bag_mapping + std::string("  torque: {unit: mNm}\n"));
+TEST_F(Bag, IsCheckedByAMapping) {
   for (const std::string log : {"bag", "bag.mcap", "bag/bag_0.db3"}) {
-    const Ended ended =
-        touchdown_program("check " + log + " --mapping right.yaml --strict", folder.path());
+    const Ended ended = folder_.run("check " + log + " --mapping robot.yaml --strict");
     EXPECT_EQ(ended.exit_code, 0) << ended.errors;
     EXPECT_THAT(ended.output,
                 AllOf(HasSubstr(log + ": 3500 records at 500 Hz"), HasSubstr(": plausible\n")));
     EXPECT_THAT(ended.errors, HasSubstr("/imu/data: held at the rows of /joint_states"));
   }
-  const auto finding = [&](const std::string& mapping) {
-    const std::string arguments = "check bag --mapping " + mapping;
-    const Ended ended = touchdown_program(arguments, folder.path());
-    EXPECT_EQ(ended.exit_code, 0) << ended.errors;
-    EXPECT_EQ(touchdown_program(arguments + " --strict", folder.path()).exit_code, 1);
-    return ended.output;
-  };
-  EXPECT_THAT(finding("signs.yaml"), HasSubstr("wheels: turn in opposite directions"));
-  EXPECT_THAT(finding("reference.yaml"), HasSubstr("gravity was removed by a wrong orientation"));
-  EXPECT_THAT(finding("gravity.yaml"), HasSubstr("linear_acceleration: holds gravity"));
-  EXPECT_THAT(finding("unit.yaml"), HasSubstr("torques in N·m mapped as mNm"));
-  const Ended estimated = touchdown_program("estimate bag --mapping gravity.yaml", folder.path());
-  EXPECT_EQ(estimated.exit_code, 0) << estimated.errors;
-  EXPECT_THAT(estimated.output, HasSubstr("signals      not plausible: 1 finding, printed above"));
-  EXPECT_THAT(touchdown_program("check - --mapping right.yaml", folder.path()).errors,
-              HasSubstr("--mapping: expected a file or a bag, found standard input"));
-  EXPECT_THAT(touchdown_program("check bag", folder.path()).errors, HasSubstr("--mapping"));
+  const std::string mapping = bag_mapping;
+  const std::string gravity =
+      mapping +
+      "imu: {linear_acceleration: {from: [linear_acceleration.x, linear_acceleration.y, "
+      "linear_acceleration.z]}}\n";
+  for (const auto& [wrong, finding] : std::map<std::string, std::string>{
+           {mapping.substr(0, mapping.find("[1, 1, 1")) + "1\n",
+            "wheels: turn in opposite directions"},
+           {mapping + "imu: {orientation: {reference: z_down}}\n",
+            "gravity was removed by a wrong orientation"},
+           {gravity, "linear_acceleration: holds gravity"},
+           {mapping + "  torque: {unit: mNm}\n", "torques in N·m mapped as mNm"}}) {
+    folder_.write("wrong.yaml", wrong);
+    EXPECT_THAT(folder_.output_of("check bag --mapping wrong.yaml"), HasSubstr(finding));
+    EXPECT_EQ(folder_.run("check bag --mapping wrong.yaml --strict").exit_code, 1);
+  }
+  folder_.write("gravity.yaml", gravity);
+  EXPECT_THAT(folder_.output_of("estimate bag --mapping gravity.yaml"),
+              HasSubstr("signals      not plausible: 1 finding, printed above"));
 }
 
 /// The code blocks of docs/tutorials/ros2_bag.md, by what they begin with.
@@ -211,31 +187,23 @@ std::vector<std::string> documented(const std::string& beginning) {
 }
 
 /// Every line that the page prints is one of the commands that it gives.
-TEST(Bag, OfThePagePrintsWhatThePagePrints) {
-  const ScratchFolder folder;
-  const std::string scenario = TOUCHDOWN_SOURCE_DIR "/scenarios/hop.yaml";
-  ASSERT_EQ(touchdown_program("simulate " + scenario + " -o run.mpack", folder.path()).exit_code,
-            0);
-  std::filesystem::create_directories(folder / "bag");
-  test::write_db3(other_robots_bag(logs::read_recording(folder / "run.mpack")),
-                  folder / "bag" / "bag_0.db3");
+TEST_F(Bag, OfThePagePrintsWhatThePagePrints) {
   const std::string page = read_file(TOUCHDOWN_SOURCE_DIR "/docs/tutorials/ros2_bag.md");
   const std::size_t begin = page.find("```yaml\n") + 8;
   const std::string mapping = page.substr(begin, page.find("```", begin) - begin);
-  folder.write("robot.yaml", mapping);
-  const std::vector<std::string> commands = documented("touchdown ");
-  ASSERT_EQ(commands.size(), 2U);
-  std::string printed;
-  for (const std::string& command : commands) {
-    const Ended ended = touchdown_program(command.substr(command.find(' ') + 1), folder.path());
-    EXPECT_EQ(ended.exit_code, 0) << command << ": " << ended.errors;
-    printed += ended.errors + ended.output;
-  }
+  folder_.write("robot.yaml", mapping);
   std::string signs = mapping;
   const std::size_t sign = signs.find("[1, 1, 1, -1");
   signs = fmt::format("{}1{}", signs.substr(0, sign), signs.substr(signs.find(']', sign) + 1));
-  folder.write("signs.yaml", signs);
-  printed += touchdown_program("check bag --mapping signs.yaml", folder.path()).output;
+  folder_.write("signs.yaml", signs);
+  const std::vector<std::string> commands = documented("touchdown ");
+  ASSERT_EQ(commands.size(), 2U);
+  std::string printed = folder_.output_of("check bag --mapping signs.yaml");
+  for (const std::string& command : commands) {
+    const Ended ended = folder_.run(command.substr(command.find(' ') + 1));
+    EXPECT_EQ(ended.exit_code, 0) << command << ": " << ended.errors;
+    printed += ended.errors + ended.output;
+  }
   std::size_t compared = 0;
   for (const std::string beginning :
        {"touchdown: ", "bag: ", "  wheels: ", "contact ", "left wheel ", "signals ", "beliefs "}) {
@@ -245,10 +213,6 @@ TEST(Bag, OfThePagePrintsWhatThePagePrints) {
     }
   }
   EXPECT_EQ(compared, 9U);
-  // The conversion for other commands.
-  const Ended converted =
-      touchdown_program("export bag --mapping robot.yaml -o robot.mpack", folder.path());
-  EXPECT_EQ(converted.exit_code, 0) << converted.errors;
 }
 
 /// The messages of a bag as two CSV files, a message per row.
@@ -293,51 +257,37 @@ void write_csv_files(const logs::Recording& run, const ScratchFolder& folder) {
 }
 
 /// The mappings that ship read the same robot's bag and its CSV files.
-TEST(Bag, AndCsvFilesAreReadByTheExamples) {
-  const ScratchFolder folder;
+TEST_F(Bag, AndCsvFilesAreReadByTheExamples) {
   const std::string examples = TOUCHDOWN_SOURCE_DIR "/examples/mapping/";
-  const std::string scenario = TOUCHDOWN_SOURCE_DIR "/scenarios/hop.yaml";
-  ASSERT_EQ(touchdown_program("simulate " + scenario + " -o run.mpack", folder.path()).exit_code,
-            0);
-  const logs::Recording run = logs::read_recording(folder / "run.mpack");
-  std::ofstream(folder / "bag.mcap", std::ios::binary) << test::mcap_bytes(other_robots_bag(run));
-  write_csv_files(run, folder);
+  write_csv_files(run_, folder_);
   std::vector<double> accuracy;
   for (const std::string& log : {"bag.mcap --mapping " + examples + "ros2_bag.yaml",
                                  "csv --mapping " + examples + "ros2_csv.yaml",
                                  "csv/joint_states.csv --mapping " + examples + "ros2_csv.yaml"}) {
-    const Ended checked = touchdown_program("check " + log + " --strict", folder.path());
+    const Ended checked = folder_.run("check " + log + " --strict");
     EXPECT_EQ(checked.exit_code, 0) << checked.errors;
     EXPECT_THAT(checked.output, HasSubstr(": 3500 records at 500 Hz, up to 6.998 s: plausible"));
     EXPECT_THAT(checked.errors, HasSubstr("ages 2.7 ms (median) to 4.7 ms"));
-    const Ended ended = touchdown_program("estimate " + log + " -o beliefs.csv", folder.path());
-    EXPECT_EQ(ended.exit_code, 0) << ended.errors;
-    accuracy.push_back(balanced_accuracy(folder / "beliefs.csv", run, 0.002));
+    folder_.output_of("estimate " + log + " -o beliefs.csv");
+    accuracy.push_back(balanced_accuracy(folder_ / "beliefs.csv", run_, 0.002));
   }
   EXPECT_NEAR(accuracy[1], accuracy[0], 1e-3);
   EXPECT_EQ(accuracy[2], accuracy[1]);
 }
 
-TEST(Bag, WhatIsWrongWithOneIsOneLine) {
-  const ScratchFolder folder;
-  folder.write("robot.yaml", bag_mapping);
-  folder.write("old.bag", "#ROSBAG V2.0\n");
-  const auto complaint = [&](const std::string& arguments) {
-    const Ended ended = touchdown_program(arguments, folder.path());
-    EXPECT_EQ(ended.exit_code, 2) << arguments;
-    EXPECT_EQ(std::count(ended.errors.begin(), ended.errors.end(), '\n'), 1) << ended.errors;
-    return ended.errors;
-  };
+TEST_F(Bag, ThatIsMissingOrOfAnotherFormatIsRefusedInOneLine) {
+  folder_.write("old.bag", "#ROSBAG V2.0\n");
   const std::string free_fall = " --mapping robot.yaml --estimator free_fall";
-  EXPECT_THAT(complaint("estimate old.bag" + free_fall), HasSubstr("rosbags-convert"));
-  EXPECT_THAT(complaint("export old.bag --mapping robot.yaml -o a.mpack"),
-              HasSubstr("rosbags-convert"));
-  for (const char* log : {"none.mcap", "none", "none.csv"}) {
-    EXPECT_THAT(complaint(fmt::format("estimate {}{}", log, free_fall)),
-                HasSubstr(fmt::format("{}: no such file", log)));
-  }
-  EXPECT_THAT(complaint("estimate -" + free_fall), HasSubstr("found standard input"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "a.mpack"));
+  folder_.expect_refusals({{"estimate old.bag" + free_fall, {"rosbags-convert"}},
+                           {"export old.bag --mapping robot.yaml -o a.mpack", {"rosbags-convert"}},
+                           {"estimate none.mcap" + free_fall, {"none.mcap: no such file"}},
+                           {"estimate none" + free_fall, {"none: no such file"}},
+                           {"estimate none.csv" + free_fall, {"none.csv: no such file"}},
+                           {"estimate -" + free_fall, {"found standard input"}},
+                           {"check - --mapping robot.yaml",
+                            {"--mapping: expected a file or a bag, found standard input"}},
+                           {"check bag", {"--mapping"}}});
+  EXPECT_FALSE(folder_.has("a.mpack"));
 }
 
 }  // namespace

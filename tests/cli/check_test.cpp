@@ -1,6 +1,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json.hpp>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -9,52 +10,44 @@
 #include "logs/log/recording_file.hpp"
 #include "program.hpp"
 #include "synthetic_log.hpp"
+#include "tests/models/upkie.hpp"
 
 namespace touchdown::cli {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
+
 using Change = std::function<void(models::Observation& record, std::size_t k)>;
 
 /// A simulated hop as a robot's log, changed record by record.
-class RobotsLog : public ::testing::Test {
+class RobotsLog : public InFolder {
  protected:
-  static void SetUpTestSuite() {
-    const ScratchFolder folder;
-    ASSERT_EQ(
-        touchdown_program("simulate scenarios/hop.yaml -o hop.mpack", folder.path()).exit_code, 0);
-    hop() = logs::read_recording(folder / "hop.mpack");
-    hop().info = {};
-    hop().truth.clear();
-  }
-
-  static logs::Recording& hop() {
-    static logs::Recording recording;
-    return recording;
+  RobotsLog() {
+    folder_.output_of("simulate scenarios/hop.yaml -o hop.mpack");
+    hop_ = logs::read_recording(folder_ / "hop.mpack");
+    hop_.info = {};
+    hop_.truth.clear();
   }
 
   void write(const std::string& name, const Change& change, std::size_t every = 1) {
-    logs::Recording log = hop();
+    logs::Recording log = hop_;
     log.observation.clear();
     log.action.clear();
-    for (std::size_t k = 0; k < hop().steps(); k += every) {
-      log.observation.push_back(hop().observation[k]);
-      log.action.push_back(hop().action[k]);
+    for (std::size_t k = 0; k < hop_.steps(); k += every) {
+      log.observation.push_back(hop_.observation[k]);
+      log.action.push_back(hop_.action[k]);
       if (change) change(log.observation.back(), k);
     }
     log.info.control_period_us *= static_cast<std::int64_t>(every);
     logs::write_recording(log, folder_ / name);
   }
 
-  Ended run(const std::string& arguments) const {
-    return touchdown_program(arguments, folder_.path());
-  }
+  Ended run(const std::string& arguments) const { return folder_.run(arguments); }
 
-  const ScratchFolder folder_;
+  logs::Recording hop_;
 };
 
 void negate_torques(models::Observation& o, std::size_t /*k*/) {
@@ -64,44 +57,36 @@ void silence_knees(models::Observation& o, std::size_t /*k*/) {
   o.servo[1].torque = o.servo[4].torque = 0.0;
 }
 
-TEST_F(RobotsLog, IsPlausibleAsItIs) {
+TEST_F(RobotsLog, IsPlausibleAsItIsAndEstimatedWithTheShippedModelByDefault) {
   write("robot.mpack", {});
-  const Ended checked = run("check robot.mpack --strict");
-  EXPECT_EQ(checked.exit_code, 0);
-  EXPECT_THAT(checked.output, HasSubstr("robot.mpack: 7001 records at 1000 Hz"));
-  EXPECT_THAT(checked.output, HasSubstr("plausible"));
-  EXPECT_EQ(run("estimate robot.mpack --strict").exit_code, 0);
-  EXPECT_THAT(run("check robot.mpack --robot models/upkie.xml").output, HasSubstr("plausible"));
-}
-
-TEST_F(RobotsLog, IsEstimatedWithTheShippedModelByDefault) {
-  write("robot.mpack", {});
-  const Ended estimated = run("estimate robot.mpack");
-  EXPECT_EQ(estimated.exit_code, 0);
+  EXPECT_THAT(folder_.output_of("check robot.mpack --strict"),
+              AllOf(HasSubstr("robot.mpack: 7001 records at 1000 Hz"), HasSubstr("plausible")));
+  EXPECT_THAT(folder_.output_of("check robot.mpack --robot models/upkie.xml"),
+              HasSubstr("plausible"));
+  const std::string estimated = folder_.output_of("estimate robot.mpack --strict");
   EXPECT_THAT(
-      estimated.output.substr(0, estimated.output.find('\n')),
+      estimated.substr(0, estimated.find('\n')),
       AllOf(HasSubstr("7001 steps, 7.001 s at 1000 Hz"), HasSubstr("Evidence curves, shipped"),
             HasSubstr("models/evidence_curves.npz")));
-  EXPECT_EQ(estimated.output, run("estimate robot.mpack --estimator shipped").output);
+  EXPECT_EQ(estimated, folder_.output_of("estimate robot.mpack --estimator shipped"));
   for (const int every : {2, 4, 5}) {
     write("slow.mpack", {}, static_cast<std::size_t>(every));
-    EXPECT_THAT(run("estimate slow.mpack").output,
+    EXPECT_THAT(folder_.output_of("estimate slow.mpack"),
                 HasSubstr(fmt::format("at {} Hz", 1000 / every)));
   }
   write("slow.mpack", {}, 10);
-  EXPECT_THAT(run("estimate slow.mpack").errors, HasSubstr("serves 200 to 1000 Hz, not at 100 Hz"));
-  EXPECT_THAT(run("estimate robot.mpack --robot models/upkie_heavy.yaml").errors,
-              HasSubstr("was fitted to the robot 'upkie', not to 'upkie_heavy'"));
+  folder_.expect_refusals({{"estimate slow.mpack", {"serves 200 to 1000 Hz, not at 100 Hz"}},
+                           {"estimate robot.mpack --robot models/upkie_heavy.yaml",
+                            {"was fitted to the robot 'upkie', not to 'upkie_heavy'"}}});
 }
 
-TEST_F(RobotsLog, WithImplausibleSignalsIsNamedAboveTheResult) {
+TEST_F(RobotsLog, WithImplausibleSignalsIsNamedByEveryCommandWithItsResult) {
   for (const auto& [change, finding] :
        std::vector<std::pair<Change, const char*>>{{negate_torques, "torques have the other sign"},
                                                    {silence_knees, "torque is 0 throughout"}}) {
     write("wrong.mpack", change);
-    const Ended checked = run("check wrong.mpack");
-    EXPECT_EQ(checked.exit_code, 0);
-    EXPECT_THAT(checked.output, AllOf(HasSubstr("check it"), HasSubstr(finding)));
+    EXPECT_THAT(folder_.output_of("check wrong.mpack"),
+                AllOf(HasSubstr("check it"), HasSubstr(finding)));
     EXPECT_EQ(run("check wrong.mpack --strict").exit_code, 1);
     const Ended estimated = run("estimate wrong.mpack");
     EXPECT_EQ(estimated.exit_code, 0);
@@ -110,6 +95,10 @@ TEST_F(RobotsLog, WithImplausibleSignalsIsNamedAboveTheResult) {
     const Ended strict = run("estimate wrong.mpack --strict -o beliefs.csv");
     EXPECT_EQ(strict.exit_code, 1);
     EXPECT_EQ(strict.output.substr(0, 20), estimated.output.substr(0, 20)) << "with its result";
+    folder_.write("wrong.csv", "start,end,contact\n0,2,1\n3,4,0\n");
+    EXPECT_THAT(folder_.messages_of("fit wrong.mpack --labels wrong.csv -o m.npz --estimator "
+                                    "robust --bandwidth 0.1 0.1"),
+                AllOf(HasSubstr("touchdown: wrong.mpack: "), HasSubstr(finding)));
   }
 }
 
@@ -126,7 +115,7 @@ TEST_F(RobotsLog, WithoutAValidStepHasNoContactInformation) {
     EXPECT_EQ(estimated.exit_code, 1);
     EXPECT_THAT(estimated.errors, HasSubstr("none of its 7001 steps has usable signals"));
     EXPECT_THAT(estimated.output, Not(HasSubstr("contact")));
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "beliefs.csv"));
+    EXPECT_FALSE(folder_.has("beliefs.csv"));
   }
 }
 
@@ -135,68 +124,49 @@ TEST_F(RobotsLog, CountsValidStepsOnlyAndNamesTheirNumber) {
   write("half.mpack", [&](models::Observation& o, std::size_t k) {
     if (k >= 2000 && k < 5000) o.imu.linear_acceleration.setConstant(nan);
   });
-  const Ended estimated = run("estimate half.mpack");
-  EXPECT_EQ(estimated.exit_code, 0);
-  EXPECT_THAT(estimated.output, HasSubstr("of 3701 valid steps"));
-  EXPECT_THAT(estimated.output, HasSubstr("3000 invalid of 7001 steps"));
+  EXPECT_THAT(folder_.output_of("estimate half.mpack"),
+              AllOf(HasSubstr("of 3701 valid steps"), HasSubstr("3000 invalid of 7001 steps")));
 }
 
-TEST(LogThatStatesItsPeriod, IsRefusedByEveryReaderIfItsTimesAreNoSeconds) {
-  const ScratchFolder folder;
+using LogThatStatesItsPeriod = InFolder;
+
+TEST_F(LogThatStatesItsPeriod, IsRefusedByEveryReaderIfItsTimesAreNoSeconds) {
   for (const auto& [factor, unit] : std::vector<std::pair<double, std::string>>{
            {1e3, "milliseconds"}, {1e6, "microseconds"}, {1e9, "nanoseconds"}}) {
     logs::Recording log = test::synthetic_log(2.0);
     for (models::Observation& o : log.observation) o.time *= factor;
-    logs::write_recording(log, folder / "stated.mpack");
+    logs::write_recording(log, folder_ / "stated.mpack");
     for (const std::string arguments :
          {"check stated.mpack", "fit stated.mpack -o out.npz", "estimate stated.mpack",
           "estimate stated.mpack -o out.csv", "estimate stated.mpack -o out.mpack",
           "estimate - --estimator free_fall <stated.mpack", "export stated.mpack -o out.mcap",
           "render stated.mpack -o out.mp4",
           "fit --contact stated.mpack --no-contact stated.mpack.2 -o out.npz"}) {
-      const Ended ended = touchdown_program(arguments, folder.path());
+      const Ended ended = folder_.run(arguments);
       EXPECT_EQ(ended.exit_code, 2) << arguments;
-      EXPECT_THAT(ended.errors, HasSubstr("expected seconds: steps of")) << arguments;
-      EXPECT_THAT(ended.errors, HasSubstr("look like " + unit)) << arguments;
+      EXPECT_THAT(ended.errors,
+                  AllOf(HasSubstr("expected seconds: steps of"), HasSubstr("look like " + unit)))
+          << arguments;
     }
     for (const char* const output : {"out.npz", "out.csv", "out.mpack", "out.mcap", "out.mp4"}) {
-      EXPECT_FALSE(std::filesystem::exists(folder / output)) << output;
+      EXPECT_FALSE(folder_.has(output)) << output;
     }
   }
 }
 
-TEST_F(RobotsLog, WithImplausibleSignalsIsNamedByAFit) {
-  for (const auto& [change, finding] :
-       std::vector<std::pair<Change, const char*>>{{negate_torques, "torques have the other sign"},
-                                                   {silence_knees, "torque is 0 throughout"}}) {
-    write("wrong.mpack", change);
-    folder_.write("wrong.csv", "start,end,contact\n0,2,1\n3,4,0\n");
-    const Ended fitted =
-        run("fit wrong.mpack --labels wrong.csv -o m.npz --estimator robust --bandwidth 0.1 0.1");
-    EXPECT_EQ(fitted.exit_code, 0) << fitted.errors;
-    EXPECT_THAT(fitted.errors, AllOf(HasSubstr("touchdown: wrong.mpack: "), HasSubstr(finding)));
-  }
-}
+using FittedLogs = InFolder;
 
-TEST(FittedLogs, RefusesALogThatIsNamedTwice) {
-  const ScratchFolder folder;
-  logs::write_recording(test::one_class_log(2.0, true), folder / "a.mpack");
-  std::filesystem::create_symlink("a.mpack", folder / "link.mpack");
-  std::filesystem::create_hard_link(folder / "a.mpack", folder / "same.mpack");
-  for (const char* logs :
+TEST_F(FittedLogs, AreRefusedIfOneIsNamedTwiceOrTheirRatesDiffer) {
+  logs::write_recording(test::one_class_log(2.0, true), folder_ / "a.mpack");
+  std::filesystem::create_symlink("a.mpack", folder_ / "link.mpack");
+  std::filesystem::create_hard_link(folder_ / "a.mpack", folder_ / "same.mpack");
+  for (const std::string logs :
        {"--contact a.mpack --no-contact a.mpack", "--contact a.mpack --no-contact ./a.mpack",
         "--contact a.mpack --no-contact link.mpack", "--contact a.mpack --no-contact same.mpack",
         "--contact a.mpack a.mpack"}) {
-    const Ended ended = touchdown_program(fmt::format("fit {} -o m.npz", logs), folder.path());
-    EXPECT_EQ(ended.exit_code, 2);
-    EXPECT_THAT(ended.errors, HasSubstr("is named twice")) << logs;
+    folder_.expect_refusals({{"fit -o m.npz " + logs, {"is named twice"}}});
   }
-}
-
-TEST(FittedLogs, RefusesLogsOfTwoRates) {
-  const ScratchFolder folder;
-  logs::write_recording(test::one_class_log(2.0, true), folder / "a.mpack");
-  logs::Recording slow = test::one_class_log(2.0, false);
+  const logs::Recording slow = test::one_class_log(2.0, false);
   for (const int every : {2, 5}) {
     logs::Recording part = slow;
     part.observation.clear();
@@ -206,35 +176,52 @@ TEST(FittedLogs, RefusesLogsOfTwoRates) {
       part.action.push_back(slow.action[k]);
     }
     part.info.control_period_us = 1000 * every;
-    logs::write_recording(part, folder / "b.mpack");
-    for (const char* name : {"robust", "force_kinematics"}) {
-      const Ended ended = touchdown_program(
-          fmt::format("fit --contact a.mpack --no-contact b.mpack -o m.npz --estimator {}", name),
-          folder.path());
-      EXPECT_EQ(ended.exit_code, 2);
-      EXPECT_THAT(ended.errors, HasSubstr(fmt::format("{} steps per second", 1000 / every)));
+    logs::write_recording(part, folder_ / "b.mpack");
+    for (const std::string name : {"robust", "force_kinematics"}) {
+      folder_.expect_refusals(
+          {{"fit --contact a.mpack --no-contact b.mpack -o m.npz --estimator " + name,
+            {fmt::format("{} steps per second", 1000 / every)}}});
     }
   }
 }
 
-TEST(FittedLogs, SkipsTheBeginningOfTheLogAloneAndNotThatOfEachSegment) {
-  const ScratchFolder folder;
-  logs::write_recording(test::robot_log(3.0), folder / "robot.mpack");
+TEST_F(FittedLogs, AreSkippedAtTheirBeginningAloneAndNotAtThatOfEachSegment) {
+  logs::write_recording(test::robot_log(3.0), folder_ / "robot.mpack");
   // Flights of 0.2 s, with a gap around each.
-  folder.write("robot.csv",
-               "start,end,contact\n0.3495,0.5495,1\n0.6195,0.7795,0\n0.9995,1.4995,1\n"
-               "1.6195,1.7795,0\n2.6195,2.7795,0\n");
-  const Ended fitted = touchdown_program(
-      "fit robot.mpack --labels robot.csv -o m.npz --estimator force_kinematics", folder.path());
-  EXPECT_EQ(fitted.exit_code, 0) << fitted.errors;
-  EXPECT_THAT(fitted.output, HasSubstr("no contact   960 samples"));
-  EXPECT_THAT(fitted.output, HasSubstr("1.180 s of 1 log"));
+  folder_.write("robot.csv",
+                "start,end,contact\n0.3495,0.5495,1\n0.6195,0.7795,0\n0.9995,1.4995,1\n"
+                "1.6195,1.7795,0\n2.6195,2.7795,0\n");
+  const std::string fit = "fit robot.mpack -o m.npz --estimator force_kinematics --labels ";
+  EXPECT_THAT(folder_.output_of(fit + "robot.csv"),
+              AllOf(HasSubstr("no contact   960 samples"), HasSubstr("1.180 s of 1 log")));
   // The message counts what was left out.
-  folder.write("early.csv", "start,end,contact\n0.0,0.1995,0\n0.6195,0.7795,1\n");
-  const Ended refused = touchdown_program(
-      "fit robot.mpack --labels early.csv -o m.npz --estimator force_kinematics", folder.path());
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.errors, HasSubstr("200 such steps lie in the first 0.3 s of their logs"));
+  folder_.write("early.csv", "start,end,contact\n0.0,0.1995,0\n0.6195,0.7795,1\n");
+  folder_.expect_refusals(
+      {{fit + "early.csv", {"200 such steps lie in the first 0.3 s of their logs"}}});
+}
+
+using CheckOfARobot = InFolder;
+
+TEST_F(CheckOfARobot, PrintsWhatItReadAsTextOrJsonAndExitsWithZero) {
+  folder_.write("robot.xml", edited_upkie({}));
+  EXPECT_THAT(folder_.output_of("check robot.xml"),
+              AllOf(HasSubstr("5.33922 kg"), HasSubstr("left_knee"), HasSubstr("-2.51 to 2.51"),
+                    HasSubstr("mujoco: finished"), HasSubstr("bullet: finished"),
+                    Not(HasSubstr("complaint"))));
+  folder_.write("robot.yml", "# mine\nmjcf: robot.xml\nmass: 1.2\n");
+  const auto json = nlohmann::json::parse(folder_.output_of("check robot.yml --json"));
+  EXPECT_EQ(json["is_usable"], true);
+  EXPECT_NEAR(json["mass_kg"].get<double>(), 1.2 * 5.33922, 1e-4);
+  EXPECT_EQ(json["joints"].size(), 6U);
+  EXPECT_EQ(json["joints"][3]["axis_in_base"], (std::vector<double>{0, 1, 0}));
+  EXPECT_EQ(json["stands"].size(), 2U);
+}
+
+TEST_F(CheckOfARobot, PrintsItsComplaintAndExitsWithOne) {
+  folder_.write("robot.xml", edited_upkie({added("<option density=\"1\"/>")}));
+  const Ended ended = folder_.run("check robot.xml");
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("complaint: "), HasSubstr("robot.xml:149:1: option")));
 }
 
 }  // namespace

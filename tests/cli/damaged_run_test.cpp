@@ -9,7 +9,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/files.hpp"
 #include "program.hpp"
 
 namespace touchdown::cli {
@@ -36,22 +35,19 @@ void for_each_damage(Json document, const std::vector<Json>& values,
   descend(document);
 }
 
-class DamagedRun : public ::testing::Test {
+class DamagedRun : public InFolder {
  protected:
   DamagedRun() {
-    const Ended ended = touchdown_program(
-        "run " + write_tiny_experiment(folder_) +
-            " --no-pictures --out run --set simulators=[mujoco] --set test.runs=1",
-        folder_.path());
-    EXPECT_EQ(ended.exit_code, 0) << ended.errors;
+    folder_.output_of("run " + write_tiny_experiment(folder_) +
+                      " --no-pictures --out run --set simulators=[mujoco] --set test.runs=1");
   }
 
   /// Runs a command after a file of the run was replaced, and puts the file back.
   void expect_own_words(const std::string& file, const std::string& content,
                         const std::string& arguments) {
-    const std::string before = read_file(folder_ / file);
+    const std::string before = folder_.text(file);
     write_atomically(folder_ / file, content);
-    const Ended ended = touchdown_program(arguments, folder_.path());
+    const Ended ended = folder_.run(arguments);
     EXPECT_TRUE(ended.exit_code >= 0 && ended.exit_code <= 2) << ended.exit_code << content;
     for (const char* const text :
          {"bad_cast", "std::", "json.exception", "yaml-cpp", "bad conversion", "invalid node",
@@ -64,15 +60,13 @@ class DamagedRun : public ::testing::Test {
     }
     write_atomically(folder_ / file, before);
   }
-
-  const ScratchFolder folder_;
 };
 
 TEST_F(DamagedRun, JsonIsRefusedInOwnWords) {
   const std::vector<Json> values = {nullptr,       "text",         -1,        1e300,
                                     Json::array(), Json::object(), {{"a", 1}}};
   for (const std::string file : {"run/manifest.json", "run/tables/summary.json"}) {
-    const std::string text = read_file(folder_ / file);
+    const std::string text = folder_.text(file);
     int damages = 0;
     for_each_damage(Json::parse(text), values, [&](const std::string& damaged) {
       expect_own_words(file, damaged, "report run");
@@ -94,7 +88,7 @@ TEST_F(DamagedRun, YamlIsRefusedInOwnWords) {
                                       "export --benchmark b run", "report run", "clean ."};
   std::size_t next = 0;
   for (const std::string file : {"run/config.yaml", "run/state/scenario_000.yaml"}) {
-    const std::string text = read_file(folder_ / file);
+    const std::string text = folder_.text(file);
     for (const std::string& damaged :
          {std::string(), std::string("~"), std::string("[]"), std::string("3"),
           text + "? [a]\n: 1\n", text + "? {a: 1}\n: 1\n", text + "~: 1\n", text + "<<: 1\n",

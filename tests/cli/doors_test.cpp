@@ -147,9 +147,8 @@ Beliefs beliefs_in(const std::filesystem::path& csv) {
   return beliefs;
 }
 
-Beliefs beliefs_of_program(const std::string& log, const ScratchFolder& folder) {
-  const Ended ended = touchdown_program("estimate " + log + " -o beliefs.csv", folder.path());
-  EXPECT_EQ(ended.exit_code, 0) << log << "\n" << ended.errors;
+Beliefs beliefs_of_program(const std::string& log, const ProgramFolder& folder) {
+  folder.output_of("estimate " + log + " -o beliefs.csv");
   return beliefs_in(folder / "beliefs.csv");
 }
 
@@ -268,20 +267,18 @@ with open('steps.csv', 'w') as steps:
         steps.write(','.join(map(repr, (0.0, *numbers))) + '\n')
 arrays = {name: np.array([row[name] for row in rows]) for name in rows[0]}
 np.savez('robot.npz', **arrays)
-b = estimator.run(arrays)
-whole = np.column_stack([np.zeros(len(rows)), b['p_contact'], b['contact'], b['p_any_wheel'], b['p_both_wheels']])
-np.savetxt('whole.csv', whole, delimiter=',', fmt='%.17g', header='time,left,right,contact_left,contact_right,any,both',
-           comments='')
+bag = touchdown.Recording.load('robot.mcap', mapping='robot.yaml')
+for name, b in (('whole', estimator.run(arrays)), ('bag', touchdown.Estimator().run(bag))):
+    whole = np.column_stack([np.zeros(len(rows)), b['p_contact'], b['contact'], b['p_any_wheel'], b['p_both_wheels']])
+    np.savetxt(name + '.csv', whole, delimiter=',', fmt='%.17g', comments='',
+               header='time,left,right,contact_left,contact_right,any,both')
 )";
 
 /// An IMU that lies on its side used to be right in a mapping file, and silently wrong in a loop.
 TEST(Doors, GiveTheSameBeliefsAboutARobotWithConventionsOfItsOwn) {
-  const ScratchFolder folder;
-  ASSERT_EQ(touchdown_program("simulate " TOUCHDOWN_SOURCE_DIR
-                              "/scenarios/hop.yaml --set end.duration=3.2 -o run.mpack",
-                              folder.path())
-                .exit_code,
-            0);
+  const ProgramFolder folder;
+  folder.output_of("simulate " TOUCHDOWN_SOURCE_DIR
+                   "/scenarios/hop.yaml --set end.duration=3.2 -o run.mpack");
   const logs::Recording run = logs::read_recording(folder / "run.mpack");
   const std::vector<Step> steps = steps_of(run);
   const Beliefs expected = beliefs_of_cpp(steps);
@@ -298,9 +295,7 @@ TEST(Doors, GiveTheSameBeliefsAboutARobotWithConventionsOfItsOwn) {
   std::ofstream(folder / "robot.mcap", std::ios::binary) << test::mcap_bytes(bag_of(steps));
   EXPECT_EQ(beliefs_of_program("robot.csv --mapping robot.yaml", folder), expected);
   EXPECT_EQ(beliefs_of_program("robot.mcap --mapping robot.yaml", folder), expected);
-  const Ended exported =
-      touchdown_program("export robot.csv --mapping robot.yaml -o robot.mpack", folder.path());
-  ASSERT_EQ(exported.exit_code, 0) << exported.errors;
+  folder.output_of("export robot.csv --mapping robot.yaml -o robot.mpack");
   EXPECT_EQ(beliefs_of_program("robot.mpack", folder), expected);
 
   const std::string python = python_with_numpy();
@@ -309,12 +304,10 @@ TEST(Doors, GiveTheSameBeliefsAboutARobotWithConventionsOfItsOwn) {
     GTEST_SKIP() << "the Python package is not built, or NumPy is not installed";
   }
   folder.write("loop.py", loop);
-  ASSERT_EQ(std::system(fmt::format("cd '{}' && PYTHONPATH='{}' {} loop.py", folder.path().string(),
-                                    package.string(), python)
-                            .c_str()),
-            0);
+  folder.run("list", fmt::format("PYTHONPATH='{}' {} loop.py;", package.string(), python));
   EXPECT_EQ(beliefs_in(folder / "steps.csv"), expected);
   EXPECT_EQ(beliefs_in(folder / "whole.csv"), expected);
+  EXPECT_EQ(beliefs_in(folder / "bag.csv"), expected);
   EXPECT_EQ(beliefs_of_program("robot.npz --mapping robot.yaml", folder), expected);
 }
 

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -50,7 +48,7 @@ Lines lines_of(const std::string& csv) {
   return lines;
 }
 
-class Estimate : public ::testing::Test {
+class Estimate : public InFolder {
  protected:
   Estimate() {
     const logs::Recording fitted = test::synthetic_log(3.0);
@@ -67,21 +65,13 @@ class Estimate : public ::testing::Test {
   }
 
   std::string estimate(const std::string& arguments) const {
-    const Ended ended = touchdown_program("estimate " + arguments, folder_.path());
+    const Ended ended = folder_.run("estimate " + arguments);
     EXPECT_EQ(ended.exit_code, 0) << ended.errors;
     EXPECT_EQ(ended.errors, "");
     return ended.output;
   }
 
-  Lines table(const std::string& name) const { return lines_of(read_file(folder_ / name)); }
-
-  std::string complaint_about(const std::string& arguments) const {
-    const Ended ended = touchdown_program("estimate " + arguments, folder_.path());
-    EXPECT_EQ(ended.exit_code, 2) << ended.errors;
-    EXPECT_EQ(ended.output, "");
-    EXPECT_EQ(std::count(ended.errors.begin(), ended.errors.end(), '\n'), 1) << ended.errors;
-    return ended.errors;
-  }
+  Lines table(const std::string& name) const { return lines_of(folder_.text(name)); }
 
   BayesFilter filter(double rate, int window) const {
     BayesFilterConfig config = BayesFilterConfig::robust();
@@ -112,25 +102,21 @@ class Estimate : public ::testing::Test {
       ASSERT_EQ(lines[k][9], to_text(b.status));
     }
   }
-
-  const ScratchFolder folder_;
 };
 
 TEST_F(Estimate, WritesTheBeliefsOfTheLibrarysFilter) {
-  const logs::Recording recording = test::synthetic_log(2.0);
-  log("a.mpack", recording);
-  EXPECT_THAT(estimate("a.mpack --model m.npz -o b.csv"),
-              AllOf(StartsWith("a.mpack: 2000 steps, 2.000 s at 1000 Hz, Bayes filter (robust)"),
-                    HasSubstr("signals      all good")));
-  expect_beliefs(table("b.csv"), recording, filter(1000.0, 128));
-}
-
-TEST_F(Estimate, OfASlowerLogUsesAWindowOfTheSameLength) {
-  const logs::Recording recording = test::synthetic_log(2.0, 5000);
-  log("a.mpack", recording);
-  EXPECT_THAT(estimate("a.mpack --model m.npz -o b.csv"),
-              HasSubstr("400 steps, 2.000 s at 200 Hz"));
-  expect_beliefs(table("b.csv"), recording, filter(200.0, 26));
+  // A slower log has a window of the same length.
+  for (const auto& [period, window] : {std::pair{1000, 128}, {5000, 26}}) {
+    const logs::Recording recording = test::synthetic_log(2.0, period);
+    log("a.mpack", recording);
+    const int rate = 1'000'000 / period;
+    EXPECT_THAT(estimate("a.mpack --model m.npz -o b.csv"),
+                AllOf(StartsWith(fmt::format("a.mpack: {} steps, 2.000 s at {} Hz, Bayes filter "
+                                             "(robust)",
+                                             recording.steps(), rate)),
+                      HasSubstr("signals      all good")));
+    expect_beliefs(table("b.csv"), recording, filter(rate, window));
+  }
 }
 
 TEST_F(Estimate, RoundsAJitteringClockToItsNominalRate) {
@@ -183,8 +169,6 @@ TEST_F(Estimate, ScoresAgainstLabelsIfGiven) {
   // Labels take precedence over the log's own ground truth.
   folder_.write("hangs.csv", "start,end,contact\n0,4,0\n");
   EXPECT_THAT(truth("labelled.mpack --labels hangs.csv"), HasSubstr("takeoffs 0 of 0 found"));
-  EXPECT_THAT(complaint_about("labelled.mpack --labels hangs.csv --model m.npz -o hangs.csv"),
-              HasSubstr("hangs.csv"));
 }
 
 TEST_F(Estimate, WritesBeliefsIntoTheLogAndKeepsTheRest) {
@@ -239,14 +223,13 @@ TEST_F(Estimate, ReportsTheLogsTimesGapsAndStepsBack) {
   // A clock that is set back draws over what it drew before, from the earliest time on.
   for (std::size_t k = 700; k < robot.steps(); ++k) robot.observation[k].time -= 2.5;
   log("back.mpack", robot);
-  const Ended back =
-      touchdown_program("estimate back.mpack --model m.npz --figure fig.png", folder_.path());
+  const Ended back = folder_.run("estimate back.mpack --model m.npz --figure fig.png");
   EXPECT_EQ(back.exit_code, 0);
   EXPECT_EQ(
       back.errors,
       "touchdown: back.mpack: time: goes back once, by up to 2 s: sort the log, or split it\n");
   EXPECT_THAT(back.output, HasSubstr("time         from 8.700 to 10.699 s; it goes back 1 time\n"));
-  EXPECT_THAT(read_file(folder_ / "fig.gp"), HasSubstr("set xrange [8.7:10.69"));
+  EXPECT_THAT(folder_.text("fig.gp"), HasSubstr("set xrange [8.7:10.69"));
   experiments::LogSummary summary(0.001, {});
   EXPECT_THAT(summary.text({}), StartsWith("time         no finite value\n"));
   summary.add(0.0, {});
@@ -260,11 +243,9 @@ TEST_F(Estimate, OfATruncatedLogKeepsTheReadStepsAndReportsTheEnd) {
   const std::string whole = read_file(folder_ / "whole.mpack");
   folder_.write("cut.mpack", whole.substr(0, whole.size() - 10));
   estimate("whole.mpack --model m.npz -o whole.csv");
-  const Ended ended =
-      touchdown_program("estimate cut.mpack --model m.npz -o cut.csv", folder_.path());
-  EXPECT_EQ(ended.exit_code, 0);
-  EXPECT_THAT(ended.errors, AllOf(HasSubstr("cut.mpack: byte "), HasSubstr("cut off")));
-  EXPECT_EQ(std::count(ended.errors.begin(), ended.errors.end(), '\n'), 1);
+  const std::string warning = folder_.messages_of("estimate cut.mpack --model m.npz -o cut.csv");
+  EXPECT_THAT(warning, AllOf(HasSubstr("cut.mpack: byte "), HasSubstr("cut off")));
+  EXPECT_EQ(std::count(warning.begin(), warning.end(), '\n'), 1);
   Lines expected = table("whole.csv");
   expected.pop_back();
   EXPECT_EQ(table("cut.csv"), expected);
@@ -278,67 +259,54 @@ TEST_F(Estimate, OfSeveralLogsNamesEachResultAfterItsLog) {
   EXPECT_EQ(table("out/b_x.csv").size(), 500U);
 }
 
-TEST_F(Estimate, DistinguishesAPhaseModelFromAGrid) {
-  log("a.mpack", test::synthetic_log(2.0));
-  ASSERT_EQ(touchdown_program("fit a.mpack -o p.npz --estimator phase", folder_.path()).exit_code,
-            0);
+TEST_F(Estimate, RecognizesTheEstimatorOfAModel) {
+  log("a.mpack", test::synthetic_log(3.0));
+  folder_.output_of("fit a.mpack -o p.npz --estimator phase");
   EXPECT_THAT(estimate("a.mpack --model p.npz -o b.csv"), HasSubstr("Phase filter"));
   EXPECT_EQ(table("b.csv").back()[7], "nan");
-  EXPECT_THAT(complaint_about("a.mpack --model p.npz --estimator paper"),
-              HasSubstr("did you mean --estimator phase?"));
-  EXPECT_THAT(complaint_about("a.mpack --model m.npz --estimator phase"),
-              HasSubstr("did you mean --estimator robust?"));
-}
-
-TEST_F(Estimate, RecognizesTheEstimatorOfAParameterModel) {
-  log("a.mpack", test::synthetic_log(3.0));
-  ASSERT_EQ(touchdown_program("fit a.mpack -o l.npz --estimator force_kinematics", folder_.path())
-                .exit_code,
-            0);
+  folder_.output_of("fit a.mpack -o l.npz --estimator force_kinematics");
   EXPECT_THAT(estimate("a.mpack --model l.npz"), HasSubstr("Force and kinematics"));
   EXPECT_THAT(estimate("a.mpack --model l.npz --estimator force_kinematics"), HasSubstr("truth"));
-  for (const std::string other : {"robust", "phase", "decision_network"}) {
-    EXPECT_THAT(complaint_about("a.mpack --model l.npz --estimator " + other),
-                AllOf(HasSubstr("l.npz: is a model of 'force_kinematics', which '" + other),
-                      HasSubstr("did you mean --estimator force_kinematics?")));
-  }
-  EXPECT_THAT(complaint_about("a.mpack --model m.npz --estimator force_kinematics"),
-              HasSubstr("m.npz: is a model of torques' densities"));
   logs::write_npz(arrays_of(Parameters{{"force_mean", {1.0, 2.0}}}, "force_kinematics"),
-                  folder_ / "l.npz");
-  EXPECT_THAT(complaint_about("a.mpack --model l.npz"),
-              HasSubstr("l.npz: parameter 'force_deviation'"));
-  logs::write_npz(arrays_of(Parameters{{"slope", {1.0}}}, "lode"), folder_ / "l.npz");
-  EXPECT_THAT(complaint_about("a.mpack --model l.npz"), HasSubstr("unknown estimator 'lode'"));
+                  folder_ / "few.npz");
+  logs::write_npz(arrays_of(Parameters{{"slope", {1.0}}}, "lode"), folder_ / "lode.npz");
+  std::vector<Refusal> refusals = {
+      {"--model p.npz --estimator paper", {"did you mean --estimator phase?"}},
+      {"--model m.npz --estimator phase", {"did you mean --estimator robust?"}},
+      {"--model m.npz --estimator force_kinematics", {"m.npz: is a model of torques' densities"}},
+      {"--model few.npz", {"few.npz: parameter 'force_deviation'"}},
+      {"--model lode.npz", {"unknown estimator 'lode'"}}};
+  for (const std::string other : {"robust", "phase", "decision_network"}) {
+    refusals.push_back({"--model l.npz --estimator " + other,
+                        {"l.npz: is a model of 'force_kinematics', which '" + other,
+                         "did you mean --estimator force_kinematics?"}});
+  }
+  for (Refusal& refusal : refusals) refusal.arguments.insert(0, "estimate a.mpack ");
+  folder_.expect_refusals(refusals);
 }
 
 TEST_F(Estimate, DrawsTheRequestedPartOfTheLog) {
   log("a.mpack", test::synthetic_log(1.0));
   EXPECT_THAT(estimate("a.mpack --model m.npz --figure fig.png --from 0.4999 --to 0.7001"),
               HasSubstr("figure       fig.png"));
-  const std::string data = read_file(folder_ / "fig.dat");
+  const std::string data = folder_.text("fig.dat");
   EXPECT_EQ(std::count(data.begin(), data.end(), '\n'), 202);  // 0.5, 0.501, …, 0.7 and a header
-  EXPECT_TRUE(fs::exists(folder_ / "fig.svg"));
-  EXPECT_THAT(complaint_about("a.mpack --model m.npz --figure none.png --from 5"),
-              HasSubstr("no step between"));
+  EXPECT_TRUE(folder_.has("fig.svg"));
 }
 
 /// On a full disk, gnuplot writes nothing and ends with exit code 0.
 TEST_F(Estimate, AFigureOnAFullDiskIsAnErrorAndKeepsTheOldOne) {
   log("a.mpack", test::synthetic_log(1.0));
   estimate("a.mpack --model m.npz --figure fig.png");
-  const std::string before = read_file(folder_ / "fig.pdf");
+  const std::string before = folder_.text("fig.pdf");
   folder_.write("bin/gnuplot", "#!/bin/sh\n: >fig.png; : >fig.svg; : >fig.pdf\n");
   fs::permissions(folder_ / "bin/gnuplot", fs::perms::owner_all);
-  const std::string path = std::getenv("PATH");
-  ::setenv("PATH", ((folder_ / "bin").string() + ":" + path).c_str(), 1);
-  const Ended ended = touchdown_program(
-      "estimate a.mpack --model m.npz --figure fig.png --from 0.5", folder_.path());
-  ::setenv("PATH", path.c_str(), 1);
+  const Ended ended = folder_.run("estimate a.mpack --model m.npz --figure fig.png --from 0.5",
+                                  "PATH=\"$PWD/bin:$PATH\" &&");
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_THAT(ended.errors, HasSubstr("fig.png: cannot be written"));
   EXPECT_EQ(std::count(ended.errors.begin(), ended.errors.end(), '\n'), 1) << ended.errors;
-  EXPECT_TRUE(read_file(folder_ / "fig.pdf") == before);
+  EXPECT_TRUE(folder_.text("fig.pdf") == before);
   for (const auto& entry : fs::directory_iterator(folder_.path())) {
     EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
   }
@@ -348,26 +316,28 @@ TEST_F(Estimate, AnswersWrongRequestsInOneLine) {
   log("a.mpack", test::synthetic_log(0.1));
   log("slow.mpack", test::synthetic_log(2.0, 20000));
   folder_.write("b.mpack", "name: stairs\n");
-  EXPECT_THAT(complaint_about("a.mpack --model m.npz --estimator robst"),
-              HasSubstr("did you mean 'robust'?"));
-  EXPECT_THAT(complaint_about("a.mpack --estimator robust"), HasSubstr("--model is missing"));
-  EXPECT_THAT(complaint_about("a.mpack --model x.npz"), HasSubstr("x.npz"));
-  EXPECT_THAT(complaint_about("a.mpack --model a.mpack"), HasSubstr("a.mpack"));
-  EXPECT_THAT(complaint_about("a.mpack --estimator free_fall --model m.npz"),
-              HasSubstr("takes none"));
-  EXPECT_THAT(complaint_about("a.mpack --estimator oracle"), HasSubstr("ground truth"));
-  EXPECT_THAT(complaint_about("a.mpack --model m.npz -o b.txt"), HasSubstr(".csv"));
-  EXPECT_THAT(complaint_about("a.mpack --model m.npz -o b.csv -o c.csv"), HasSubstr("one kind"));
-  EXPECT_THAT(complaint_about("a.mpack --model m.npz -o a.mpack"), HasSubstr("the log itself"));
-  EXPECT_THAT(complaint_about("a.mpack a.mpack --model m.npz -o b.csv"), HasSubstr("two logs"));
-  EXPECT_THAT(complaint_about("a.mpack --model m.npz --figure b.jpg"), HasSubstr(".png"));
-  EXPECT_THAT(complaint_about("a.mpack - --model m.npz"), HasSubstr("alone"));
-  EXPECT_THAT(complaint_about("missing.mpack --model m.npz"), HasSubstr("missing.mpack"));
-  EXPECT_THAT(complaint_about("b.mpack --model m.npz -o b.csv"), HasSubstr("b.mpack: byte 0"));
-  EXPECT_THAT(complaint_about("slow.mpack --model m.npz"),
-              HasSubstr("slow.mpack: 50 steps per second: expected 100 to 20000"));
-  EXPECT_THAT(complaint_about("a.mpack --modle m.npz"), HasSubstr("did you mean '--model'?"));
-  EXPECT_FALSE(fs::exists(folder_ / "b.csv"));
+  folder_.write("hangs.csv", "start,end,contact\n0,4,0\n");
+  folder_.expect_refusals(
+      {{"estimate a.mpack --model m.npz --estimator robst", {"did you mean 'robust'?"}},
+       {"estimate a.mpack --estimator robust", {"--model is missing"}},
+       {"estimate a.mpack --model x.npz", {"x.npz"}},
+       {"estimate a.mpack --model a.mpack", {"a.mpack"}},
+       {"estimate a.mpack --estimator free_fall --model m.npz", {"takes none"}},
+       {"estimate a.mpack --estimator oracle", {"ground truth"}},
+       {"estimate a.mpack --model m.npz -o b.txt", {".csv"}},
+       {"estimate a.mpack --model m.npz -o b.csv -o c.csv", {"one kind"}},
+       {"estimate a.mpack --model m.npz -o a.mpack", {"the log itself"}},
+       {"estimate a.mpack --model m.npz --labels hangs.csv -o hangs.csv", {"hangs.csv"}},
+       {"estimate a.mpack a.mpack --model m.npz -o b.csv", {"two logs"}},
+       {"estimate a.mpack --model m.npz --figure b.jpg", {".png"}},
+       {"estimate a.mpack --model m.npz --figure none.png --from 5", {"no step between"}},
+       {"estimate a.mpack - --model m.npz", {"alone"}},
+       {"estimate missing.mpack --model m.npz", {"missing.mpack"}},
+       {"estimate b.mpack --model m.npz -o b.csv", {"b.mpack: byte 0"}},
+       {"estimate slow.mpack --model m.npz",
+        {"slow.mpack: 50 steps per second: expected 100 to 20000"}},
+       {"estimate a.mpack --modle m.npz", {"did you mean '--model'?"}}});
+  EXPECT_FALSE(folder_.has("b.csv"));
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/files.hpp"
 #include "program.hpp"
 
 namespace touchdown::cli {
@@ -38,26 +37,7 @@ constexpr std::array failing_scenes = {
                  "simulation: {contact: {bullet_stiffness: 1, bullet_damping: 0}}", false, true},
 };
 
-void write_scene(const ScratchFolder& folder, const std::string& name, const std::string& keys) {
-  folder.write(name + ".yaml",
-               fmt::format("name: {}\nterrain: {{pieces: [flat: {{length: 9.0}}]}}\nstart: {{x: "
-                           "0.7}}\n{}\nend: {{duration: 1.5}}\nperturbation: {{yaw: 0.05}}\n",
-                           name, keys));
-}
-
-Ended run_experiment(const ScratchFolder& folder, const std::string& fit, const std::string& test,
-                     const std::string& more = "") {
-  folder.write(
-      "x.yaml",
-      fmt::format("name: x\nestimators: [measurement_only, free_fall]\nfit: {{scenarios: "
-                  "[{}.yaml]}}\ntest: {{scenarios: [{}], runs: 2}}\nnoise: {{torque: [0.0], "
-                  "accelerometer: [0.0]}}\nintervals: {{resamples: 50}}\nvideo: {{enabled: "
-                  "false}}\n{}\n",
-                  fit, test, more));
-  return touchdown_program("run x.yaml --out out --no-pictures --overwrite", folder.path());
-}
-
-class FailedRuns : public ::testing::Test {
+class FailedRuns : public InFolder {
  protected:
   FailedRuns() {
     folder_.write("good.yaml", R"(name: good
@@ -67,9 +47,26 @@ velocity: [{time: 0.3, velocity: 0.5}]
 end: {duration: 2.2}
 perturbation: {yaw: 0.05}
 )");
-    for (const FailingScene& scene : failing_scenes) write_scene(folder_, scene.name, scene.keys);
+    for (const FailingScene& scene : failing_scenes) {
+      folder_.write(
+          fmt::format("{}.yaml", scene.name),
+          fmt::format("name: {}\nterrain: {{pieces: [flat: {{length: 9.0}}]}}\nstart: {{x: 0.7}}\n"
+                      "{}\nend: {{duration: 1.5}}\nperturbation: {{yaw: 0.05}}\n",
+                      scene.name, scene.keys));
+    }
   }
-  const ScratchFolder folder_;
+
+  Ended run_experiment(const std::string& fit, const std::string& test,
+                       const std::string& more = "") const {
+    folder_.write(
+        "x.yaml",
+        fmt::format("name: x\nestimators: [measurement_only, free_fall]\nfit: {{scenarios: "
+                    "[{}.yaml]}}\ntest: {{scenarios: [{}], runs: 2}}\nnoise: {{torque: [0.0], "
+                    "accelerometer: [0.0]}}\nintervals: {{resamples: 50}}\nvideo: {{enabled: "
+                    "false}}\n{}\n",
+                    fit, test, more));
+    return folder_.run("run x.yaml --out out --no-pictures --overwrite");
+  }
 };
 
 /// "fell after 0.675 s: pitch beyond 1 rad".
@@ -78,8 +75,7 @@ constexpr const char* reason = R"((fell|left the terrain|diverged) after [0-9.]+
 TEST_F(FailedRuns, AreNamedWithReasonAndTimeAndAreInNoScore) {
   for (const FailingScene& scene : failing_scenes) {
     SCOPED_TRACE(scene.name);
-    const Ended ended =
-        run_experiment(folder_, "good", fmt::format("good.yaml, {}.yaml", scene.name));
+    const Ended ended = run_experiment("good", fmt::format("good.yaml, {}.yaml", scene.name));
     ASSERT_EQ(ended.exit_code, 0) << ended.errors;
     for (const auto& [engine, fails] :
          {std::pair("mujoco", scene.in_mujoco), std::pair("bullet", scene.in_bullet)}) {
@@ -95,33 +91,25 @@ TEST_F(FailedRuns, AreNamedWithReasonAndTimeAndAreInNoScore) {
   }
 }
 
-TEST_F(FailedRuns, OfAWholeEngineMakeNoTableOfIt) {
-  const Ended ended = run_experiment(folder_, "good", "sinks_in_bullet.yaml");
-  ASSERT_EQ(ended.exit_code, 0) << ended.errors;
-  EXPECT_THAT(ended.output,
-              AllOf(HasSubstr("mujoco: 2 test runs"),
-                    HasSubstr("bullet: no test run stayed upright: nothing is scored"),
-                    Not(HasSubstr("nan")), Not(HasSubstr("bullet: 0"))));
-}
-
 // gnuplot refuses a figure without a point.
-TEST_F(FailedRuns, OfAWholeEngineLeaveReportAndFiguresOfTheOther) {
+TEST_F(FailedRuns, OfAWholeEngineLeaveTablesReportAndFiguresOfTheOther) {
   for (const std::string scene : {"sinks_in_bullet", "sinks_in_mujoco"}) {
-    run_experiment(folder_, "good", scene + ".yaml",
-                   "operating_points: {}\nbenchmark: {refits: 0, clips: false}");
-    const Ended ended = touchdown_program(
-        "run x.yaml --out out --no-video --overwrite --set "
-        "noise.torque=[0.0,1.0]",
-        folder_.path());
-    EXPECT_EQ(ended.exit_code, 0) << ended.errors;
-    EXPECT_TRUE(std::filesystem::exists(folder_ / "out/report.html"));
     const bool is_bullet = scene == "sinks_in_bullet";
+    const Ended tables = run_experiment("good", scene + ".yaml",
+                                        "operating_points: {}\nbenchmark: {refits: 0, clips: "
+                                        "false}");
+    if (is_bullet) {
+      EXPECT_THAT(tables.output,
+                  AllOf(HasSubstr("mujoco: 2 test runs"),
+                        HasSubstr("bullet: no test run stayed upright: nothing is scored"),
+                        Not(HasSubstr("nan")), Not(HasSubstr("bullet: 0"))));
+    }
+    folder_.output_of("run x.yaml --out out --no-video --overwrite --set noise.torque=[0.0,1.0]");
+    EXPECT_TRUE(folder_.has("out/report.html"));
     for (const char* figure : {"reliability", "latency", "error"}) {
       for (const char* engine : {"bullet", "mujoco"}) {
         const bool fails = is_bullet == (std::string(engine) == "bullet");
-        EXPECT_EQ(
-            std::filesystem::exists(folder_ / fmt::format("out/figures/{}_{}.png", figure, engine)),
-            !fails)
+        EXPECT_EQ(folder_.has(fmt::format("out/figures/{}_{}.png", figure, engine)), !fails)
             << scene << ": " << figure << ", " << engine;
       }
     }
@@ -130,7 +118,7 @@ TEST_F(FailedRuns, OfAWholeEngineLeaveReportAndFiguresOfTheOther) {
 
 TEST_F(FailedRuns, OfEverySceneEndTheRunWithTheFirstReason) {
   for (const char* scene : {"pushed_over", "tips", "sinks"}) {
-    const Ended ended = run_experiment(folder_, "good", fmt::format("{}.yaml", scene));
+    const Ended ended = run_experiment("good", fmt::format("{}.yaml", scene));
     EXPECT_EQ(ended.exit_code, 1);
     const std::regex line(
         fmt::format("[^\n]*no test run stayed upright: there is nothing to score: "
@@ -144,7 +132,7 @@ TEST_F(FailedRuns, OfEverySceneEndTheRunWithTheFirstReason) {
 TEST_F(FailedRuns, OfAFitEndTheRunWithTheFirstReason) {
   for (const FailingScene& scene : failing_scenes) {
     SCOPED_TRACE(scene.name);
-    const Ended ended = run_experiment(folder_, scene.name, "good.yaml");
+    const Ended ended = run_experiment(scene.name, "good.yaml");
     EXPECT_EQ(ended.exit_code, 2);
     const bool is_bullets = !scene.in_mujoco;
     const std::regex line(
@@ -164,16 +152,15 @@ TEST_F(FailedRuns, OfAFitEndTheRunWithTheFirstReason) {
 }
 
 TEST_F(FailedRuns, AreRowsOfTheBenchmarkWithoutNumbersAndItsMeanReportsThem) {
-  const Ended ended =
-      run_experiment(folder_, "good", "good.yaml, pushed_over.yaml, sinks_in_bullet.yaml",
-                     "benchmark: {refits: 0, clips: false}");
+  const Ended ended = run_experiment("good", "good.yaml, pushed_over.yaml, sinks_in_bullet.yaml",
+                                     "benchmark: {refits: 0, clips: false}");
   ASSERT_EQ(ended.exit_code, 0) << ended.errors;
   EXPECT_THAT(ended.output,
               AllOf(HasSubstr("(3 of 6: the others have no scored run)"),
                     HasSubstr("Failed runs, not scored: 2 of 2 in pushed_over\n"),
                     HasSubstr("2 of 2 in pushed_over, 2 of 2 in sinks_in_bullet"),
                     HasSubstr("Without a scored run, not in mean and worst: pushed_over")));
-  const std::string rows = read_file(folder_ / "out/tables/benchmark.csv");
+  const std::string rows = folder_.text("out/tables/benchmark.csv");
   EXPECT_THAT(rows,
               AllOf(HasSubstr("mujoco,upkie,ideal,pushed_over,unseen,free_fall,nan"),
                     HasSubstr("bullet,upkie,ideal,sinks_in_bullet,unseen,free_fall,nan"),
@@ -182,13 +169,10 @@ TEST_F(FailedRuns, AreRowsOfTheBenchmarkWithoutNumbersAndItsMeanReportsThem) {
 
 TEST_F(FailedRuns, AreNamedWhenTheirLogIsEstimated) {
   for (const char* scene : {"pushed_over", "sinks", "good"}) {
-    ASSERT_EQ(touchdown_program(fmt::format("simulate {}.yaml -o a.mpack", scene), folder_.path())
-                  .exit_code,
-              0);
-    const Ended ended = touchdown_program("estimate a.mpack", folder_.path());
-    EXPECT_EQ(ended.exit_code, 0);
+    folder_.output_of(fmt::format("simulate {}.yaml -o a.mpack", scene));
+    const std::string output = folder_.output_of("estimate a.mpack");
     const std::regex line("\nrun          fell after [0-9.]+ s: studies do not score such runs\n");
-    EXPECT_EQ(std::regex_search(ended.output, line), std::string(scene) != "good") << ended.output;
+    EXPECT_EQ(std::regex_search(output, line), std::string(scene) != "good") << output;
   }
 }
 

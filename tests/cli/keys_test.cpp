@@ -7,7 +7,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/files.hpp"
 #include "program.hpp"
 
 namespace touchdown::cli {
@@ -20,13 +19,10 @@ using ::testing::StartsWith;
 const std::vector<std::string> kinds = {"experiment", "scenario", "robot",
                                         "sensors",    "mapping",  "training"};
 
-struct Keys : ::testing::Test {
+struct Keys : InFolder {
   std::string printed(const std::string& arguments) const {
-    const Ended ended = touchdown_program("keys " + arguments, folder.path());
-    EXPECT_EQ(ended.exit_code, 0) << ended.errors;
-    return ended.output;
+    return folder_.output_of("keys " + arguments);
   }
-  ScratchFolder folder;
 };
 
 /// The cells of the rows of a Markdown document's tables, without headers.
@@ -81,15 +77,10 @@ TEST_F(Keys, ArePrintedForATerminalWithTypeUnitRangeDefaultAndMeaning) {
   }
 }
 
-TEST_F(Keys, OfAllKindsArePrintedWithoutAKind) {
+TEST_F(Keys, OfAllKindsArePrintedWithoutAKindAndAnUnknownOneIsRefused) {
   EXPECT_THAT(printed(""), AllOf(HasSubstr("Experiment files\n"), HasSubstr("Mapping files\n"),
                                  HasSubstr("Training files\n")));
-}
-
-TEST_F(Keys, OfAnUnknownKindAreRefusedWithTheNearestName) {
-  const Ended ended = touchdown_program("keys experimnt", folder.path());
-  EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_THAT(ended.errors, HasSubstr("did you mean 'experiment'?"));
+  folder_.expect_refusals({{"keys experimnt", {"did you mean 'experiment'?"}}});
 }
 
 /// The completions that bash offers for the last of these words.
@@ -107,25 +98,16 @@ std::string offered(const std::filesystem::path& share, const std::string& words
   return output;
 }
 
-struct Manual : ::testing::Test {
-  Manual() {
-    const Ended ended = touchdown_program("manual share", folder.path());
-    EXPECT_EQ(ended.exit_code, 0) << ended.errors;
-  }
-  ScratchFolder folder;
-  std::filesystem::path share = folder.path() / "share";
+struct Manual : InFolder {
+  Manual() { folder_.output_of("manual share"); }
+  std::filesystem::path share = folder_ / "share";
 };
 
 TEST_F(Manual, ReferenceOfTheDocumentsIsThatOfTheProgram) {
   const std::string file = TOUCHDOWN_SOURCE_DIR "/docs/reference/cli.md";
-  EXPECT_TRUE(touchdown_program("manual --markdown", folder.path()).output == read_file(file))
+  EXPECT_TRUE(folder_.output_of("manual --markdown") == read_file(file))
       << file << " is out of date; write it with: touchdown manual --markdown";
-}
-
-TEST_F(Manual, NeedsAFolderOrAFormat) {
-  const Ended ended = touchdown_program("manual", folder.path());
-  EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_THAT(ended.errors, HasSubstr("manual: expected DIR or --markdown"));
+  folder_.expect_refusals({{"manual", {"manual: expected DIR or --markdown"}}});
 }
 
 TEST_F(Manual, BashOffersCommandsFlagsAndKnownNames) {

@@ -57,47 +57,33 @@ imu:
                      six("q"), six("v"), six("tau"));
 }
 
-class Mapping : public ::testing::Test {
+class Mapping : public InFolder {
  protected:
-  static void SetUpTestSuite() {
-    folder = new ScratchFolder;
-    write_tiny_experiment(*folder);
-    ran("simulate step.yaml --run 2 -o run.mpack");
-    ran("fit run.mpack -o model.npz");
-    ran("estimate run.mpack --model model.npz -o run.csv");
-    run = new logs::Recording(logs::read_recording(*folder / "run.mpack"));
+  Mapping() {
+    write_tiny_experiment(folder_);
+    folder_.output_of("simulate step.yaml --run 2 -o run.mpack");
+    run_ = logs::read_recording(folder_ / "run.mpack");
+    folder_.write("si.yaml", si_mapping());
+    folder_.write("si.csv", si_csv(run_));
   }
-  static void TearDownTestSuite() {
-    delete folder;
-    delete run;
-  }
-
-  static std::string ran(const std::string& arguments) {
-    const Ended ended = touchdown_program(arguments, folder->path());
+  /// Output and messages of a command that succeeds.
+  std::string ran(const std::string& arguments) const {
+    const Ended ended = folder_.run(arguments);
     EXPECT_EQ(ended.exit_code, 0) << arguments << "\n" << ended.errors;
     return ended.output + ended.errors;
   }
-  static std::string refused(const std::string& arguments) {
-    const Ended ended = touchdown_program(arguments, folder->path());
-    EXPECT_EQ(ended.exit_code, 2) << arguments << "\n" << ended.errors;
-    EXPECT_EQ(std::count(ended.errors.begin(), ended.errors.end(), '\n'), 1) << ended.errors;
-    return ended.errors;
-  }
 
-  static ScratchFolder* folder;
-  static logs::Recording* run;
+  logs::Recording run_;
 };
-ScratchFolder* Mapping::folder = nullptr;
-logs::Recording* Mapping::run = nullptr;
 
 TEST_F(Mapping, LogInUpkiesUnitsGivesTheSameBeliefsAsTheRun) {
-  folder->write("si.csv", si_csv(*run));
-  folder->write("si.yaml", si_mapping());
   EXPECT_THAT(ran("export si.csv --mapping si.yaml -o si.mpack"),
-              AllOf(HasSubstr(fmt::format("si.mpack, {} records", run->steps())),
+              AllOf(HasSubstr(fmt::format("si.mpack, {} records", run_.steps())),
                     HasSubstr("touchdown estimate si.mpack"), Not(HasSubstr("lack"))));
+  ran("fit run.mpack -o model.npz");
+  ran("estimate run.mpack --model model.npz -o run.csv");
   ran("estimate si.mpack --model model.npz -o si_beliefs.csv");
-  EXPECT_EQ(read_file(*folder / "si_beliefs.csv"), read_file(*folder / "run.csv"));
+  EXPECT_EQ(folder_.text("si_beliefs.csv"), folder_.text("run.csv"));
 }
 
 TEST_F(Mapping, ExampleIsTheOneInTheDocuments) {
@@ -109,7 +95,7 @@ TEST_F(Mapping, ExampleIsTheOneInTheDocuments) {
                       example)),
       AllOf(HasSubstr("10 records, from 81.000 to 81.009 s"), HasSubstr("3 intervals"),
             Not(HasSubstr("lack"))));
-  const auto recorded = logs::read_recording(*folder / "example.mpack");
+  const auto recorded = logs::read_recording(folder_ / "example.mpack");
   ASSERT_EQ(recorded.steps(), 10U);
   // The robot stands: knees bent backwards, torques that carry it, no gravity except for rounding.
   const models::Observation& o = recorded.observation.front();
@@ -122,29 +108,25 @@ TEST_F(Mapping, ExampleIsTheOneInTheDocuments) {
 }
 
 TEST_F(Mapping, InconsistentRequestsAreRefusedAndNothingIsWritten) {
-  folder->write("si.yaml", si_mapping());
-  folder->write("bad.csv", "t,lh_q\n0,1\n");
-  EXPECT_THAT(refused("export bad.csv --mapping si.yaml -o bad.mpack"),
-              HasSubstr("si.yaml:3:20: joints.position.from: bad.csv has no column 'lk_q' (did you "
-                        "mean 'lh_q'?)"));
-  EXPECT_THAT(refused("export bad.csv --mapping si.yaml -o bad.csv"),
-              HasSubstr("bad.csv: expected a log with the extension .mpack"));
-  EXPECT_THAT(refused("export bad.csv --mapping si.yaml --benchmark d"),
-              HasSubstr("--mapping: expected -o"));
-  EXPECT_THAT(refused("export bad.csv --labels l.csv -o bad.mpack"),
-              HasSubstr("--labels: expected --mapping"));
-  EXPECT_THAT(refused("export bad.csv -o bad.mpack"), HasSubstr("bad.mpack: expected --mapping"));
-  EXPECT_THAT(refused("estimate bad.csv --model model.npz"),
-              HasSubstr("bad.csv: byte 0: expected a MessagePack map, one per control step: "
-                        "`touchdown export --mapping`"));
-  EXPECT_THAT(refused("export bad.csv --mapping none.yaml -o bad.mpack"), HasSubstr("none.yaml"));
-  folder->write("good.csv", si_csv(*run));
-  EXPECT_THAT(refused("export good.csv --mapping si.yaml -o bad.mpack --labels bad_labels.csv"),
-              HasSubstr("--labels: good.csv has no contact labels"));
-  EXPECT_THAT(refused("export good.csv --mapping si.yaml -o bad.mpack --labels good.csv"),
-              HasSubstr("good.csv"));
-  EXPECT_FALSE(std::filesystem::exists(*folder / "bad.mpack"));
-  EXPECT_FALSE(std::filesystem::exists(*folder / "bad_labels.csv"));
+  folder_.write("bad.csv", "t,lh_q\n0,1\n");
+  folder_.expect_refusals(
+      {{"export bad.csv --mapping si.yaml -o bad.mpack",
+        {"si.yaml:3:20: joints.position.from: bad.csv has no column 'lk_q' (did you mean "
+         "'lh_q'?)"}},
+       {"export bad.csv --mapping si.yaml -o bad.csv",
+        {"bad.csv: expected a log with the extension .mpack"}},
+       {"export bad.csv --mapping si.yaml --benchmark d", {"--mapping: expected -o"}},
+       {"export bad.csv --labels l.csv -o bad.mpack", {"--labels: expected --mapping"}},
+       {"export bad.csv -o bad.mpack", {"bad.mpack: expected --mapping"}},
+       {"estimate bad.csv",
+        {"bad.csv: byte 0: expected a MessagePack map, one per control step: `touchdown export "
+         "--mapping`"}},
+       {"export bad.csv --mapping none.yaml -o bad.mpack", {"none.yaml"}},
+       {"export si.csv --mapping si.yaml -o bad.mpack --labels bad_labels.csv",
+        {"--labels: si.csv has no contact labels"}},
+       {"export si.csv --mapping si.yaml -o bad.mpack --labels si.csv", {"si.csv"}}});
+  EXPECT_FALSE(folder_.has("bad.mpack"));
+  EXPECT_FALSE(folder_.has("bad_labels.csv"));
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/files.hpp"
 #include "core/table.hpp"
 #include "logs/log/recording_file.hpp"
 #include "program.hpp"
@@ -26,20 +25,16 @@ struct Message {
   nlohmann::json json;
 };
 
-class Mcap : public ::testing::Test {
+class Mcap : public InFolder {
  protected:
-  std::string ran(const std::string& arguments) {
-    const Ended ended = touchdown_program(arguments, folder_.path());
-    EXPECT_EQ(ended.exit_code, 0) << arguments << "\n" << ended.errors;
-    return ended.output;
-  }
+  std::string ran(const std::string& arguments) { return folder_.output_of(arguments); }
   /// The messages that an independent reader, written from the format's specification, finds.
   std::vector<Message> read(const std::string& file) {
     const std::string command = fmt::format("cd '{}' && python3 " TOUCHDOWN_SOURCE_DIR
                                             "/tests/cli/read_mcap.py {} > messages 2>&1",
                                             folder_.path().string(), file);
     const int status = std::system(command.c_str());
-    EXPECT_EQ(status, 0) << read_file(folder_ / "messages").substr(0, 2000);
+    EXPECT_EQ(status, 0) << folder_.text("messages").substr(0, 2000);
     std::vector<Message> messages;
     std::ifstream output(folder_ / "messages");
     while (status == 0 && output.peek() != std::ifstream::traits_type::eof()) {
@@ -51,7 +46,6 @@ class Mcap : public ::testing::Test {
     }
     return messages;
   }
-  const ScratchFolder folder_;
 };
 
 TEST_F(Mcap, HoldsSignalsAndBeliefsOfEveryStep) {
@@ -62,10 +56,10 @@ TEST_F(Mcap, HoldsSignalsAndBeliefsOfEveryStep) {
   ran("estimate log.mpack --estimator support_force -o with.mpack -o beliefs.csv");
   EXPECT_THAT(ran("export with.mpack -o with.mcap"), HasSubstr("with.mcap, 1500 records"));
   ran("export with.mpack -o again.mcap");
-  EXPECT_EQ(read_file(folder_ / "with.mcap"), read_file(folder_ / "again.mcap"));
+  EXPECT_EQ(folder_.text("with.mcap"), folder_.text("again.mcap"));
 
   const std::vector<Message> messages = read("with.mcap");
-  const Table beliefs = from_csv(read_file(folder_ / "beliefs.csv"));
+  const Table beliefs = from_csv(folder_.text("beliefs.csv"));
   ASSERT_EQ(messages.size(), 3000U);
   ASSERT_EQ(beliefs.rows.size(), 1500U);
   EXPECT_GT(std::filesystem::file_size(folder_ / "with.mcap"), 2U << 20U);
@@ -85,17 +79,6 @@ TEST_F(Mcap, HoldsSignalsAndBeliefsOfEveryStep) {
     ASSERT_EQ(filter["right_wheel"]["contact"], beliefs.rows[k][4] == "1");
     ASSERT_TRUE(filter["p_contact_smooth"].is_null());  // NaN is no number in JSON
   }
-}
-
-TEST_F(Mcap, OfARobotWithoutBeliefsKeepsTheRobotsClock) {
-  const std::string example = TOUCHDOWN_SOURCE_DIR "/examples/mapping/robot";
-  ran(fmt::format("export {0}.csv --mapping {0}.yaml -o robot.mpack", example));
-  ran("export robot.mpack -o robot.mcap");
-  const std::vector<Message> messages = read("robot.mcap");
-  ASSERT_EQ(messages.size(), 10U);
-  EXPECT_EQ(messages[0].time, 81'000'000'000U);
-  EXPECT_EQ(messages[9].time, 81'009'000'000U);
-  EXPECT_EQ(messages[9].topic, "/upkie/observation");
 }
 
 TEST_F(Mcap, ShowsRobotTerrainAndTakeoffsOfASimulatedRun) {
@@ -153,7 +136,16 @@ TEST_F(Mcap, ShowsRobotTerrainAndTakeoffsOfASimulatedRun) {
   EXPECT_EQ(by_schema["foxglove.Log"].back().json["message"], "timed out");
 }
 
-TEST_F(Mcap, ShowsTheNamedRobotOfALogWithoutAScene) {
+TEST_F(Mcap, OfARobotKeepsItsClockAndShowsTheNamedRobot) {
+  const std::string example = TOUCHDOWN_SOURCE_DIR "/examples/mapping/robot";
+  ran(fmt::format("export {0}.csv --mapping {0}.yaml -o robot.mpack", example));
+  ran("export robot.mpack -o robot.mcap");
+  const std::vector<Message> messages = read("robot.mcap");
+  ASSERT_EQ(messages.size(), 10U);
+  EXPECT_EQ(messages[0].time, 81'000'000'000U);
+  EXPECT_EQ(messages[9].time, 81'009'000'000U);
+  EXPECT_EQ(messages[9].topic, "/upkie/observation");
+
   logs::write_recording(test::robot_log(1.0), folder_ / "log.mpack");
   ran("export log.mpack --robot " TOUCHDOWN_SOURCE_DIR "/models/upkie.xml -o log.mcap");
   std::map<std::string, std::size_t> count;
@@ -164,23 +156,18 @@ TEST_F(Mcap, ShowsTheNamedRobotOfALogWithoutAScene) {
 }
 
 TEST_F(Mcap, OfNoLogIsRefusedAndNothingIsWritten) {
-  const auto refused = [&](const std::string& arguments) {
-    const Ended ended = touchdown_program(arguments, folder_.path());
-    EXPECT_EQ(ended.exit_code, 2) << arguments;
-    return ended.errors;
-  };
   folder_.write("text.mpack", "no log");
-  EXPECT_THAT(refused("export text.mpack -o a.mcap"), HasSubstr("text.mpack: byte 0: expected"));
-  EXPECT_THAT(refused("export none.mpack -o a.mcap"), HasSubstr("none.mpack: no such file"));
   // A record with an additional key that is a number, which JSON does not allow.
   logs::write_recording(test::robot_log(0.002), folder_ / "keys.mpack");
-  std::string bytes = read_file(folder_ / "keys.mpack");
+  std::string bytes = folder_.text("keys.mpack");
   const auto entries = static_cast<unsigned char>(bytes[0]);
   ASSERT_EQ(entries & 0xf0U, 0x80U);  // a map of a few entries, which gets one more
   bytes[0] = static_cast<char>(entries + 1);
   bytes.insert(1, "\x05\x05");
   folder_.write("keys.mpack", bytes);
-  EXPECT_THAT(refused("export keys.mpack -o a.mcap"), HasSubstr("keys.mpack: a record cannot be"));
+  folder_.expect_refusals({{"export text.mpack -o a.mcap", {"text.mpack: byte 0: expected"}},
+                           {"export none.mpack -o a.mcap", {"none.mpack: no such file"}},
+                           {"export keys.mpack -o a.mcap", {"keys.mpack: a record cannot be"}}});
   EXPECT_EQ(names_in(folder_.path()),
             (std::set<std::string>{".stderr", ".stdout", "text.mpack", "keys.mpack"}));
 }

@@ -1,10 +1,7 @@
-#include <algorithm>
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/files.hpp"
 #include "estimator/npz/load_estimator.hpp"
 #include "estimator/npz/npz.hpp"
 #include "logs/log/recording_file.hpp"
@@ -20,7 +17,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 /// A model that `fit` wrote, and its later uses.
-class Metadata : public ::testing::Test {
+class Metadata : public InFolder {
  protected:
   Metadata() {
     log("a.mpack", test::synthetic_log(3.0));
@@ -31,20 +28,7 @@ class Metadata : public ::testing::Test {
     logs::write_recording(recording, folder_ / name);
   }
 
-  std::string run(const std::string& arguments) const {
-    const Ended ended = touchdown_program(arguments, folder_.path());
-    EXPECT_EQ(ended.exit_code, 0) << ended.errors;
-    return ended.output;
-  }
-
-  std::string complaint_about(const std::string& arguments) const {
-    const Ended ended = touchdown_program(arguments, folder_.path());
-    EXPECT_EQ(ended.exit_code, 2) << ended.errors;
-    EXPECT_EQ(std::count(ended.errors.begin(), ended.errors.end(), '\n'), 1) << ended.errors;
-    return ended.errors;
-  }
-
-  const ScratchFolder folder_;
+  std::string run(const std::string& arguments) const { return folder_.output_of(arguments); }
 };
 
 TEST_F(Metadata, NamesEstimatorRateAndRobotOfAModel) {
@@ -66,19 +50,18 @@ TEST_F(Metadata, HoldsTheHyperparametersOfTheFit) {
   run("estimate a.mpack --model other.npz -o fitted_so.csv");
   run("estimate a.mpack --model m.npz --set threshold=0.5 -o run_so.csv");
   run("estimate a.mpack --model m.npz -o usual.csv");
-  const std::string fitted_so = read_file(folder_ / "fitted_so.csv");
-  EXPECT_EQ(fitted_so, read_file(folder_ / "run_so.csv"));
-  EXPECT_NE(fitted_so, read_file(folder_ / "usual.csv"));
-  EXPECT_THAT(complaint_about("estimate a.mpack --model m.npz --set thresold=0.5"),
-              AllOf(HasSubstr("'robust' has no hyperparameter 'thresold'"),
-                    HasSubstr("did you mean 'threshold'")));
-  EXPECT_THAT(complaint_about("estimate a.mpack --model m.npz --set bandwidth_floor=0.01"),
-              HasSubstr("'bandwidth_floor' is fixed by the fit: touchdown fit --set"));
-  EXPECT_THAT(complaint_about("fit a.mpack -o x.npz --set thresold=0.5 --estimator robust"),
-              HasSubstr("did you mean 'threshold'"));
-  EXPECT_THAT(complaint_about("fit a.mpack -o x.npz --set threshold=half --estimator robust"),
-              HasSubstr("threshold=half: expected name=number, as in leave_below=0.25"));
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "x.npz"));
+  const std::string fitted_so = folder_.text("fitted_so.csv");
+  EXPECT_EQ(fitted_so, folder_.text("run_so.csv"));
+  EXPECT_NE(fitted_so, folder_.text("usual.csv"));
+  folder_.expect_refusals(
+      {{"estimate a.mpack --model m.npz --set thresold=0.5",
+        {"'robust' has no hyperparameter 'thresold'", "did you mean 'threshold'"}},
+       {"estimate a.mpack --model m.npz --set bandwidth_floor=0.01",
+        {"'bandwidth_floor' is fixed by the fit: touchdown fit --set"}},
+       {"fit a.mpack -o x.npz --set thresold=0.5 --estimator robust", {"did you mean 'threshold'"}},
+       {"fit a.mpack -o x.npz --set threshold=half --estimator robust",
+        {"threshold=half: expected name=number, as in leave_below=0.25"}}});
+  EXPECT_FALSE(folder_.has("x.npz"));
 }
 
 TEST_F(Metadata, OfASimulatedLogNamesItsRobot) {
@@ -88,9 +71,9 @@ TEST_F(Metadata, OfASimulatedLogNamesItsRobot) {
   run("fit heavy.mpack -o heavy.npz");
   EXPECT_EQ(load_metadata(folder_ / "heavy.npz").robot, "upkie_heavy");
   run("estimate heavy.mpack --model heavy.npz");
-  EXPECT_THAT(complaint_about("estimate heavy.mpack --model m.npz"),
-              HasSubstr("m.npz: was fitted to the robot 'tall', not to 'upkie_heavy' (--transfer "
-                        "uses it all the same)"));
+  folder_.expect_refusals({{"estimate heavy.mpack --model m.npz",
+                            {"m.npz: was fitted to the robot 'tall', not to 'upkie_heavy' "
+                             "(--transfer uses it all the same)"}}});
 }
 
 TEST_F(Metadata, OfARobotsFileHasItsLegs) {
@@ -102,19 +85,19 @@ TEST_F(Metadata, OfARobotsFileHasItsLegs) {
 
   const auto beliefs = [&](const std::string& flags) {
     run("estimate a.mpack --model long.npz -o beliefs.csv " + flags);
-    return read_file(folder_ / "beliefs.csv");
+    return folder_.text("beliefs.csv");
   };
   const std::string expected = beliefs("");
   EXPECT_EQ(beliefs(robot), expected);
   EXPECT_EQ(beliefs("--robot upkie --transfer"), expected) << "a name does not specify legs";
   EXPECT_NE(beliefs("--robot models/upkie.xml --transfer"), expected);
-  EXPECT_THAT(complaint_about("estimate a.mpack --model long.npz --robot models/upkie.xml"),
-              HasSubstr("was fitted to the robot 'upkie_long_legs', not to 'upkie' (--transfer"));
-  for (const char* verb : {"estimate a.mpack --model long.npz", "fit a.mpack -o x.npz"}) {
-    EXPECT_THAT(
-        complaint_about(std::string(verb) + " --robot models/upkie_hevy.yaml"),
-        AllOf(HasSubstr("models/upkie_hevy.yaml: no such file"), HasSubstr("upkie_heavy.yaml'?")));
-  }
+  const std::vector<std::string> near = {"models/upkie_hevy.yaml: no such file",
+                                         "upkie_heavy.yaml'?"};
+  folder_.expect_refusals(
+      {{"estimate a.mpack --model long.npz --robot models/upkie.xml",
+        {"was fitted to the robot 'upkie_long_legs', not to 'upkie' (--transfer"}},
+       {"estimate a.mpack --model long.npz --robot models/upkie_hevy.yaml", near},
+       {"fit a.mpack -o x.npz --robot models/upkie_hevy.yaml", near}});
 }
 
 TEST_F(Metadata, OfASimulatedLogsRobotHasTheLegsOfItsFile) {
@@ -125,7 +108,7 @@ TEST_F(Metadata, OfASimulatedLogsRobotHasTheLegsOfItsFile) {
     log("own.mpack", simulated);
     const auto beliefs = [&](const std::string& flags) {
       run("estimate own.mpack -o beliefs.csv " + flags);
-      return read_file(folder_ / "beliefs.csv");
+      return folder_.text("beliefs.csv");
     };
     for (const std::string flags : {"--estimator support_force", "--transfer"}) {
       const std::string own = beliefs(flags);
@@ -133,9 +116,9 @@ TEST_F(Metadata, OfASimulatedLogsRobotHasTheLegsOfItsFile) {
       EXPECT_NE(beliefs(flags + " --robot models/upkie.xml"), own) << robot;
     }
     run("fit own.mpack -o own.npz --estimator force_kinematics");
-    const std::string model = read_file(folder_ / "own.npz");
+    const std::string model = folder_.text("own.npz");
     run("fit own.mpack -o named.npz --estimator force_kinematics --robot " + file);
-    EXPECT_EQ(read_file(folder_ / "named.npz"), model);
+    EXPECT_EQ(folder_.text("named.npz"), model);
     EXPECT_EQ(load_metadata(folder_ / "own.npz").robot, robot);
   }
 }
@@ -148,7 +131,7 @@ TEST_F(Metadata, OfAModelExportedForAnotherRobotHasItsLegs) {
                     HasSubstr("next      touchdown estimate LOG --model long.npz\n")));
   const auto beliefs = [&](const std::string& model_and_flags) {
     run("estimate a.mpack -o beliefs.csv --model " + model_and_flags);
-    return read_file(folder_ / "beliefs.csv");
+    return folder_.text("beliefs.csv");
   };
   const std::string expected = beliefs("long.npz");
   EXPECT_EQ(expected, beliefs(shipped + " --robot models/upkie_long_legs.yaml --transfer"));
@@ -157,29 +140,30 @@ TEST_F(Metadata, OfAModelExportedForAnotherRobotHasItsLegs) {
   run("export long.npz --robot models/upkie.xml --set leave_below=0.25 -o quiet.npz");
   EXPECT_EQ(beliefs("quiet.npz"), beliefs(shipped + " --set leave_below=0.25"));
   run("export " + shipped + " --robot models/upkie_long_legs.yaml -o long.hpp");
-  EXPECT_THAT(read_file(folder_ / "long.hpp"),
-              HasSubstr(load_metadata(folder_ / "long.npz").fingerprint));
+  EXPECT_THAT(folder_.text("long.hpp"), HasSubstr(load_metadata(folder_ / "long.npz").fingerprint));
 
-  EXPECT_THAT(complaint_about("export " + shipped + " --robot upkie_heavy -o x.npz"),
-              HasSubstr("not to 'upkie_heavy'"));
-  EXPECT_THAT(complaint_about("export m.npz --robot models/upkie.xml -o x.npz"),
-              HasSubstr("m.npz: 'robust' uses no kinematics"));
-  EXPECT_THAT(complaint_about("export " + shipped + " --set leave_bellow=0.25 -o x.npz"),
-              HasSubstr("has no 'leave_bellow': expected one of"));
-  EXPECT_THAT(complaint_about("export " + shipped + " --set leave_below -o x.npz"),
-              HasSubstr("--set: leave_below: expected NAME=VALUE"));
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "x.npz"));
+  folder_.expect_refusals(
+      {{"export " + shipped + " --robot upkie_heavy -o x.npz", {"not to 'upkie_heavy'"}},
+       {"export m.npz --robot models/upkie.xml -o x.npz", {"m.npz: 'robust' uses no kinematics"}},
+       {"export " + shipped + " --set leave_bellow=0.25 -o x.npz",
+        {"has no 'leave_bellow': expected one of"}},
+       {"export " + shipped + " --set leave_below -o x.npz",
+        {"--set: leave_below: expected NAME=VALUE"}}});
+  EXPECT_FALSE(folder_.has("x.npz"));
 }
 
 TEST_F(Metadata, OfAnotherEstimatorRateOrRobotIsAnError) {
-  EXPECT_THAT(complaint_about("estimate a.mpack --model m.npz --estimator reference"),
-              HasSubstr("m.npz: is a model of 'robust', which 'reference' cannot use (did you mean "
-                        "--estimator robust?)"));
-  EXPECT_THAT(complaint_about("estimate a.mpack --model m.npz --robot upkie"),
-              HasSubstr("m.npz: was fitted to the robot 'tall', not to 'upkie'"));
   log("slow.mpack", test::synthetic_log(2.0, 5000));
-  EXPECT_THAT(complaint_about("estimate slow.mpack --model m.npz"),
-              HasSubstr("m.npz: was fitted at 1000 Hz, not at 200 Hz (--transfer"));
+  std::filesystem::create_directory(folder_ / "folder");
+  folder_.expect_refusals(
+      {{"estimate a.mpack --model m.npz --estimator reference",
+        {"m.npz: is a model of 'robust', which 'reference' cannot use (did you mean --estimator "
+         "robust?)"}},
+       {"estimate a.mpack --model m.npz --robot upkie",
+        {"m.npz: was fitted to the robot 'tall', not to 'upkie'"}},
+       {"estimate slow.mpack --model m.npz",
+        {"m.npz: was fitted at 1000 Hz, not at 200 Hz (--transfer"}},
+       {"estimate a.mpack --model folder", {"folder: is a folder"}}});
   EXPECT_THAT(run("estimate slow.mpack --model m.npz --robot upkie --transfer"),
               HasSubstr("at 200 Hz, Bayes filter (robust)"));
   EXPECT_THAT(run("estimate a.mpack --model m.npz --estimator measurement_only --robot tall"),
@@ -191,8 +175,12 @@ TEST_F(Metadata, ChoosesTheEstimatorThatAGridWasFittedFor) {
   EXPECT_THAT(run("estimate a.mpack --model paper.npz"), HasSubstr("Bayes filter (paper)"));
 }
 
-TEST_F(Metadata, IsNotNeededByOlderFiles) {
+TEST_F(Metadata, IsNotNeededByOlderFilesAndDetectsChangesAfterTheFit) {
   ModelArrays arrays = read_npz(folder_ / "m.npz");
+  arrays["contact_likelihood"].data[100] += 1.0;
+  logs::write_npz(arrays, folder_ / "changed.npz");
+  folder_.expect_refusals({{"estimate a.mpack --model changed.npz",
+                            {"changed.npz: its numbers are not those that were fitted"}}});
   arrays.erase("metadata");
   logs::write_npz(arrays, folder_ / "old.npz");
   EXPECT_THAT(run("estimate a.mpack --model old.npz --estimator reference"),
@@ -200,32 +188,18 @@ TEST_F(Metadata, IsNotNeededByOlderFiles) {
                         "used with 'reference'\n"));
 }
 
-TEST_F(Metadata, DetectsAModelThatWasChangedAfterItsFit) {
-  ModelArrays arrays = read_npz(folder_ / "m.npz");
-  arrays["contact_likelihood"].data[100] += 1.0;
-  logs::write_npz(arrays, folder_ / "m.npz");
-  EXPECT_THAT(complaint_about("estimate a.mpack --model m.npz"),
-              HasSubstr("m.npz: its numbers are not those that were fitted"));
-}
-
 TEST_F(Metadata, IsPartOfAModelExportedAsAHeader) {
   EXPECT_THAT(run("export m.npz -o out/my-model.hpp"),
               HasSubstr("touchdown::make_estimator(touchdown::compiled::my_model)"));
   EXPECT_THAT(
-      read_file(folder_ / "out/my-model.hpp"),
+      folder_.text("out/my-model.hpp"),
       AllOf(HasSubstr("inline constexpr CompiledArray my_model[] = {"),
             HasSubstr(load_metadata(folder_ / "m.npz").fingerprint), Not(HasSubstr("P_contact"))));
-  EXPECT_THAT(complaint_about("export m.npz -o m.txt"),
-              HasSubstr("expected a header, FILE.hpp, or a model, FILE.npz"));
-  EXPECT_THAT(complaint_about("export m.npz -o m.npz"),
-              HasSubstr("m.npz: is the model itself: name another file"));
-  EXPECT_THAT(complaint_about("export m.npz"), HasSubstr("either --benchmark DIR"));
-  EXPECT_THAT(complaint_about("export a.mpack -o m.hpp"), HasSubstr("a.mpack: is not a readable"));
-}
-
-TEST_F(Metadata, OfAFolderIsAnError) {
-  std::filesystem::create_directory(folder_ / "folder");
-  EXPECT_THAT(complaint_about("estimate a.mpack --model folder"), HasSubstr("folder: is a folder"));
+  folder_.expect_refusals(
+      {{"export m.npz -o m.txt", {"expected a header, FILE.hpp, or a model, FILE.npz"}},
+       {"export m.npz -o m.npz", {"m.npz: is the model itself: name another file"}},
+       {"export m.npz", {"either --benchmark DIR"}},
+       {"export a.mpack -o m.hpp", {"a.mpack: is not a readable"}}});
 }
 
 /// A regression: the summary once reported "all good" for such a log.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 #include <functional>
+#include <map>
 #include <regex>
 #include <set>
 
@@ -9,7 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "core/table.hpp"
+#include "logs/log/recording_file.hpp"
 #include "program.hpp"
+#include "synthetic_log.hpp"
 
 namespace touchdown::cli {
 namespace {
@@ -17,104 +20,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// What is added to the smallest experiment, x.yaml; a command; words of the complaint.
-struct WrongCase {
-  const char* added;
-  std::string command;
-  std::vector<std::string> words;
-};
-
-TEST(WrongRequest, IsOneLineWithThePlaceAndTheNearestName) {
-  const ScratchFolder folder;
-  write_tiny_experiment(folder);
-  folder.write("x.mpack", "no log");
-  folder.write("broken.yaml", "name: [tiny\n");
-  for (const auto& [added, command, words] : std::vector<WrongCase>{
-           {"", "rnu x.yaml", {"unknown command 'rnu'", "did you mean 'run'?"}},
-           {"", "run", {"experiment"}},
-           {"",
-            "run experiments/stiars.yaml",
-            {"experiments/stiars.yaml: no such file", "did you mean 'experiments/stairs.yaml'?"}},
-           {"sensors: noise/profiles/upkei.yaml\n",
-            "run x.yaml --dry-run",
-            {"x.yaml:4:10: sensors: noise/profiles/upkei.yaml: no such file",
-             "did you mean 'noise/profiles/upkie.yaml'?"}},
-           {"sensors: noise/profiles/upkei.yaml\n", "run x.yaml", {"x.yaml:4:10: sensors: "}},
-           {"noise:\n  sedes: 3\n",
-            "run x.yaml",
-            {"x.yaml:5:3: noise.sedes", "did you mean 'seeds'?"}},
-           {"seed: many\n", "run x.yaml", {"x.yaml:4:7: seed", "expected a whole number"}},
-           {"noise: {seeds: 0}\n", "run x.yaml", {"noise.seeds", "from 1 to"}},
-           {"simulators: [mujco]\n",
-            "run x.yaml",
-            {"x.yaml:4:14: simulators", "did you mean 'mujoco'?"}},
-           {"", "simulate step.yaml --simulator bulet -o new.mpack", {"bullet"}},
-           {"estimators: [robst]\n", "run x.yaml", {"did you mean 'robust'?"}},
-           {"highlights: [{torque: 0.5, accelerometer: 0.0}]\n",
-            "run x.yaml",
-            {"highlights.0.torque"}},
-           {"", "run x.yaml --set noise.sedes=3", {"did you mean 'seeds'?"}},
-           {"", "run x.yaml --set noise", {"key=value"}},
-           {"", "run broken.yaml", {"not valid YAML"}},
-           {"",
-            "run experiments/nmn.yaml",
-            {"experiments/nmn.yaml: is a training file; try: touchdown train "}},
-           {"",
-            "run scenarios/stairs.yaml",
-            {"scenarios/stairs.yaml: is a scenario; try: touchdown simulate "}},
-           {"",
-            "simulate experiments/stairs.yaml -o new.mpack",
-            {"experiments/stairs.yaml: is an experiment; try: touchdown run "}},
-           {"", "render x.mpack -o new.mp4", {"x.mpack"}},
-           {"", "render missing.mpack -o new.mp4", {"missing.mpack"}},
-           {"", "render scenarios/stairs.yaml -o new.mp4", {"no such file"}},
-           {"",
-            "render step.yaml -o new.mp4",
-            {"`touchdown simulate` makes such a log of a scenario"}}}) {
-    folder.write("x.yaml", std::string("name: tiny\nfit: {scenarios: [step.yaml]}\n"
-                                       "test: {scenarios: [step.yaml]}\n") +
-                               added);
-    const Ended ended = touchdown_program(command, folder.path());
-    EXPECT_EQ(ended.exit_code, 2) << command;
-    EXPECT_EQ(ended.output, "") << command;
-    EXPECT_EQ(std::count(ended.errors.begin(), ended.errors.end(), '\n'), 1) << ended.errors;
-    EXPECT_THAT(ended.errors, StartsWith("touchdown: ")) << command;
-    for (const std::string& word : words) EXPECT_THAT(ended.errors, HasSubstr(word)) << command;
-  }
-  EXPECT_FALSE(std::filesystem::exists(folder / "new.mpack"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "new.mp4"));
-}
-
-TEST(Help, BeginsWithAnExample) {
-  for (const std::string verb : {"", "run", "simulate", "render", "fit", "estimate"}) {
-    const Ended ended = touchdown_program(verb + " --help", ScratchFolder().path());
-    EXPECT_EQ(ended.exit_code, 0);
-    EXPECT_THAT(ended.output, StartsWith("touchdown " + (verb.empty() ? "run" : verb) + " "));
-  }
-}
-
-TEST(List, NamesExperimentsScenariosEnginesAndEstimators) {
-  const Ended ended = touchdown_program("list", ScratchFolder().path());
-  EXPECT_EQ(ended.exit_code, 0);
-  for (const char* name : {"experiments/stairs.yaml", "scenarios/stairs.yaml", "mujoco", "bullet",
-                           "robust", "always_contact"}) {
-    EXPECT_THAT(ended.output, HasSubstr(name));
-  }
-}
-
-TEST(List, DescribesEachFileInOneShortSentence) {
-  constexpr std::size_t longest = 95;
-  const Ended ended = touchdown_program("list", ScratchFolder().path());
-  const std::regex file_line("\n  \\S+\\.yaml +([^\n]*)");
-  int files = 0;
-  for (std::sregex_iterator found(ended.output.begin(), ended.output.end(), file_line), end;
-       found != end; ++found, ++files) {
-    const std::string sentence = found->str(1);
-    EXPECT_THAT(sentence, ::testing::EndsWith("."));
-    EXPECT_LE(width(sentence), longest) << sentence;
-  }
-  EXPECT_GE(files, 50);
-}
+namespace fs = std::filesystem;
 
 /// All matches of a group in a text.
 std::vector<std::string> found_in(const std::string& text, const char* pattern) {
@@ -126,25 +32,103 @@ std::vector<std::string> found_in(const std::string& text, const char* pattern) 
   return found;
 }
 
+using WrongRequest = InFolder;
+
+TEST_F(WrongRequest, IsOneLineWithThePlaceAndTheNearestName) {
+  write_tiny_experiment(folder_);
+  folder_.write("x.mpack", "no log");
+  folder_.write("broken.yaml", "name: [tiny\n");
+  folder_.expect_refusals(
+      {{"rnu x.yaml", {"unknown command 'rnu'", "did you mean 'run'?"}},
+       {"run", {"experiment"}},
+       {"run experiments/stiars.yaml",
+        {"experiments/stiars.yaml: no such file", "did you mean 'experiments/stairs.yaml'?"}},
+       {"run tiny.yaml --set noise.sedes=3", {"did you mean 'seeds'?"}},
+       {"run tiny.yaml --set noise", {"key=value"}},
+       {"run broken.yaml", {"not valid YAML"}},
+       {"run experiments/nmn.yaml",
+        {"experiments/nmn.yaml: is a training file; try: touchdown train "}},
+       {"run scenarios/stairs.yaml",
+        {"scenarios/stairs.yaml: is a scenario; try: touchdown simulate "}},
+       {"simulate experiments/stairs.yaml -o new.mpack",
+        {"experiments/stairs.yaml: is an experiment; try: touchdown run "}},
+       {"simulate step.yaml --simulator bulet -o new.mpack", {"bullet"}},
+       {"render x.mpack -o new.mp4", {"x.mpack"}},
+       {"render missing.mpack -o new.mp4", {"missing.mpack"}},
+       {"render scenarios/stairs.yaml -o new.mp4", {"no such file"}},
+       {"render step.yaml -o new.mp4", {"`touchdown simulate` makes such a log of a scenario"}}});
+  EXPECT_FALSE(folder_.has("new.mpack"));
+  EXPECT_FALSE(folder_.has("new.mp4"));
+}
+
+TEST_F(WrongRequest, InAnExperimentIsNamedWithItsLine) {
+  write_tiny_experiment(folder_);
+  for (const auto& [added, texts] : std::vector<std::pair<std::string, std::vector<std::string>>>{
+           {"sensors: noise/profiles/upkei.yaml",
+            {"x.yaml:4:10: sensors: noise/profiles/upkei.yaml: no such file",
+             "did you mean 'noise/profiles/upkie.yaml'?"}},
+           {"noise:\n  sedes: 3", {"x.yaml:5:3: noise.sedes", "did you mean 'seeds'?"}},
+           {"seed: many", {"x.yaml:4:7: seed", "expected a whole number"}},
+           {"noise: {seeds: 0}", {"noise.seeds", "from 1 to"}},
+           {"simulators: [mujco]", {"x.yaml:4:14: simulators", "did you mean 'mujoco'?"}},
+           {"estimators: [robst]", {"did you mean 'robust'?"}},
+           {"highlights: [{torque: 0.5, accelerometer: 0.0}]", {"highlights.0.torque"}}}) {
+    folder_.write("x.yaml",
+                  "name: tiny\nfit: {scenarios: [step.yaml]}\n"
+                  "test: {scenarios: [step.yaml]}\n" +
+                      added + "\n");
+    folder_.expect_refusals({{"run x.yaml", texts}, {"run x.yaml --dry-run", texts}});
+  }
+}
+
+using Help = InFolder;
+
+TEST_F(Help, BeginsWithAnExample) {
+  for (const std::string verb : {"", "run", "simulate", "render", "fit", "estimate"}) {
+    EXPECT_THAT(folder_.output_of(verb + " --help"),
+                StartsWith("touchdown " + (verb.empty() ? "run" : verb) + " "));
+  }
+}
+
+TEST_F(Help, ListsExperimentsScenariosEnginesAndEstimatorsInOneShortSentenceEach) {
+  constexpr std::size_t longest = 95;
+  const std::string listed = folder_.output_of("list");
+  for (const char* name :
+       {"experiments/stairs.yaml", "scenarios/stairs.yaml", "mujoco", "bullet", "robust",
+        "always_contact", "noise/profiles/upkie.yaml   Upkie: servos by moteus",
+        "noise/profiles/harsh.yaml"}) {
+    EXPECT_THAT(listed, HasSubstr(name));
+  }
+  const std::vector<std::string> sentences = found_in(listed, "\n  \\S+\\.yaml +([^\n]*)");
+  EXPECT_GE(sentences.size(), 50U);
+  for (const std::string& sentence : sentences) {
+    EXPECT_THAT(sentence, ::testing::EndsWith("."));
+    EXPECT_LE(width(sentence), longest) << sentence;
+  }
+}
+
 struct VerbFlags {
   std::string verb;  ///< empty for the program itself
   std::vector<std::string> long_flags;
 };
 
-/// Every verb that is built, with the long flags that its help lists.
-std::vector<VerbFlags> all_flags(const std::filesystem::path& folder) {
-  std::vector<std::string> verbs =
-      found_in(touchdown_program("--help", folder).output, "\n  ([a-z]+)  +touchdown ");
-  verbs.insert(verbs.begin(), "");
-  std::vector<VerbFlags> all;
-  for (const std::string& verb : verbs) {
-    const Ended help = touchdown_program(verb + " --help", folder);
-    if (help.exit_code != 0) continue;  // `train` and `watch` are programs of their own
-    const std::string options = help.output.substr(help.output.find("Options:"));
-    all.push_back({verb, found_in(options, "\n  (?:-[a-z],)?(--[a-z-]+)")});
+class UnknownFlag : public InFolder {
+ protected:
+  /// Every verb that is built, with the long flags that its help lists.
+  std::vector<VerbFlags> all_flags() const {
+    std::vector<std::string> verbs =
+        found_in(folder_.output_of("--help"), "\n  ([a-z]+)  +touchdown ");
+    verbs.insert(verbs.begin(), "");
+    std::vector<VerbFlags> all;
+    for (const std::string& verb : verbs) {
+      const Ended help = folder_.run(verb + " --help");
+      if (help.exit_code != 0) continue;  // `train` and `watch` are programs of their own
+      const std::string options = help.output.substr(help.output.find("Options:"));
+      all.push_back({verb, found_in(options, "\n  (?:-[a-z],)?(--[a-z-]+)")});
+    }
+    return all;
   }
-  return all;
-}
+};
 
 struct Typo {
   const char* kind;
@@ -197,69 +181,129 @@ bool is_ambiguous(const std::string& typo, const std::string& flag, const VerbFl
 }
 
 // Each flag with the next kind of typo, so that each kind meets many flags.
-TEST(UnknownFlag, OfAnyCommandNamesTheFlagThatWasMeant) {
-  const ScratchFolder folder;
+TEST_F(UnknownFlag, OfAnyCommandNamesTheFlagThatWasMeant) {
   std::size_t next = 0;
   int tried = 0;
   std::set<std::string> kinds;
-  for (const VerbFlags& verb : all_flags(folder.path())) {
+  for (const VerbFlags& verb : all_flags()) {
     for (const std::string& flag : verb.long_flags) {
       if (flag.size() < 6) continue;  // a typo of "--to" is near to anything
       const Typo& typo = typos().at(next++ % typos().size());
       const std::string word = typo.of(flag);
       if (is_other_flag(word, verb) || is_ambiguous(word, flag, verb)) continue;
-      SCOPED_TRACE(fmt::format("{} {} ({})", verb.verb, word, typo.kind));
-      const Ended ended = touchdown_program(fmt::format("{} {}", verb.verb, word), folder.path());
-      EXPECT_EQ(ended.exit_code, 2);
-      EXPECT_EQ(std::count(ended.errors.begin(), ended.errors.end(), '\n'), 1) << ended.errors;
-      EXPECT_THAT(ended.errors, HasSubstr(fmt::format("unknown flag '{}' (did you mean '{}'?)",
-                                                      word.substr(0, word.find('=')), flag)));
+      SCOPED_TRACE(typo.kind);
+      folder_.expect_refusals({{fmt::format("{} {}", verb.verb, word),
+                                {fmt::format("unknown flag '{}' (did you mean '{}'?)",
+                                             word.substr(0, word.find('=')), flag)}}});
       kinds.insert(typo.kind);
       ++tried;
     }
+    // One that is near no flag lists all of them.
+    folder_.expect_refusals({{verb.verb + " --qqqqqqqqqqqqqqqqqqqq x", verb.long_flags}});
   }
   EXPECT_GE(tried, 80);
   EXPECT_EQ(kinds.size(), typos().size());
 }
 
-TEST(UnknownFlag, ThatIsNearNoFlagListsAllOfThem) {
-  const ScratchFolder folder;
-  for (const VerbFlags& verb : all_flags(folder.path())) {
-    const Ended ended = touchdown_program(verb.verb + " --qqqqqqqqqqqqqqqqqqqq x", folder.path());
-    EXPECT_EQ(ended.exit_code, 2);
-    for (const std::string& flag : verb.long_flags) {
-      EXPECT_THAT(ended.errors, HasSubstr(flag)) << verb.verb;
-    }
-  }
-}
-
-TEST(UnknownFlag, OfOneLetterNamesAFlagThatBeginsWithIt) {
-  const ScratchFolder folder;
-  EXPECT_THAT(touchdown_program("-v", folder.path()).errors,
-              HasSubstr("did you mean '--version'?"));
-  EXPECT_THAT(touchdown_program("estimate -e x log", folder.path()).errors,
-              HasSubstr("did you mean '--estimator'?"));
-  EXPECT_THAT(touchdown_program("fit -z", folder.path()).errors, HasSubstr("known: "));
-}
-
-TEST(UnknownFlag, ThatIsAFileShowsHowToNameIt) {
-  const ScratchFolder folder;
-  for (const char* name : {"-run.mpack", "--out", "-r"}) {
-    folder.write(name, "");
-    EXPECT_THAT(touchdown_program(fmt::format("check {}", name), folder.path()).errors,
-                HasSubstr(fmt::format("unknown flag '{0}': write ./{0} for the file", name)));
+TEST_F(UnknownFlag, OfOneLetterOrOfAFileShowsWhatWasMeant) {
+  folder_.expect_refusals({{"-v", {"did you mean '--version'?"}},
+                           {"estimate -e x log", {"did you mean '--estimator'?"}},
+                           {"fit -z", {"known: "}}});
+  for (const std::string name : {"-run.mpack", "--out", "-r"}) {
+    folder_.write(name, "");
+    folder_.expect_refusals(
+        {{"check " + name, {fmt::format("unknown flag '{0}': write ./{0} for the file", name)}}});
   }
 }
 
 // A complaint about something else must not hide the flag.
-TEST(UnknownFlag, IsNamedAlsoIfMoreIsWrong) {
-  const ScratchFolder folder;
-  for (const char* line :
-       {"run --overwritee", "run a b c --overwritee", "run --overwritee x.yaml --out"}) {
-    EXPECT_THAT(touchdown_program(line, folder.path()).errors,
-                HasSubstr("unknown flag '--overwritee' (did you mean '--overwrite'?)"))
-        << line;
+TEST_F(UnknownFlag, IsNamedAlsoIfMoreIsWrong) {
+  const std::string flag = "unknown flag '--overwritee' (did you mean '--overwrite'?)";
+  folder_.expect_refusals({{"run --overwritee", {flag}},
+                           {"run a b c --overwritee", {flag}},
+                           {"run --overwritee x.yaml --out", {flag}}});
+}
+
+/// No request changes the files that it reads.
+class Overwrite : public InFolder {
+ protected:
+  Overwrite() {
+    logs::write_recording(test::synthetic_log(2.0), folder_ / "a.mpack");
+    logs::write_recording(test::synthetic_log(1.0), folder_ / "a.dat");
+    write_tiny_experiment(folder_);
+    fs::create_symlink("a.mpack", folder_ / "soft.mpack");
+    fs::create_hard_link(folder_ / "a.mpack", folder_ / "hard.mpack");
+    folder_.write("robot.xml", read_file(TOUCHDOWN_SOURCE_DIR "/models/upkie.xml"));
+    folder_.write("own_robot.yaml", fmt::format("robot: robot.xml\n{}", folder_.text("step.yaml")));
+    folder_.output_of("fit a.mpack -o m.npz --grid 20 20");
+    fs::rename(folder_ / "m.npz", folder_ / "m.csv");
   }
+
+  std::map<std::string, std::string> files() const {
+    std::map<std::string, std::string> contents;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_.path())) {
+      const std::string name = entry.path().filename().string();
+      if (name == ".stdout" || name == ".stderr") continue;
+      contents[entry.path().string()] =
+          entry.is_symlink()        ? fmt::format("-> {}", fs::read_symlink(entry.path()).string())
+          : entry.is_regular_file() ? read_file(entry.path())
+                                    : "";
+    }
+    return contents;
+  }
+
+  /// Every command is refused, and changes no file.
+  void expect_refusals(const std::vector<Refusal>& refusals) const {
+    const auto before = files();
+    for (const Refusal& refusal : refusals) {
+      folder_.expect_refusals({refusal});
+      EXPECT_TRUE(files() == before) << refusal.arguments << " changed a file";
+    }
+  }
+};
+
+TEST_F(Overwrite, OfALogByItsFitIsRefused) {
+  for (const std::string name : {"a.mpack", "./a.mpack", "soft.mpack", "hard.mpack"}) {
+    expect_refusals(
+        {{"fit a.mpack -o " + name, {"is the log itself"}},
+         {"fit --contact hard.mpack --no-contact a.dat -o " + name, {"is the log itself"}}});
+  }
+}
+
+TEST_F(Overwrite, OfAnythingThatACommandReadsIsRefused) {
+  // A figure also writes its data and its script.
+  fs::create_hard_link(folder_ / "a.mpack", folder_ / "style.gp");
+  fs::create_directories(folder_ / "run" / "recordings");
+  fs::copy(folder_ / "a.mpack", folder_ / "run" / "recordings" / "a.mpack");
+  folder_.write("run/config.yaml", "name: x\n");
+  fs::create_symlink("both.csv", folder_ / "link.mpack");
+  folder_.write("both.csv", "");
+  const std::string estimate = "estimate a.mpack --model m.csv ";
+  expect_refusals({{estimate + "-o ./a.mpack", {"is the log itself"}},
+                   {estimate + "-o soft.mpack", {"is the log itself"}},
+                   {estimate + "-o hard.mpack", {"is the log itself"}},
+                   {estimate + "-o m.csv", {"m.csv: is the model itself"}},
+                   {"estimate - --model m.csv -o ./a.mpack <a.mpack", {"is the log itself"}},
+                   {"estimate a.dat --model m.csv --figure a.png", {"a.dat: is the log itself"}},
+                   {estimate + "--figure new.png", {"style.gp: is the log itself"}},
+                   {estimate + "-o both.csv -o link.mpack", {"written twice"}},
+                   {"simulate step.yaml -o ./step.yaml", {"is the scenario itself"}},
+                   {"simulate own_robot.yaml -o robot.xml", {"is the robot itself"}},
+                   {"simulate step.yaml -o /dev/null", {"/dev/null: is a device"}},
+                   {"render a.mpack -o soft.mpack", {"is the recording itself"}},
+                   {"render a.mpack --poster -o hard.mpack", {"is the recording itself"}},
+                   {"render run -o run/recordings/a.mpack", {"is the run's own file itself"}},
+                   {"render run -o run/config.yaml", {"is the run's config.yaml itself"}}});
+}
+
+TEST_F(Overwrite, IsRefusedFirstByTheOutputsExtension) {
+  expect_refusals(
+      {{"simulate step.yaml -o run.mp4",
+        {"run.mp4: expected a recording with the extension .mpack"}},
+       {"fit a.mpack -o model.txt", {"model.txt: expected a model with the extension .npz"}},
+       {"render a.mpack -o film.avi", {"film.avi: expected a film with the extension .mp4"}},
+       {"render a.mpack --poster -o film.mp4",
+        {"film.mp4: expected a picture with the extension .png or .jpg"}}});
 }
 
 }  // namespace

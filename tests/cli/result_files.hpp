@@ -48,5 +48,9 @@ inline std::vector<std::string> different_files(const std::map<std::string, std:
   }
   return names;
 }
+inline std::vector<std::string> different_files(const std::filesystem::path& a,
+                                                const std::filesystem::path& b) {
+  return different_files(result_files(a), result_files(b));
+}
 
 }  // namespace touchdown::cli

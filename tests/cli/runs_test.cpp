@@ -35,27 +35,35 @@ std::map<std::string, std::string> reproducible_files(const fs::path& run_direct
   return files;
 }
 
-void run_tiny(const ScratchFolder& folder, const std::string& flags) {
-  const Ended ended = touchdown_program("run tiny.yaml " + flags, folder.path());
-  ASSERT_EQ(ended.exit_code, 0) << ended.errors;
-}
+/// A folder with the tiny experiment.
+struct Run : InFolder {
+  Run() { write_tiny_experiment(folder_); }
+  std::string run_tiny(const std::string& flags) const {
+    return folder_.output_of("run tiny.yaml " + flags);
+  }
+  std::map<std::string, std::string> files_of(const std::string& directory) const {
+    return reproducible_files(folder_ / directory);
+  }
+};
+using Simulate = Run;
 
-TEST(Run, GivesTheSameBytesInTwoProcessesAndWithOneAndFourThreads) {
-  const ScratchFolder folder;
-  write_tiny_experiment(folder);
-  run_tiny(folder, "--out a --set workers=4");
-  run_tiny(folder, "--out b --set workers=4");
-  run_tiny(folder, "--out c --set workers=1");
-  const auto first = reproducible_files(folder.path() / "a");
+TEST_F(Run, GivesTheSameBytesAgainWithAnyThreadsAndFromItsResolvedConfiguration) {
+  run_tiny("--no-pictures --out a --set workers=4");
+  run_tiny("--no-pictures --out b --set workers=4");
+  run_tiny("--no-pictures --out c --set workers=1");
+  folder_.output_of("run a/config.yaml --no-pictures --out d");
+  const auto first = files_of("a");
   EXPECT_EQ(first.count("tables/success.csv"), 1U);
   EXPECT_EQ(first.count("recordings/bullet_step_test_002.mpack"), 1U);
-  for (const char* other : {"b", "c"}) {
-    const auto files = reproducible_files(folder.path() / other);
+  for (const char* other : {"b", "c", "d"}) {
+    const auto files = files_of(other);
     ASSERT_EQ(files.size(), first.size());
     for (const auto& [name, content] : first) {
       EXPECT_TRUE(files.at(name) == content) << name << " differs in " << other;
     }
   }
+  run_tiny("--no-pictures --out e --set seed=4");
+  EXPECT_NE(first.at("tables/success.csv"), folder_.text("e/tables/success.csv"));
 }
 
 /// The cells of a CSV file without quotes, by row.
@@ -70,32 +78,30 @@ std::vector<std::vector<std::string>> cells_of(const fs::path& csv) {
   return rows;
 }
 
-TEST(Run, DrawsFiguresThatAgreeWithItsTables) {
-  const ScratchFolder folder;
-  write_tiny_experiment(folder);
-  run_tiny(folder, "--out a");
-  const std::string report = read_file(folder / "a/report.html");
+TEST_F(Run, DrawsFiguresThatAgreeWithItsTables) {
+  run_tiny("--out a");
+  const std::string report = folder_.text("a/report.html");
   for (const char* figure : {"error", "densities", "reliability", "latency"}) {
     for (const char* engine : {"mujoco", "bullet"}) {
       const std::string name = std::string("a/figures/") + figure + "_" + engine;
       for (const char* kind : {".png", ".svg", ".pdf", ".gp", ".dat"}) {
-        EXPECT_TRUE(fs::exists(folder / (name + kind))) << name << kind;
+        EXPECT_TRUE(folder_.has(name + kind)) << name << kind;
       }
       EXPECT_THAT(report, HasSubstr(name.substr(2) + ".dat"));
     }
-    EXPECT_THAT(read_file(folder / (std::string("a/figures/") + figure + "_mujoco.gp")),
+    EXPECT_THAT(folder_.text(std::string("a/figures/") + figure + "_mujoco.gp"),
                 HasSubstr("contact: normal force > 1 N, states under 5 ms merged"));
   }
-  EXPECT_THAT(read_file(folder / "a/figures/latency_mujoco.gp"),
+  EXPECT_THAT(folder_.text("a/figures/latency_mujoco.gp"),
               HasSubstr("# Caption: 3 test runs × 2 noise seeds"));
   // For both wheels pooled, the figure's detected events are those of the table.
-  const std::string latency = read_file(folder / "a/figures/latency_mujoco.dat");
-  const std::string reliability = read_file(folder / "a/figures/reliability_mujoco.dat");
+  const std::string latency = folder_.text("a/figures/latency_mujoco.dat");
+  const std::string reliability = folder_.text("a/figures/reliability_mujoco.dat");
   const auto column = [](const std::vector<std::string>& header, const std::string& name) {
     return static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
   };
-  const auto found = cells_of(folder / "a/tables/latency.csv");
-  const auto events = cells_of(folder / "a/tables/transitions.csv");
+  const auto found = cells_of(folder_ / "a/tables/latency.csv");
+  const auto events = cells_of(folder_ / "a/tables/transitions.csv");
   int rows = 0;
   for (std::size_t r = 1; r < found.size(); ++r) {
     if (found[r][0] != "mujoco" || found[r][4] != "wheels" || found[r][1] == "always_contact") {
@@ -108,47 +114,27 @@ TEST(Run, DrawsFiguresThatAgreeWithItsTables) {
     ++rows;
   }
   EXPECT_EQ(rows, 3);
-  for (const auto& row : cells_of(folder / "a/tables/reliability.csv")) {
+  for (const auto& row : cells_of(folder_ / "a/tables/reliability.csv")) {
     if (row[0] != "mujoco" || row[4] != "wheels" || row[1] != "robust" || row[6] == "0") continue;
     EXPECT_THAT(reliability, HasSubstr("\t" + row[6] + "\n"));
   }
 }
 
-TEST(Run, GivesOtherNumbersForAnotherSeed) {
-  const ScratchFolder folder;
-  write_tiny_experiment(folder);
-  run_tiny(folder, "--out a");
-  run_tiny(folder, "--out b --set seed=4");
-  EXPECT_NE(read_file(folder.path() / "a/tables/success.csv"),
-            read_file(folder.path() / "b/tables/success.csv"));
-}
-
-TEST(Run, LeavesADirectoryThatExplainsItself) {
-  const ScratchFolder folder;
-  write_tiny_experiment(folder);
-  run_tiny(folder, "");
-  const fs::path latest = folder.path() / "runs/tiny/latest";
-  ASSERT_TRUE(fs::is_symlink(latest));
-  EXPECT_THAT(read_file(latest / "tables/success.csv"),
-              StartsWith("simulator,estimator,torque_noise_nm,accelerometer_noise_mps2,success,"
-                         "success_low,success_high"));
-  EXPECT_THAT(read_file(latest / "tables/classification.csv"), HasSubstr("contact_precision,"));
-  EXPECT_THAT(read_file(latest / "tables/success.csv"), HasSubstr("bullet,always_contact,1,5,"));
+TEST_F(Run, ExplainsItselfAndEndsWithResultsPathsAndNextCommands) {
+  const std::string output = run_tiny("--out a");
+  EXPECT_THAT(folder_.text("a/tables/success.csv"),
+              AllOf(StartsWith("simulator,estimator,torque_noise_nm,accelerometer_noise_mps2,"
+                               "success,success_low,success_high"),
+                    HasSubstr("bullet,always_contact,1,5,")));
+  EXPECT_THAT(folder_.text("a/tables/classification.csv"), HasSubstr("contact_precision,"));
   for (const char* key :
        {"\"versions\"", "\"commit\": \"", "\"seeds\"", "\"host\"", "\"timings_s\""}) {
-    EXPECT_THAT(read_file(latest / "manifest.json"), HasSubstr(key));
+    EXPECT_THAT(folder_.text("a/manifest.json"), HasSubstr(key));
   }
-}
-
-TEST(Run, EndsWithResultsPathsAndNextCommands) {
-  const ScratchFolder folder;
-  write_tiny_experiment(folder);
-  const Ended ended = touchdown_program("run tiny.yaml --out a", folder.path());
-  ASSERT_EQ(ended.exit_code, 0) << ended.errors;
-  const std::string last = ended.output.substr(ended.output.find("Contact accuracy"));
+  const std::string last = output.substr(output.find("Contact accuracy"));
   EXPECT_THAT(last, StartsWith("Contact accuracy, torque noise 1 N·m, "
                                "accelerometer noise 5 m/s²\n"));
-  for (const auto& row : cells_of(folder / "a/tables/success.csv")) {
+  for (const auto& row : cells_of(folder_ / "a/tables/success.csv")) {
     if (row[1] != "robust" || row[2] != "1" || row[3] != "5") continue;
     EXPECT_THAT(last, HasSubstr(fmt::format("{:.3f} [{:.3f}, {:.3f}]", std::stod(row[4]),
                                             std::stod(row[5]), std::stod(row[6]))));
@@ -159,88 +145,61 @@ TEST(Run, EndsWithResultsPathsAndNextCommands) {
   }
 }
 
-TEST(Run, OfItsOwnResolvedConfigurationGivesTheSameResults) {
-  const ScratchFolder folder;
-  write_tiny_experiment(folder);
-  run_tiny(folder, "--out a");
-  const Ended ended = touchdown_program("run a/config.yaml --out b", folder.path());
-  ASSERT_EQ(ended.exit_code, 0) << ended.errors;
-  EXPECT_EQ(reproducible_files(folder.path() / "a"), reproducible_files(folder.path() / "b"));
-}
-
-TEST(Run, UsesExistingRecordings) {
-  const ScratchFolder folder;
-  write_tiny_experiment(folder);
-  run_tiny(folder, "--out a");
-  const fs::path recording = folder.path() / "a/recordings/mujoco_step_test_000.mpack";
+TEST_F(Run, UsesExistingRecordings) {
+  run_tiny("--no-pictures --out a");
+  const fs::path recording = folder_ / "a/recordings/mujoco_step_test_000.mpack";
   const auto written = fs::last_write_time(recording);
-  const auto before = reproducible_files(folder.path() / "a");
-  fs::remove(folder.path() / "a/recordings/mujoco_step_test_001.mpack");
-  run_tiny(folder, "--out a");
+  const auto before = files_of("a");
+  fs::remove(folder_ / "a/recordings/mujoco_step_test_001.mpack");
+  run_tiny("--no-pictures --out a");
   EXPECT_EQ(fs::last_write_time(recording), written);
-  EXPECT_EQ(reproducible_files(folder.path() / "a"), before);
+  EXPECT_EQ(files_of("a"), before);
 }
 
-TEST(Run, KeepsTheRequestedRecordingsAndTheSameTables) {
-  const ScratchFolder folder;
-  write_tiny_experiment(folder);
-  run_tiny(folder, "--no-pictures --out all");
-  run_tiny(folder, "--no-pictures --out pictured --set recordings=pictured --set video.run=1");
-  run_tiny(folder, "--no-pictures --out none --set recordings=none");
-  EXPECT_EQ(names_in(folder.path() / "all/recordings").size(), 8U);
-  EXPECT_THAT(names_in(folder.path() / "pictured/recordings"),
+TEST_F(Run, KeepsTheRequestedRecordingsAndTheSameTables) {
+  run_tiny("--no-pictures --out all");
+  run_tiny("--no-pictures --out pictured --set recordings=pictured --set video.run=1");
+  run_tiny("--no-pictures --out none --set recordings=none");
+  EXPECT_EQ(names_in(folder_ / "all/recordings").size(), 8U);
+  EXPECT_THAT(names_in(folder_ / "pictured/recordings"),
               ElementsAre("bullet_step_test_001.mpack", "mujoco_step_test_001.mpack"));
-  EXPECT_FALSE(fs::exists(folder.path() / "none/recordings"));
-  EXPECT_EQ(read_file(folder.path() / "pictured/recordings/bullet_step_test_001.mpack"),
-            read_file(folder.path() / "all/recordings/bullet_step_test_001.mpack"));
-  auto all = reproducible_files(folder.path() / "all");
+  EXPECT_FALSE(folder_.has("none/recordings"));
+  EXPECT_EQ(folder_.text("pictured/recordings/bullet_step_test_001.mpack"),
+            folder_.text("all/recordings/bullet_step_test_001.mpack"));
+  auto all = files_of("all");
   for (const char* other : {"pictured", "none"}) {
-    for (const auto& [name, content] : reproducible_files(folder.path() / other)) {
+    for (const auto& [name, content] : files_of(other)) {
       if (name == "config.yaml") continue;
       EXPECT_EQ(content, all[name]) << name << " of " << other;
     }
   }
 }
 
-TEST(Run, WithoutRecordingsContinuesAndMergesToTheSameBytes) {
-  const ScratchFolder folder;
-  write_tiny_experiment(folder);
+TEST_F(Run, WithoutRecordingsContinuesAndMergesToTheSameBytes) {
   const std::string none = "--no-pictures --set recordings=none --out ";
-  run_tiny(folder, none + "whole");
-  const auto whole = reproducible_files(folder.path() / "whole");
-  run_tiny(folder, none + "whole");
-  EXPECT_EQ(reproducible_files(folder.path() / "whole"), whole);
-  run_tiny(folder, none + "parts --shard 2/2");
-  run_tiny(folder, none + "parts --shard 1/2");
-  const Ended merged = touchdown_program("merge parts --no-pictures", folder.path());
-  ASSERT_EQ(merged.exit_code, 0) << merged.errors;
-  EXPECT_EQ(reproducible_files(folder.path() / "parts"), whole);
+  run_tiny(none + "whole");
+  const auto whole = files_of("whole");
+  run_tiny(none + "whole");
+  EXPECT_EQ(files_of("whole"), whole);
+  run_tiny(none + "parts --shard 2/2");
+  run_tiny(none + "parts --shard 1/2");
+  folder_.output_of("merge parts --no-pictures");
+  EXPECT_EQ(files_of("parts"), whole);
 }
 
-TEST(Run, ThatIsFilmedNeedsRecordings) {
-  const ScratchFolder folder;
-  write_tiny_experiment(folder);
-  const Ended ended = touchdown_program(
-      "run tiny.yaml --set recordings=none --set video.enabled=true", folder.path());
-  EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_THAT(ended.errors, AllOf(HasSubstr("recordings: expected all or pictured"),
-                                  HasSubstr("none goes with video.enabled: false")));
+TEST_F(Run, ThatIsFilmedNeedsRecordings) {
+  folder_.expect_refusals(
+      {{"run tiny.yaml --set recordings=none --set video.enabled=true",
+        {"recordings: expected all or pictured", "none goes with video.enabled: false"}}});
 }
 
-TEST(Simulate, RecordsTheSameRunTwice) {
-  const ScratchFolder folder;
-  write_tiny_experiment(folder);
-  for (const std::string name : {"a", "b"}) {
-    const Ended ended = touchdown_program(
-        "simulate step.yaml --simulator bullet --run 1 --seed 9 -o " + name + ".mpack",
-        folder.path());
-    EXPECT_EQ(ended.exit_code, 0) << ended.errors;
-    EXPECT_THAT(ended.output, HasSubstr("step"));
-  }
-  EXPECT_EQ(read_file(folder.path() / "a.mpack"), read_file(folder.path() / "b.mpack"));
-  touchdown_program("simulate step.yaml --simulator bullet --run 2 --seed 9 -o c.mpack",
-                    folder.path());
-  EXPECT_NE(read_file(folder.path() / "a.mpack"), read_file(folder.path() / "c.mpack"));
+TEST_F(Simulate, RecordsTheSameRunTwice) {
+  const std::string simulate = "simulate step.yaml --simulator bullet --seed 9 --run ";
+  EXPECT_THAT(folder_.output_of(simulate + "1 -o a.mpack"), HasSubstr("step"));
+  folder_.output_of(simulate + "1 -o b.mpack");
+  folder_.output_of(simulate + "2 -o c.mpack");
+  EXPECT_EQ(folder_.text("a.mpack"), folder_.text("b.mpack"));
+  EXPECT_NE(folder_.text("a.mpack"), folder_.text("c.mpack"));
 }
 
 }  // namespace

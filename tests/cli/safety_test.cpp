@@ -6,11 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/files.hpp"
 #include "experiments/run_directory/lock.hpp"
 #include "experiments/run_directory/own_files.hpp"
+#include "program.hpp"
 #include "result_files.hpp"
-#include "started_program.hpp"
 
 namespace touchdown::cli {
 namespace {
@@ -19,23 +18,8 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::StartsWith;
 
 namespace fs = std::filesystem;
-
-/// The one-line message of a command that is refused.
-std::string refusal(const ScratchFolder& folder, const std::string& arguments, int code = 2) {
-  const Ended ended = touchdown_program(arguments, folder.path());
-  EXPECT_EQ(ended.exit_code, code) << arguments << ": " << ended.errors;
-  EXPECT_EQ(ended.output, "");
-  EXPECT_EQ(std::count(ended.errors.begin(), ended.errors.end(), '\n'), 1) << ended.errors;
-  return ended.errors;
-}
-
-void succeed(const ScratchFolder& folder, const std::string& arguments) {
-  const Ended ended = touchdown_program(arguments, folder.path());
-  ASSERT_EQ(ended.exit_code, 0) << arguments << ": " << ended.errors;
-}
 
 /// Every file below a folder, by its path there.
 std::vector<std::string> files_below(const fs::path& folder) {
@@ -58,169 +42,165 @@ std::vector<std::string> untracked_files_in(const fs::path& directory) {
   return names;
 }
 
-TEST(RunDirectory, GoesIntoAFolderOfTheUsersAndTouchesNothingThere) {
-  const ScratchFolder folder;
-  const std::string run = "run " + write_tiny_experiment(folder) + " --no-pictures --out .";
+/// A folder with the tiny experiment.
+struct RunDirectory : InFolder {
+  const std::string run = "run " + write_tiny_experiment(folder_) + " --no-pictures --out ";
+
+  void write_precious(const std::vector<std::string>& files) const {
+    for (const std::string& file : files) folder_.write(file, "precious");
+  }
+  void expect_precious(const std::vector<std::string>& files) const {
+    for (const std::string& file : files) EXPECT_EQ(folder_.text(file), "precious") << file;
+  }
+};
+
+TEST_F(RunDirectory, GoesIntoAFolderOfTheUsersAndTouchesNothingThere) {
   const std::vector<std::string> theirs = {".my.part.notes", ".config/.a.partition", "deep/.x.part",
                                            "deep/.success.12.0abcdef0.part.csv", "notes.md"};
-  for (const std::string& file : theirs) folder.write(file, "precious");
-  succeed(folder, run);
-  succeed(folder, run);
-  for (const std::string& file : theirs) EXPECT_EQ(read_file(folder / file), "precious") << file;
+  write_precious(theirs);
+  folder_.output_of(run + ".");
+  folder_.output_of(run + ".");
+  expect_precious(theirs);
 }
 
-TEST(RunDirectory, IsNotMadeWhereTheUsersOwnFilesAre) {
+TEST_F(RunDirectory, IsNotMadeWhereTheUsersOwnFilesAre) {
   for (const std::string file : {"tables/thesis.csv", "config.yaml", "videos/deep/holiday.mp4"}) {
-    const ScratchFolder folder;
-    const std::string run = "run " + write_tiny_experiment(folder) + " --out mine --no-pictures";
-    folder.write("mine/" + file, "precious");
+    fs::remove_all(folder_ / "mine");
+    write_precious({"mine/" + file});
     const std::string there = file.substr(0, file.find("/holiday"));
     for (const char* more : {"", " --overwrite", " --dry-run", " --shard 1/2"}) {
-      EXPECT_THAT(refusal(folder, run + more),
-                  AllOf(HasSubstr("mine: " + there + " is there already"), HasSubstr("--out")));
+      folder_.expect_refusals(
+          {{run + "mine" + more, {"mine: " + there + " is there already", "--out"}}});
     }
-    EXPECT_THAT(files_below(folder / "mine"), ElementsAre(file));
-    EXPECT_EQ(read_file(folder / "mine" / file), "precious");
+    EXPECT_THAT(files_below(folder_ / "mine"), ElementsAre(file));
+    expect_precious({"mine/" + file});
   }
 }
 
-TEST(RunDirectory, KeepsItsExperimentUnlessAnotherMayOverwriteIt) {
-  const ScratchFolder folder;
-  const std::string run = "run " + write_tiny_experiment(folder) + " --no-pictures --out ";
-  succeed(folder, run + "a");
-  const auto before = result_files(folder / "a");
-  const std::string other = run + "a --set seed=4 --set estimators=[robust]";
+TEST_F(RunDirectory, KeepsItsExperimentUnlessAnotherMayOverwriteIt) {
+  folder_.output_of(run + "a");
+  const auto before = result_files(folder_ / "a");
+  const std::string changes = " --set seed=4 --set estimators=[robust]";
   for (const char* more : {"", " --dry-run", " --shard 1/2"}) {
-    EXPECT_THAT(refusal(folder, other + more),
-                AllOf(HasSubstr("a: holds experiment 'tiny' (request "), HasSubstr("--overwrite")));
+    folder_.expect_refusals(
+        {{run + "a" + changes + more, {"a: holds experiment 'tiny' (request ", "--overwrite"}}});
   }
-  EXPECT_EQ(result_files(folder / "a"), before);
+  EXPECT_EQ(result_files(folder_ / "a"), before);
   const std::vector<std::string> theirs = {"a/notes.md", "a/recordings/robot.mpack",
                                            "a/tables/notes.txt"};
-  for (const std::string& file : theirs) folder.write(file, "precious");
-  succeed(folder, other + " --overwrite");
-  for (const std::string& file : theirs) {
-    EXPECT_EQ(read_file(folder / file), "precious") << file;
-    fs::remove(folder / file);
+  write_precious(theirs);
+  folder_.output_of(run + "a --overwrite" + changes);
+  expect_precious(theirs);
+  for (const std::string& file : theirs) fs::remove(folder_ / file);
+  folder_.output_of(run + "b" + changes);
+  EXPECT_THAT(different_files(folder_ / "a", folder_ / "b"), IsEmpty());
+}
+
+TEST_F(RunDirectory, OfAnotherBuildIsComputedAnewWithoutAsking) {
+  folder_.output_of(run + "a");
+  const auto before = result_files(folder_ / "a");
+  const std::string key = folder_.text("a/state/key");
+  folder_.write("a/state/key", key.substr(0, key.find(" build ")) + " build 0123456789abcdef\n");
+  folder_.write("a/report.html", "of that build");
+  write_precious({"a/tables/notes.txt"});
+  folder_.expect_refusals({{"merge a", {"another build"}}});
+  folder_.output_of(run + "a");
+  EXPECT_EQ(folder_.text("a/state/key"), key);
+  EXPECT_FALSE(folder_.has("a/report.html"));
+  expect_precious({"a/tables/notes.txt"});
+  fs::remove(folder_ / "a/tables/notes.txt");
+  EXPECT_THAT(different_files(result_files(folder_ / "a"), before), IsEmpty());
+}
+
+TEST_F(RunDirectory, WithoutItsStateIsComputedAnew) {
+  folder_.output_of(run + "a");
+  const auto before = result_files(folder_ / "a");
+  fs::remove_all(folder_ / "a/state");
+  folder_.expect_refusals({{"merge a", {"a: holds no part of an experiment"}},
+                           {run + "a --set seed=4", {"a: holds experiment 'tiny'"}}});
+  folder_.output_of(run + "a");
+  EXPECT_EQ(result_files(folder_ / "a"), before);
+}
+
+TEST_F(RunDirectory, HoldsNoUntrackedFile) {
+  folder_.output_of(
+      "run tiny.yaml --out a --set video.enabled=true --set detail.seed=0 --set paper_tables=true "
+      "--set cross_simulator.sensitivity.runs=1");
+  EXPECT_TRUE(folder_.has("a/figures/detail_bullet_spectrum_1.dat"));
+  EXPECT_TRUE(folder_.has("a/videos/report.mp4"));
+  EXPECT_THAT(untracked_files_in(folder_ / "a"), IsEmpty());
+}
+
+TEST_F(RunDirectory, OfAKilledStartIsContinued) {
+  folder_.write("a/state/lock", "");
+  folder_.write("a/state/.key.12.0abcdef0.part", "half");
+  folder_.output_of(run + "a");
+  EXPECT_FALSE(folder_.has("a/state/.key.12.0abcdef0.part"));
+  fs::remove(folder_ / "a/config.yaml");
+  fs::remove(folder_ / "a/state/scenario_000.yaml");
+  folder_.output_of(run + "a --shard 1/2");
+  EXPECT_TRUE(folder_.has("a/config.yaml"));
+}
+
+TEST_F(RunDirectory, IsNotMadeOfARunThatExceedsTheMemory) {
+  for (const char* more : {"", " --dry-run", " --shard 1/3"}) {
+    folder_.expect_refusals(
+        {{run + "a --set test.runs=100000 --set noise.seeds=100000" + more,
+          {"test.runs=100000", "noise.seeds=100000", " GB of memory, and this machine has "}}},
+        1);
   }
-  succeed(folder, run + "b --set seed=4 --set estimators=[robust]");
-  EXPECT_THAT(different_files(result_files(folder / "a"), result_files(folder / "b")), IsEmpty());
+  EXPECT_FALSE(folder_.has("a"));
 }
 
-TEST(RunDirectory, OfAnotherBuildIsComputedAnewWithoutAsking) {
-  const ScratchFolder folder;
-  const std::string run = "run " + write_tiny_experiment(folder) + " --no-pictures --out ";
-  succeed(folder, run + "whole");
-  succeed(folder, run + "a");
-  const std::string key = read_file(folder / "a/state/key");
-  folder.write("a/state/key", key.substr(0, key.find(" build ")) + " build 0123456789abcdef\n");
-  folder.write("a/report.html", "of that build");
-  folder.write("a/tables/notes.txt", "precious");
-  EXPECT_THAT(refusal(folder, "merge a"), HasSubstr("another build"));
-  succeed(folder, run + "a");
-  EXPECT_EQ(read_file(folder / "a/state/key"), key);
-  EXPECT_FALSE(fs::exists(folder / "a/report.html"));
-  EXPECT_EQ(read_file(folder / "a/tables/notes.txt"), "precious");
-  fs::remove(folder / "a/tables/notes.txt");
-  EXPECT_THAT(different_files(result_files(folder / "a"), result_files(folder / "whole")),
-              IsEmpty());
-}
-
-TEST(RunDirectory, WithoutItsStateIsComputedAnew) {
-  const ScratchFolder folder;
-  const std::string run = "run " + write_tiny_experiment(folder) + " --no-pictures --out a";
-  succeed(folder, run);
-  const auto before = result_files(folder / "a");
-  fs::remove_all(folder / "a/state");
-  EXPECT_THAT(refusal(folder, "merge a"), HasSubstr("a: holds no part of an experiment"));
-  EXPECT_THAT(refusal(folder, run + " --set seed=4"), HasSubstr("a: holds experiment 'tiny'"));
-  succeed(folder, run);
-  EXPECT_EQ(result_files(folder / "a"), before);
-}
-
-TEST(RunDirectory, HoldsNoUntrackedFile) {
-  const ScratchFolder folder;
-  const std::string run = "run " + write_tiny_experiment(folder) +
-                          " --set video.enabled=true --set detail.seed=0 --set paper_tables=true"
-                          " --set cross_simulator.sensitivity.runs=1";
-  succeed(folder, run + " --out a");
-  EXPECT_TRUE(fs::exists(folder / "a/figures/detail_bullet_spectrum_1.dat"));
-  EXPECT_TRUE(fs::exists(folder / "a/videos/report.mp4"));
-  EXPECT_THAT(untracked_files_in(folder / "a"), IsEmpty());
-}
-
-TEST(RunDirectory, OfAKilledStartIsContinued) {
-  const ScratchFolder folder;
-  const std::string run = "run " + write_tiny_experiment(folder) + " --no-pictures --out a";
-  folder.write("a/state/lock", "");
-  folder.write("a/state/.key.12.0abcdef0.part", "half");
-  succeed(folder, run);
-  EXPECT_FALSE(fs::exists(folder / "a/state/.key.12.0abcdef0.part"));
-  fs::remove(folder / "a/config.yaml");
-  fs::remove(folder / "a/state/scenario_000.yaml");
-  succeed(folder, run + " --shard 1/2");
-  EXPECT_TRUE(fs::exists(folder / "a/config.yaml"));
-}
-
-TEST(Name, OfAScenarioOrAnExperimentLeadsNowhereElse) {
-  const ScratchFolder folder;
-  const std::string experiment = write_tiny_experiment(folder);
-  const std::vector<std::string> before = files_below(folder.path());
+TEST_F(RunDirectory, IsNotLeftByTheNameOfAScenarioOrAnExperiment) {
+  const std::vector<std::string> before = files_below(folder_.path());
   for (const std::string name : {"'../../../x'", "a/b", "''", "'a b'", "\"a\\x1b[31mb\"", "."}) {
-    folder.write("evil.yaml", "name: " + name + "\nterrain: {pieces: [{flat: {length: 3.0}}]}\n");
-    EXPECT_THAT(
-        refusal(folder, "run " + experiment + " --out b/c/d --set test.scenarios=[evil.yaml]"),
-        HasSubstr("evil.yaml:1:7: name: expected a word that can name a folder"));
-    EXPECT_THAT(refusal(folder, "simulate evil.yaml -o x.mpack"), HasSubstr("evil.yaml:1:7: name"));
-    fs::remove(folder / "evil.yaml");
+    folder_.write("evil.yaml", "name: " + name + "\nterrain: {pieces: [{flat: {length: 3.0}}]}\n");
+    folder_.expect_refusals({{"run tiny.yaml --out b/c/d --set test.scenarios=[evil.yaml]",
+                              {"evil.yaml:1:7: name: expected a word that can name a folder"}},
+                             {"simulate evil.yaml -o x.mpack", {"evil.yaml:1:7: name"}}});
   }
-  EXPECT_THAT(refusal(folder, "run " + experiment + " --set name=../x"),
-              HasSubstr("name: expected a word"));
-  std::vector<std::string> after = files_below(folder.path());
-  std::erase(after, ".stdout");
-  std::erase(after, ".stderr");
-  EXPECT_EQ(after, before);
+  folder_.expect_refusals({{"run tiny.yaml --set name=../x", {"name: expected a word"}}});
+  for (const char* name : {"evil.yaml", ".stdout", ".stderr"}) fs::remove(folder_ / name);
+  EXPECT_EQ(files_below(folder_.path()), before);
 }
 
-TEST(Lock, OfARunRefusesOtherWritersAndNamesItsOwner) {
-  const ScratchFolder folder;
-  const std::string run = "run " + write_long_experiment(folder) + " --out a";
+using Lock = RunDirectory;
+
+TEST_F(Lock, OfARunRefusesOtherWritersAndNamesItsOwner) {
+  const std::string long_run = "run " + write_long_experiment(folder_) + " --out a";
   {
-    StartedProgram running(run, folder.path());
-    while (running.is_running() && !fs::exists(folder / "a/config.yaml")) running.let_run(0.002);
+    StartedProgram running(long_run, folder_.path());
+    running.let_run_until([&] { return folder_.has("a/config.yaml"); });
     for (const std::string& other :
-         std::vector<std::string>{run, "merge a", "report a", "render a -o x.mp4",
+         std::vector<std::string>{long_run, "merge a", "report a", "render a -o x.mp4",
                                   "run x.yaml --set seed=4 --overwrite --out a"}) {
-      EXPECT_THAT(refusal(folder, other, 1),
-                  AllOf(StartsWith("touchdown: a: is in use by process "),
-                        HasSubstr(" --out a): wait until it has ended")));
+      folder_.expect_refusals(
+          {{other, {"touchdown: a: is in use by process ", " --out a): wait until it has ended"}}},
+          1);
     }
     EXPECT_TRUE(running.is_running());
     running.send(SIGKILL);
     running.end();
   }
   // A killed owner does not block others.
-  EXPECT_THAT(refusal(folder, "merge a"), HasSubstr("parts are missing"));
+  folder_.expect_refusals({{"merge a", {"parts are missing"}}});
 }
 
-TEST(Lock, OfAShardAdmitsOnlyOtherShards) {
-  const ScratchFolder folder;
-  const std::string run =
-      "run " + write_tiny_experiment(folder) + " --no-pictures --set noise.seeds=30 --out a";
-  StartedProgram first(run + " --shard 1/2 --set workers=1", folder.path());
-  while (first.is_running() && !fs::exists(folder / "a/state/shards/1_of_2")) first.let_run(0.002);
+TEST_F(Lock, OfAShardAdmitsOnlyOtherShards) {
+  const std::string longer = run + "a --set noise.seeds=30";
+  StartedProgram first(longer + " --shard 1/2 --set workers=1", folder_.path());
+  first.let_run_until([&] { return folder_.has("a/state/shards/1_of_2"); });
   first.send(SIGSTOP);
-  EXPECT_THAT(refusal(folder, "merge a", 1), HasSubstr("--shard 1/2"));
-  EXPECT_THAT(refusal(folder, run, 1), HasSubstr("a: is in use by process "));
-  succeed(folder, run + " --shard 2/2");
+  folder_.expect_refusals({{"merge a", {"--shard 1/2"}}, {longer, {"a: is in use by process "}}},
+                          1);
+  folder_.output_of(longer + " --shard 2/2");
   first.send(SIGCONT);
   EXPECT_EQ(first.end().exit_code, 0);
-  succeed(folder, "merge a --no-pictures");
+  folder_.output_of("merge a --no-pictures");
 }
 
-TEST(Lock, LeavesShardsThatStartTogetherToAgreeOnTheirDirectory) {
-  const ScratchFolder folder;
-  const std::string run = "run " + write_tiny_experiment(folder) + " --no-pictures --out ";
+TEST_F(Lock, LeavesShardsThatStartTogetherToAgreeOnTheirDirectory) {
   {
     // Each shard has a folder of its own for its output.
     std::vector<std::unique_ptr<ScratchFolder>> terminals;
@@ -228,46 +208,18 @@ TEST(Lock, LeavesShardsThatStartTogetherToAgreeOnTheirDirectory) {
     for (const char* shard : {"1/5", "2/5", "3/5", "4/5", "5/5"}) {
       terminals.push_back(std::make_unique<ScratchFolder>());
       const fs::path& terminal = terminals.back()->path();
-      fs::copy(folder.path(), terminal);
+      fs::copy(folder_.path(), terminal);
       shards.push_back(std::make_unique<StartedProgram>(
-          run + (folder / "a").string() + " --shard " + shard, terminal));
+          run + (folder_ / "a").string() + " --shard " + shard, terminal));
     }
     for (const auto& shard : shards) {
       const Ended ended = shard->end();
       EXPECT_EQ(ended.exit_code, 0) << ended.errors;
     }
   }
-  succeed(folder, "merge a --no-pictures");
-  succeed(folder, run + "whole");
-  EXPECT_THAT(different_files(result_files(folder / "a"), result_files(folder / "whole")),
-              IsEmpty());
-}
-
-TEST(Clean, LeavesRunsThatAreInUseAndUntrackedFiles) {
-  const ScratchFolder folder;
-  const std::string run =
-      "run " + write_tiny_experiment(folder) + " --no-pictures --set noise.seeds=";
-  std::vector<fs::path> directories;
-  for (const char* seeds : {"1", "2", "3"}) {
-    succeed(folder, run + seeds);
-    directories.push_back(fs::canonical(folder / "runs/tiny/latest"));
-  }
-  write_atomically(directories[0] / "notes.md", "precious");
-  {
-    const experiments::DirectoryLock held(directories[1], experiments::Access::shared,
-                                          "touchdown x");
-    const Ended cleaned = touchdown_program("clean", folder.path());
-    EXPECT_EQ(cleaned.exit_code, 0) << cleaned.errors;
-    EXPECT_THAT(cleaned.output,
-                AllOf(HasSubstr("1 untracked files remain"), HasSubstr("is in use by process"),
-                      HasSubstr("(touchdown x)")));
-  }
-  EXPECT_EQ(read_file(directories[0] / "notes.md"), "precious");
-  EXPECT_FALSE(fs::exists(directories[0] / "tables"));
-  EXPECT_TRUE(fs::exists(directories[1] / "tables/success.csv"));
-  succeed(folder, "clean");
-  EXPECT_FALSE(fs::exists(directories[1]));
-  EXPECT_TRUE(fs::exists(directories[2] / "tables/success.csv"));
+  folder_.output_of("merge a --no-pictures");
+  folder_.output_of(run + "whole");
+  EXPECT_THAT(different_files(folder_ / "a", folder_ / "whole"), IsEmpty());
 }
 
 /// Replaces `from`, which the file must contain, by `to`.
@@ -278,69 +230,103 @@ void replace_in(const fs::path& file, const std::string& from, const std::string
   write_atomically(file, content.replace(at, from.size(), to));
 }
 
-TEST(Merge, RefusesAnExperimentThatWasChangedSinceItsPartsWereComputed) {
-  const ScratchFolder folder;
-  const std::string run = "run " + write_tiny_experiment(folder) + " --out ";
-  succeed(folder, run + "a --shard 1/1");
+using Merge = RunDirectory;
+
+TEST_F(Merge, RefusesAnExperimentThatWasChangedSinceItsPartsWereComputed) {
+  folder_.output_of(run + "a --shard 1/1");
   for (const auto& [file, from, to] :
        {std::tuple{"a/config.yaml", "seed: 3", "seed: 7"},
         std::tuple{"a/config.yaml", "resamples: 100", "resamples: 99"},
         std::tuple{"a/state/scenario_000.yaml", "length: 3", "length: 4"}}) {
-    const std::string before = read_file(folder / file);
-    replace_in(folder / file, from, to);
-    EXPECT_THAT(refusal(folder, "merge a --no-pictures"),
-                AllOf(HasSubstr("a: config.yaml, a scenario in state or the robot was changed"),
-                      HasSubstr("expected ")));
-    write_atomically(folder / file, before);
+    const std::string before = folder_.text(file);
+    replace_in(folder_ / file, from, to);
+    folder_.expect_refusals(
+        {{"merge a --no-pictures",
+          {"a: config.yaml, a scenario in state or the robot was changed", "expected "}}});
+    write_atomically(folder_ / file, before);
   }
-  EXPECT_FALSE(fs::exists(folder / "a/tables"));
+  EXPECT_FALSE(folder_.has("a/tables"));
   // From another folder and with one more comment it is the same experiment.
-  replace_in(folder / "a/config.yaml", "name: tiny", "name: tiny  # of mine");
-  fs::create_directory(folder / "elsewhere");
-  EXPECT_EQ(touchdown_program("merge ../a --no-pictures", folder / "elsewhere").exit_code, 0);
+  replace_in(folder_ / "a/config.yaml", "name: tiny", "name: tiny  # of mine");
+  fs::create_directory(folder_ / "elsewhere");
+  EXPECT_EQ(folder_.run("merge ../a --no-pictures", "cd elsewhere &&").exit_code, 0);
 }
 
-TEST(Merge, RefusesPartsOfOtherTasksByName) {
-  const ScratchFolder folder;
-  const std::string run = "run " + write_tiny_experiment(folder) + " --out ";
-  succeed(folder, run + "a --shard 1/1");
-  const fs::path parts = folder / "a/state/evaluation";
+TEST_F(Merge, RefusesPartsOfOtherTasksByName) {
+  folder_.output_of(run + "a --shard 1/1");
+  const fs::path parts = folder_ / "a/state/evaluation";
   const std::string one = "mujoco_step_test_000_seed_0000";
   const std::string other = "mujoco_step_test_001_seed_0001";
   fs::rename(parts / one, parts / "kept");
   fs::rename(parts / other, parts / one);
   fs::rename(parts / "kept", parts / other);
-  EXPECT_THAT(
-      refusal(folder, "merge a --no-pictures"),
-      AllOf(HasSubstr("a/state/evaluation/" + one + ": holds '"),
-            HasSubstr(" part " + other + "', expected '"), HasSubstr(" part " + one + "'")));
-  EXPECT_FALSE(fs::exists(folder / "a/tables"));
+  folder_.expect_refusals({{"merge a --no-pictures",
+                            {"a/state/evaluation/" + one + ": holds '",
+                             " part " + other + "', expected '", " part " + one + "'"}}});
+  EXPECT_FALSE(folder_.has("a/tables"));
   // The run itself computes the parts again.
-  succeed(folder, run + "a --no-pictures");
-  succeed(folder, run + "whole --no-pictures");
-  EXPECT_THAT(different_files(result_files(folder / "a"), result_files(folder / "whole")),
-              IsEmpty());
+  folder_.output_of(run + "a");
+  folder_.output_of(run + "whole");
+  EXPECT_THAT(different_files(folder_ / "a", folder_ / "whole"), IsEmpty());
 }
 
-TEST(Shards, OfAnEmptyTextAreRefused) {
-  const ScratchFolder folder;
-  const std::string run = "run " + write_tiny_experiment(folder) + " --out a --shard ";
-  EXPECT_THAT(refusal(folder, run + "''"),
-              HasSubstr("--shard: expected a value, found an empty text"));
-  EXPECT_EQ(touchdown_program(run + "1/2 --shard 2/2", folder.path()).exit_code, 2);
-  EXPECT_FALSE(fs::exists(folder / "a"));
-}
+using Clean = InFolder;
 
-TEST(Run, ThatExceedsTheMemoryReportsHowMuchItNeedsAndWhy) {
-  const ScratchFolder folder;
-  const std::string run = "run " + write_tiny_experiment(folder) +
-                          " --out a --set test.runs=100000 --set noise.seeds=100000";
-  for (const char* more : {"", " --dry-run", " --shard 1/3"}) {
-    EXPECT_THAT(refusal(folder, run + more, 1),
-                AllOf(HasSubstr("test.runs=100000"), HasSubstr("noise.seeds=100000"),
-                      HasSubstr(" GB of memory, and this machine has ")));
+TEST_F(Clean, RemovesOldRunsButNoneInUseAndNoUntrackedFile) {
+  const std::string run =
+      "run " + write_tiny_experiment(folder_) + " --no-pictures --set noise.seeds=";
+  std::vector<fs::path> directories;
+  for (const char* seeds : {"1", "2", "3"}) {
+    folder_.output_of(run + seeds);
+    directories.push_back(fs::canonical(folder_ / "runs/tiny/latest"));
   }
-  EXPECT_FALSE(fs::exists(folder / "a"));
+  EXPECT_THAT(folder_.output_of("clean --dry-run"),
+              AllOf(HasSubstr("runs/tiny/"), HasSubstr("MB would be free")));
+  for (const fs::path& directory : directories) {
+    EXPECT_TRUE(fs::exists(directory / "tables/success.csv"));
+  }
+  write_atomically(directories[0] / "notes.md", "precious");
+  {
+    const experiments::DirectoryLock held(directories[1], experiments::Access::shared,
+                                          "touchdown x");
+    EXPECT_THAT(folder_.output_of("clean"),
+                AllOf(HasSubstr("1 untracked files remain"), HasSubstr("is in use by process"),
+                      HasSubstr("(touchdown x)"), HasSubstr("MB are free")));
+  }
+  EXPECT_EQ(read_file(directories[0] / "notes.md"), "precious");
+  EXPECT_FALSE(fs::exists(directories[0] / "tables"));
+  EXPECT_TRUE(fs::exists(directories[1] / "tables/success.csv"));
+  folder_.output_of("clean");
+  EXPECT_FALSE(fs::exists(directories[1]));
+  EXPECT_TRUE(fs::exists(directories[2] / "tables/success.csv"));
+  EXPECT_EQ(folder_.output_of("clean"), "0.0 MB are free\n");
+}
+
+/// Writes what a run leaves, with 10 MB in it.
+void write_run(const ScratchFolder& folder, const std::string& name, const std::string& id) {
+  folder.write("runs/" + name + "/" + id + "/config.yaml", "name: x\n");
+  std::string notes;
+  notes.resize(9'999'992, 'x');
+  folder.write("runs/" + name + "/" + id + "/notes.txt", notes);
+}
+
+TEST_F(Clean, LeavesOutFoldersThatMayBeNoRuns) {
+  write_run(folder_, "stairs", "aa");
+  write_run(folder_, "stairs", "cc");
+  write_run(folder_, "stairs", "bb");
+  fs::create_directory_symlink("bb", folder_ / "runs/stairs/latest");
+  fs::create_directories(folder_ / "runs/stairs/my_notes");
+  write_run(folder_, "without_latest", "aa");
+  write_run(folder_, "broken_link", "bb");
+  fs::create_directory_symlink("gone", folder_ / "runs/broken_link/latest");
+  write_run(folder_, "elsewhere", "dd");
+  fs::create_directory_symlink(folder_ / "runs/elsewhere/dd", folder_ / "runs/stairs/linked");
+  EXPECT_EQ(folder_.output_of("clean --dry-run"),
+            "runs/stairs/aa  10.0 MB\nruns/stairs/cc  10.0 MB\n20.0 MB would be free\n");
+}
+
+TEST_F(Clean, OfAFolderThatIsNotThereIsAWrongRequest) {
+  folder_.expect_refusals({{"clean rnus", {"rnus: expected a folder of runs"}}});
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/cli/started_program.hpp"
+#include "tests/cli/program.hpp"
 #include "tests/faults/outcome.hpp"
 #include "tests/faults/small_experiment.hpp"
 
@@ -236,7 +236,7 @@ TEST_F(Together, ASecondRunIsRefusedAndContinuesOnceTheFirstIsKilled) {
     const auto first = started(run, folder, injection, with_lock + random() % 80);
     first->send(SIGSTOP);
     const cli::Ended refused =
-        cli::touchdown_program(run_into(folder, elsewhere), elsewhere.path());
+        cli::StartedProgram(run_into(folder, elsewhere), elsewhere.path()).end();
     EXPECT_EQ(refused.exit_code, 1);
     EXPECT_THAT(refused.errors, HasSubstr("is in use by process "));
     first->send(SIGKILL);

@@ -1,8 +1,6 @@
 #include "tests/faults/outcome.hpp"
 
 #include <nlohmann/json.hpp>
-#include <regex>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -29,17 +27,6 @@ bool is_part(const fs::path& path) {
   return std::any_of(path.begin(), path.end(), [](const fs::path& name) {
     return is_part_file_name(name) || is_part_folder_name(name);
   });
-}
-
-/// Lines of standard error other than progress.
-std::vector<std::string> messages_in(const std::string& errors) {
-  static const std::regex progress(R"([a-z ]+: \d+/\d+ .*)");
-  std::vector<std::string> lines;
-  std::istringstream text(errors);
-  for (std::string line; std::getline(text, line);) {
-    if (!std::regex_match(line, progress)) lines.push_back(line);
-  }
-  return lines;
 }
 
 std::vector<std::string> missing_or_other(const Files& left, const Files& expected) {
@@ -83,7 +70,7 @@ std::vector<std::string> parts_in(const fs::path& directory) {
 std::vector<std::string> wrong_in(const cli::Ended& ended, const Injection& injection,
                                   const Files& left, const Files& expected) {
   std::vector<std::string> wrong = missing_or_other(left, expected);
-  const std::vector<std::string> messages = messages_in(ended.errors);
+  const std::vector<std::string> messages = cli::messages_in(ended.errors);
   if (ended.exit_code == 0) {
     if (injection.has_refused(Kind::flush)) wrong.push_back("succeeded, and did not flush");
     if (!messages.empty()) wrong.push_back("succeeded, with messages: " + ended.errors);

@@ -51,7 +51,7 @@ std::string small_run_with_film(const ScratchFolder& folder) {
 std::string small_film(const ScratchFolder& folder) {
   if (!std::filesystem::exists(folder / "fall.mpack")) {
     small_run(folder);
-    (void)cli::touchdown_program("simulate fall.yaml -o fall.mpack", folder.path());
+    (void)cli::StartedProgram("simulate fall.yaml -o fall.mpack", folder.path()).end();
   }
   return "render fall.mpack -o a/film.mp4 --to 0.2 --width 320 --height 180 --workers 2";
 }

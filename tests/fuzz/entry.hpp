@@ -1,10 +1,9 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/error.hpp"
 
@@ -28,22 +27,33 @@ inline void expected(const Error& error, std::string_view input) {
   if (is_of_a_library(error.what(), input)) std::abort();
 }
 
+/// A fuzzed function, by the name of its folder in the corpus.
+struct Target {
+  const char* name;
+  void (*fuzz)(std::string_view input);
+};
+
+/// Calls the function. An `Error` is expected.
+inline void call(const Target& target, std::string_view input) {
+  try {
+    target.fuzz(input);
+  } catch (const Error& error) {
+    expected(error, input);
+  }
+}
+
+/// All fuzzed functions of this program.
+inline std::vector<Target>& targets() {
+  static std::vector<Target> all;
+  return all;
+}
+
 }  // namespace touchdown::fuzz
 
 /// Begins the definition of a fuzzed function of `std::string_view input`. For any input, it must
-/// not crash, hang, or throw anything but `touchdown::Error` with a message of touchdown's own. A
-/// fuzzer makes it libFuzzer's entry
-/// point; the replay of the corpus links all of them together.
-#ifdef TOUCHDOWN_FUZZER
-#define TOUCHDOWN_FUZZ(name)                                                          \
-  static void fuzz_##name(std::string_view input);                                    \
-  extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) { \
-    fuzz_##name({reinterpret_cast<const char*>(data), size});                         \
-    return 0;                                                                         \
-  }                                                                                   \
+/// not crash, hang, or throw anything but `touchdown::Error` with a message of touchdown's own.
+#define TOUCHDOWN_FUZZ(name)                             \
+  static void fuzz_##name(std::string_view input);       \
+  [[maybe_unused]] static const bool is_target_##name =  \
+      (targets().push_back({#name, fuzz_##name}), true); \
   static void fuzz_##name(std::string_view input)
-#else
-#define TOUCHDOWN_FUZZ(name)                \
-  void fuzz_##name(std::string_view input); \
-  void fuzz_##name(std::string_view input)
-#endif

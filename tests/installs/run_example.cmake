@@ -5,8 +5,9 @@
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
 # Copies the example, so that its build cannot find the source tree by accident.
-function(build_example name)
-  file(COPY ${SOURCE_DIR}/examples/${name} DESTINATION ${WORK_DIR})
+function(build_example folder)
+  cmake_path(GET folder FILENAME name)
+  file(COPY ${SOURCE_DIR}/${folder} DESTINATION ${WORK_DIR})
   run(${CMAKE_COMMAND} -S ${WORK_DIR}/${name} -B ${WORK_DIR}/build_${name} -G ${GENERATOR}
       -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${CXX}
       -DCMAKE_CXX_FLAGS=${EXAMPLE_FLAGS} -DCMAKE_PREFIX_PATH=${PREFIX} ${ARGN})
@@ -16,15 +17,17 @@ endfunction()
 file(REMOVE_RECURSE ${WORK_DIR})
 file(MAKE_DIRECTORY ${WORK_DIR})
 
-build_example(control_loop)
+build_example(examples/control_loop)
 run(${WORK_DIR}/build_control_loop/control_loop)
+build_example(tests/installs/former_headers)
+run(${WORK_DIR}/build_former_headers/former_headers)
 
 if(PROGRAM)
   run(${PROGRAM} simulate ${SOURCE_DIR}/scenarios/stairs.yaml --run 1 -o stairs.mpack)
   run(${PROGRAM} fit stairs.mpack -o model.npz)
   run(${PROGRAM} export model.npz -o model.hpp)
-  build_example(robot -DMODEL_HEADER=${WORK_DIR}/model.hpp)
-  build_example(c_interface)
+  build_example(examples/robot -DMODEL_HEADER=${WORK_DIR}/model.hpp)
+  build_example(examples/c_interface)
   run(${WORK_DIR}/build_c_interface/c_interface model.npz)
   # With the model from the file or compiled in, the beliefs are equal to the last digit.
   run(${WORK_DIR}/build_robot/robot model.npz)

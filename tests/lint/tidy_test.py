@@ -14,11 +14,9 @@ CHECKER = '''#!/bin/sh
 [ "$1" = --version ] && { echo "${CHECKER_VERSION:-1}"; exit 0; }
 echo run >> "$RUNS"
 for word; do case "$word" in *.cpp) unit=$word ;; esac; done
+g++ -fsyntax-only -I. "$unit" 2>&1 | sed 's/: error: .*/& [clang-diagnostic-error]/' | grep clang-diagnostic && exit 1
 g++ -E -C -I. "$unit" | grep WARN && exit 1
 exit 0
-'''
-COMPILER = '''#!/bin/bash
-exec g++ "${@/-ferror-limit=0/-fmax-errors=0}"
 '''
 
 
@@ -29,9 +27,8 @@ class Tidy(unittest.TestCase):
         programs = self.scratch / 'bin'
         programs.mkdir()
         (programs / 'clang-tidy').write_text(CHECKER, encoding='utf-8')
-        (programs / 'clang++').write_text(COMPILER, encoding='utf-8')
-        for program in programs.iterdir():
-            program.chmod(0o755)
+        (programs / 'clang++').symlink_to(shutil.which('g++'))
+        (programs / 'clang-tidy').chmod(0o755)
         self.runs = self.scratch / 'runs'
         self.environment = dict(os.environ, RUNS=str(self.runs), TIDY_CACHE=str(self.scratch / 'cache'),
                                 PATH=f'{programs}:{os.environ["PATH"]}')
@@ -89,6 +86,8 @@ class Tidy(unittest.TestCase):
         (self.checkout / 'b.cpp').write_text('static int one = 2;\n', encoding='utf-8')
         self.assertEqual(self.check(), (0, 2))
         self.assertEqual(self.check(), (0, 0))
+        (self.checkout / 'b.cpp').write_text('static int one = 2;  // WARN\n', encoding='utf-8')
+        self.assertEqual(self.check(), (1, 2))
 
     def test_an_empty_cache_variable_checks_everything(self):
         self.check()

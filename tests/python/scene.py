@@ -1,10 +1,13 @@
 """Shared by the tests: the program, a short run with flights, an empty folder per test."""
+import csv
 import functools
 import os
 import pathlib
 import subprocess
 import tempfile
 import unittest
+
+import numpy as np
 
 import touchdown
 
@@ -34,3 +37,26 @@ class InFolder(unittest.TestCase):
         self.addCleanup(os.chdir, os.getcwd())
         os.chdir(folder.name)
         self.folder = pathlib.Path(folder.name)
+
+    def assert_same_bytes(self, one, other):
+        self.assertEqual((self.folder / one).read_bytes(), (self.folder / other).read_bytes())
+
+    def assert_program_believes(self, beliefs, log, *options):
+        """The beliefs about a log are those that the program writes with these options."""
+        program("estimate", log, *options, "-o", "beliefs.csv")
+        with open("beliefs.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        for column, values in (("p_contact_left", beliefs["p_contact"][:, 0]),
+                               ("p_contact_right", beliefs["p_contact"][:, 1]),
+                               ("contact_left", beliefs["contact"][:, 0]),
+                               ("contact_right", beliefs["contact"][:, 1]),
+                               ("p_any_wheel", beliefs["p_any_wheel"]),
+                               ("p_both_wheels", beliefs["p_both_wheels"])):
+            np.testing.assert_array_equal(values, [float(row[column]) for row in rows], column)
+        self.assertEqual([touchdown.STATUS[k] for k in beliefs["status"]], [row["status"] for row in rows])
+
+    def assert_refused(self, cases, error=touchdown.InputError):
+        """Each call is refused with a message that matches the expression beside it."""
+        for call, words in cases:
+            with self.subTest(words), self.assertRaisesRegex(error, words):
+                call()

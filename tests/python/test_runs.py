@@ -43,7 +43,7 @@ class Simulation(InFolder):
         run = hop()
         run.save("python.mpack")
         program("simulate", HOP, "--set", "end.duration=3.2", "-o", "program.mpack")
-        self.assertEqual((self.folder / "python.mpack").read_bytes(), (self.folder / "program.mpack").read_bytes())
+        self.assert_same_bytes("python.mpack", "program.mpack")
         read = touchdown.Recording.load("program.mpack")
         self.assertEqual(read.info, run.info)
         self.assertEqual(read.keys(), run.keys())
@@ -56,7 +56,7 @@ class Simulation(InFolder):
         run.save("python.mpack")
         program("simulate", HOP, "--seed", 7, "--run", 2, "--simulator", "bullet", "--set", "end.duration=0.5", "-o",
                 "program.mpack")
-        self.assertEqual((self.folder / "python.mpack").read_bytes(), (self.folder / "program.mpack").read_bytes())
+        self.assert_same_bytes("python.mpack", "program.mpack")
 
     def test_saves_changed_arrays(self):
         run = touchdown.simulate(HOP, overrides={"end.duration": 0.2})
@@ -79,24 +79,18 @@ class Simulation(InFolder):
         touchdown.simulate(HOP, overrides={"end.duration": 0.2})  # reuses freed memory
         np.testing.assert_array_equal(torque, kept)
 
-    def test_of_non_ideal_actuators_has_applied_torques(self):
-        run = touchdown.simulate(HOP, overrides={"end.duration": 0.1, "robot": "models/upkie_actuated.yaml"})
-        self.assertEqual(run["joint_torque"].shape, (run.steps, 6))
-        run.save("actuated.mpack")
-        np.testing.assert_array_equal(touchdown.Recording.load("actuated.mpack")["joint_torque"], run["joint_torque"])
-        self.assertNotIn("joint_torque", hop())
-
-    def test_of_held_joints_has_them_as_ground_truth(self):
-        run = touchdown.simulate(HOP, overrides={"end.duration": 0.1, "robot": "models/hip_roll.yaml"})
-        run.save("held.mpack")
-        loaded = touchdown.Recording.load("held.mpack")
-        loaded.save("again.mpack")
-        for name in ("held_position", "held_velocity", "held_torque"):
-            self.assertEqual(run[name].shape, (run.steps, 2))
-            np.testing.assert_array_equal(loaded[name], run[name])
-            self.assertNotIn(name, hop())
-        with open("held.mpack", "rb") as one, open("again.mpack", "rb") as other:
-            self.assertEqual(one.read(), other.read())
+    def test_of_other_robots_has_their_torques_and_held_joints_as_ground_truth(self):
+        for robot, names, width in (("upkie_actuated", ["joint_torque"], 6),
+                                    ("hip_roll", ["held_position", "held_velocity", "held_torque"], 2)):
+            run = touchdown.simulate(HOP, overrides={"end.duration": 0.1, "robot": f"models/{robot}.yaml"})
+            run.save("robot.mpack")
+            loaded = touchdown.Recording.load("robot.mpack")
+            loaded.save("again.mpack")
+            self.assert_same_bytes("robot.mpack", "again.mpack")
+            for name in names:
+                self.assertEqual(run[name].shape, (run.steps, width))
+                np.testing.assert_array_equal(loaded[name], run[name])
+                self.assertNotIn(name, hop())
 
     def test_raises_the_program_s_messages(self):
         requests = [

@@ -99,21 +99,13 @@ TEST(Rollout, MarksTheBeginningsOfRuns) {
   EXPECT_LT(starts, static_cast<std::ptrdiff_t>(batch.keep.size()));
 }
 
-TEST(Rollout, GivesUpOnARobotThatCannotStand) {
-  const RolloutConfig c = config();
+TEST(Rollout, EndsWithoutARobotThatStandsWhenStoppedAndWithoutWholeSteps) {
+  RolloutConfig c = config();
   RolloutScenes scenes = scene(c);
+  EXPECT_THROW(roll_out(c, scenes, 1, 0, 4, [] { return false; }), Stopped);
   scenes.scenes[0].scenario.end.fall_tilt = 1e-6;
   EXPECT_THROW(roll_out(c, scenes, 1, 0, 1, should_continue), InputError);
-}
-
-TEST(Rollout, StopsWhenAsked) {
-  const RolloutConfig c = config();
-  EXPECT_THROW(roll_out(c, scene(c), 1, 0, 4, [] { return false; }), Stopped);
-}
-
-TEST(Rollout, RefusesAControlStepThatIsNoMultipleOfThePhysicsStep) {
-  RolloutConfig c = config();
-  c.control_step_us = 1500;
+  c.control_step_us = 1500;  // no multiple of the physics step
   EXPECT_THROW(training_scenes(c), InputError);
 }
 

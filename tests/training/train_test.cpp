@@ -2,8 +2,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -47,7 +45,11 @@ class Train : public testing::Test {
 };
 
 TEST_F(Train, WritesWeightsCurvesAndAManifest) {
+  // A partial file of a killed training is removed.
+  const std::filesystem::path part = folder_ / "a/checkpoints/.0003.12.0abcdef0.part.pt";
+  write_atomically(part, "half");
   const TrainingResult result = run("a");
+  EXPECT_FALSE(std::filesystem::exists(part));
   ASSERT_EQ(result.history.size(), 3U);
   EXPECT_EQ(result.history[2].data_seconds, 3 * 8 * 50 * 0.005);
   EXPECT_EQ(neural_network_of(load_model(result.network).arrays).hidden(), 8);
@@ -78,13 +80,6 @@ TEST_F(Train, ResumesWhereItWasStopped) {
   EXPECT_EQ(read_file(straight.directory / "tables" / "training.csv"),
             read_file(resumed.directory / "tables" / "training.csv"));
   EXPECT_EQ(read_file(straight.network), read_file(resumed.network));
-}
-
-TEST_F(Train, RemovesPartialFilesOfAKilledTraining) {
-  const std::filesystem::path part = folder_ / "a/checkpoints/.0003.12.0abcdef0.part.pt";
-  write_atomically(part, "half");
-  run("a");
-  EXPECT_FALSE(std::filesystem::exists(part));
 }
 
 TEST_F(Train, LeavesTheDirectoryOfAnExperimentAlone) {
@@ -126,21 +121,15 @@ TEST_F(Train, StopsEarlyWithoutImprovement) {
   EXPECT_LT(run("early").history.size(), 20U);
 }
 
-TEST(Blas, WarnsOfTheReferenceLibraryAndNamesThePackage) {
-  EXPECT_THAT(blas_warning("/usr/lib/x86_64-linux-gnu/blas/libblas.so.3.11.0"),
+TEST(Blas, WarnsOfOtherLibrariesThanTheRecommendedOne) {
+  const std::string debian = "/usr/lib/x86_64-linux-gnu/";
+  EXPECT_THAT(blas_warning(debian + "blas/libblas.so.3.11.0"),
               HasSubstr("install the package libopenblas0-openmp"));
-}
-
-TEST(Blas, WarnsOfCompetingThreads) {
-  EXPECT_THAT(blas_warning("/usr/lib/x86_64-linux-gnu/openblas-pthread/libblas.so.3"),
+  EXPECT_THAT(blas_warning(debian + "openblas-pthread/libblas.so.3"),
               HasSubstr("openblas-pthread"));
+  EXPECT_THAT(blas_warning(debian + "openblas-openmp/libblas.so.3"), IsEmpty());
+  EXPECT_THAT(blas_in_use(), HasSubstr("blas"));
 }
-
-TEST(Blas, AcceptsTheRecommendedLibrary) {
-  EXPECT_THAT(blas_warning("/usr/lib/x86_64-linux-gnu/openblas-openmp/libblas.so.3"), IsEmpty());
-}
-
-TEST(Blas, FindsTheLoadedLibrary) { EXPECT_THAT(blas_in_use(), HasSubstr("blas")); }
 
 }  // namespace
 }  // namespace touchdown::training

@@ -3,14 +3,15 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <vector>
 
 #include <gmock/gmock.h>
 
 #include "apps/training/train.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "estimator/neural/forward.hpp"
+#include "tests/complaint.hpp"
 #include "tests/scratch_folder.hpp"
 #include "toy_episodes.hpp"
 
@@ -18,7 +19,6 @@ namespace touchdown::training {
 namespace {
 
 using testing::HasSubstr;
-using testing::ThrowsMessage;
 
 NeuralNetwork start(const EpisodeBatch& data, const NetworkSize& size = {16, 16, 8}) {
   return initial_network(size, 1, data, 0.005);
@@ -53,9 +53,11 @@ TEST(InitialNetwork, StandardisesTheDataAndDependsOnTheSeed) {
 
 TEST(Trainer, MatchesTheEigenImplementation) {
   const EpisodeBatch batch = test::toy_episodes(3, 100);
-  const Trainer trainer(start(batch, {128, 256, 128}), {});
+  const NeuralNetwork given = start(batch, {128, 256, 128});
+  const Trainer trainer(given, {});
   const std::vector<float> outputs = trainer.outputs(batch);
   const auto network = std::make_shared<const NeuralNetwork>(trainer.network());
+  EXPECT_TRUE(equal(*network, given)) << "kept to the bit";
   std::vector<NeuralForward> forward(3, NeuralForward(network));
   for (int step = 0; step < batch.steps; ++step) {
     const Eigen::Map<const Eigen::MatrixXf> inputs(
@@ -86,12 +88,6 @@ TEST(Trainer, StopsWithinAnEpochAndAnEvaluation) {
     asked = 0;
     EXPECT_THROW((void)trainer.evaluate(batch, stop), Stopped) << at;
   }
-}
-
-TEST(Trainer, KeepsTheNetworkToTheBit) {
-  const EpisodeBatch batch = test::toy_episodes(4);
-  const NeuralNetwork network = start(batch);
-  EXPECT_TRUE(equal(Trainer(network, {}).network(), network));
 }
 
 TEST(Trainer, ResetsTheHiddenStateWhereARunBegins) {
@@ -131,41 +127,37 @@ TEST(Trainer, GivesTheSameBitsForAnyNumberOfThreads) {
   EXPECT_FALSE(equal(one, start(batch)));
 }
 
-class Checkpoint : public testing::Test {
- protected:
-  const ScratchFolder scratch_;
-  const std::filesystem::path path_ = scratch_ / "trainer.pt";
-};
-
-TEST_F(Checkpoint, ResumesToTheBit) {
+TEST(Checkpoint, ResumesToTheBit) {
+  const ScratchFolder folder;
   const EpisodeBatch batch = test::toy_episodes(8);
   Trainer straight(start(batch), {});
   straight.train_epoch(batch);
-  straight.save(path_);
+  straight.save(folder / "trainer.pt");
   straight.train_epoch(batch);
 
   Trainer resumed(initial_network({16, 16, 8}, 99, batch, 0.005), {});
-  resumed.load(path_);
+  resumed.load(folder / "trainer.pt");
   resumed.train_epoch(batch);
   EXPECT_TRUE(equal(straight.network(), resumed.network()));
 }
 
-TEST_F(Checkpoint, RefusesOtherFiles) {
+TEST(Checkpoint, RefusesOtherFiles) {
+  const ScratchFolder folder;
+  const std::filesystem::path path = folder / "trainer.pt";
   const EpisodeBatch batch = test::toy_episodes(2);
   Trainer trainer(start(batch), {});
-  const auto expect_complaint = [&] {
-    EXPECT_THAT([&] { trainer.load(path_); },
-                ThrowsMessage<InputError>(HasSubstr("is not a checkpoint of this network")));
-  };
-  std::ofstream(path_) << "nonsense";
-  expect_complaint();
-  trainer.save(path_);
-  std::filesystem::resize_file(path_, std::filesystem::file_size(path_) / 2);
-  expect_complaint();
-  Trainer(start(batch, {8, 8, 8}), {}).save(path_);
-  expect_complaint();
-  std::filesystem::remove(path_);
-  expect_complaint();
+  trainer.save(path);
+  const std::string whole = read_file(path);
+  Trainer(start(batch, {8, 8, 8}), {}).save(path);
+  for (const std::string& content :
+       {read_file(path), std::string("nonsense"), whole.substr(0, whole.size() / 2)}) {
+    folder.write("trainer.pt", content);
+    EXPECT_THAT(complaint_of([&] { trainer.load(path); }),
+                HasSubstr("is not a checkpoint of this network"));
+  }
+  std::filesystem::remove(path);
+  EXPECT_THAT(complaint_of([&] { trainer.load(path); }),
+              HasSubstr("is not a checkpoint of this network"));
 }
 
 }  // namespace

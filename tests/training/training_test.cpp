@@ -1,9 +1,11 @@
 #include "apps/training/config/training.hpp"
 
+#include <map>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
+#include "tests/complaint.hpp"
 #include "tests/documented_defaults.hpp"
 
 namespace touchdown::training {
@@ -11,7 +13,6 @@ namespace {
 
 using testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::ThrowsMessage;
 
 TrainingConfig parsed(const std::string& text) {
   return training_from_yaml(YamlDocument::parse(text, "t.yaml"));
@@ -42,19 +43,19 @@ TEST(TrainingConfig, WritesEveryValue) {
 }
 
 TEST(TrainingConfig, NamesTheWrongValue) {
-  const auto complaint = [](const char* text, const char* message) {
-    EXPECT_THAT([&] { parsed(text); }, ThrowsMessage<InputError>(HasSubstr(message)));
-  };
-  complaint("{seed: 1}", "name");
-  complaint("{name: x, rolout: {}}", "did you mean 'rollout'");
-  complaint("{name: x, rollout: {simulators: [bulet]}}", "bullet");
-  complaint("{name: x, rollout: {steps: 25}}", "multiple of `sequence`");
-  complaint("{name: x, rollout: {control_step_us: 2000}}", "multiple of `control_step_us`");
-  complaint("{name: x, rollout: {noise_share: [1, 0]}}", "[least, most]");
-  complaint("{name: x, rollout: {noise_share: [0.5]}}", "[least, most]");
-  complaint("{name: x, rollout: {scenarios: []}}", "at least one scenario");
-  complaint("{name: x, optimiser: {epochs: 0}}", "epochs");
-  complaint("{name: x, network: {hidden: many}}", "whole number");
+  for (const auto& [text, message] : std::map<std::string, const char*>{
+           {"{seed: 1}", "name"},
+           {"{name: x, rolout: {}}", "did you mean 'rollout'"},
+           {"{name: x, rollout: {simulators: [bulet]}}", "bullet"},
+           {"{name: x, rollout: {steps: 25}}", "multiple of `sequence`"},
+           {"{name: x, rollout: {control_step_us: 2000}}", "multiple of `control_step_us`"},
+           {"{name: x, rollout: {noise_share: [1, 0]}}", "[least, most]"},
+           {"{name: x, rollout: {noise_share: [0.5]}}", "[least, most]"},
+           {"{name: x, rollout: {scenarios: []}}", "at least one scenario"},
+           {"{name: x, optimiser: {epochs: 0}}", "epochs"},
+           {"{name: x, network: {hidden: many}}", "whole number"}}) {
+    EXPECT_THAT(complaint_of([&, yaml = text] { parsed(yaml); }), HasSubstr(message));
+  }
 }
 
 TEST(TrainingKeys, HaveTheDefaultsOfAFileThatGivesNone) {

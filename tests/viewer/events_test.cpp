@@ -25,12 +25,9 @@ LoggedRun run_of(const Steps& left, const Steps& right) {
   return run;
 }
 
-TEST(Flights, HaveNoWheelInContact) {
+TEST(Flights, HaveNoWheelInContactOrTheFirstEstimatorsWithoutTrueContact) {
   EXPECT_THAT(flights_of(run_of({1, 0, 0, 1, 0}, {1, 1, 0, 0, 0})),
               ElementsAre(StepRange{2, 3}, StepRange{4, 5}));
-}
-
-TEST(Flights, AreTheFirstEstimatorsWithoutTrueContact) {
   LoggedRun run = run_of({}, {});
   EXPECT_THAT(flights_of(run), IsEmpty());
   render::BeliefTrack belief;
