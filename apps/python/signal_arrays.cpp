@@ -66,21 +66,18 @@ bool have_layout_of_signals(const StepArray& position, const StepArray& velocity
          is_member(torque, offsetof(JointSignals, torque));
 }
 
-/// `count` numbers of one step, by name; nothing if they are missing and not needed.
-std::optional<StepArray> numbers_of(const py::object& step, const char* name, std::size_t count,
-                                    bool is_needed) {
-  const auto expected = [&] {
-    return count == 1 ? std::string("a number") : fmt::format("{} numbers", count);
-  };
+/// `count` numbers of one step, by name, as an array of one step.
+StepArray numbers_of(const py::object& step, const char* name, std::size_t count) {
+  const std::string expected = count == 1 ? "a number" : fmt::format("{} numbers", count);
   if (!step.contains(name)) {
-    if (!is_needed) return std::nullopt;
-    throw InputError(fmt::format("signals: '{}' is missing: expected {}", name, expected()));
+    throw InputError(fmt::format("signals: '{}' is missing: expected {}", name, expected));
   }
   auto array = StepArray::Array::ensure(step[name]);
   if (!array || array.size() != static_cast<py::ssize_t>(count) || array.ndim() > 1) {
-    throw InputError(fmt::format("signals: '{}': expected {}", name, expected()));
+    throw InputError(fmt::format("signals: '{}': expected {}", name, expected));
   }
-  return StepArray(StepArray::Array(array.reshape({static_cast<py::ssize_t>(count)})));
+  return StepArray(
+      StepArray::Array(array.reshape({py::ssize_t{1}, static_cast<py::ssize_t>(count)})));
 }
 
 /// Whether the vertical acceleration follows from acceleration and orientation.
@@ -109,14 +106,24 @@ void convert_imu(Signals& signals, const std::optional<std::array<double, 4>>& o
 
 }  // namespace
 
+StepArray SignalArrays::column(const char* name, std::size_t columns) {
+  return is_one_step_ ? numbers_of(arrays_, name, std::max<std::size_t>(columns, 1))
+                      : map_.column(name, columns);
+}
+
 std::optional<StepArray> SignalArrays::column(const char* name, std::size_t columns,
                                               bool is_needed) {
   if (!is_needed && !map_.has(name)) return std::nullopt;
-  return map_.column(name, columns);
+  return column(name, columns);
 }
 
-SignalArrays::SignalArrays(const py::object& arrays, const SignalNeeds& needs, AssemblyConfig imu)
-    : map_(arrays, "signals"), imu_(std::move(imu)), time_(map_.column("time")) {
+SignalArrays::SignalArrays(const py::object& arrays, const SignalNeeds& needs, AssemblyConfig imu,
+                           bool is_one_step)
+    : arrays_(arrays),
+      is_one_step_(is_one_step),
+      map_(arrays, "signals"),
+      imu_(std::move(imu)),
+      time_(column("time", 0)) {
   const bool derives = is_derived(arrays, needs, imu_);
   position_ = column("position", joint_count, needs.position);
   velocity_ = column("velocity", joint_count, needs.velocity);
@@ -124,7 +131,7 @@ SignalArrays::SignalArrays(const py::object& arrays, const SignalNeeds& needs, A
   linear_acceleration_ = column("linear_acceleration", 3, needs.acceleration_vector || derives);
   angular_velocity_ = column("angular_velocity", 3, needs.angular_velocity);
   if (derives) {
-    orientation_.emplace(map_.column("orientation", 4));
+    orientation_.emplace(column("orientation", 4));
   } else {
     vertical_acceleration_ = column("vertical_acceleration", 0, needs.acceleration);
   }
@@ -132,7 +139,7 @@ SignalArrays::SignalArrays(const py::object& arrays, const SignalNeeds& needs, A
   for (std::size_t i = 0; i < target_.size(); ++i) {
     target_[i] = column(target_arrays[i].name, joint_count, false);
   }
-  if (map_.has("has_record")) has_record_.emplace(map_.column("has_record"));
+  if (!is_one_step) has_record_ = column("has_record", 0, false);
   has_layout_of_signals_ =
       position_ && velocity_ && torque_ && have_layout_of_signals(*position_, *velocity_, *torque_);
 }
@@ -173,42 +180,6 @@ std::optional<double> SignalArrays::period() const {
   std::vector<double> times;
   for (std::size_t k = 0; k < std::min(steps(), most); ++k) times.push_back(time_(k));
   return logs::typical_step(times);
-}
-
-Signals signals_of_step(const py::object& step, const SignalNeeds& needs,
-                        const AssemblyConfig& imu) {
-  Signals signals;
-  signals.time = (*numbers_of(step, "time", 1, true))(0);
-  const auto position = numbers_of(step, "position", joint_count, needs.position);
-  const auto velocity = numbers_of(step, "velocity", joint_count, needs.velocity);
-  const auto torque = numbers_of(step, "torque", joint_count, needs.torque);
-  const auto number = [](const std::optional<StepArray>& array, std::size_t i) {
-    return array ? (*array)(i) : 0.0;
-  };
-  set_joints(signals, [&](std::size_t i) {
-    return JointSignals{number(position, i), number(velocity, i), number(torque, i)};
-  });
-  const bool derives = is_derived(step, needs, imu);
-  const auto linear =
-      numbers_of(step, "linear_acceleration", 3, needs.acceleration_vector || derives);
-  const auto angular = numbers_of(step, "angular_velocity", 3, needs.angular_velocity);
-  signals.linear_acceleration = {number(linear, 0), number(linear, 1), number(linear, 2)};
-  signals.angular_velocity = {number(angular, 0), number(angular, 1), number(angular, 2)};
-  if (derives) {
-    const StepArray q = *numbers_of(step, "orientation", 4, true);
-    convert_imu(signals, std::array{q(0), q(1), q(2), q(3)}, imu);
-  } else {
-    convert_imu(signals, std::nullopt, imu);
-    signals.vertical_acceleration =
-        number(numbers_of(step, "vertical_acceleration", 1, needs.acceleration), 0);
-  }
-  signals.ground_velocity_command =
-      number(numbers_of(step, "ground_velocity_command", 1, needs.command), 0);
-  for (const auto& [name, member] : target_arrays) {
-    const auto target = numbers_of(step, name, joint_count, false);
-    if (target) set_targets(signals, member, [&](std::size_t i) { return (*target)(i); });
-  }
-  return signals;
 }
 
 py::dict arrays_of(std::vector<Signals> steps) {

@@ -31,8 +31,10 @@ struct SignalNeeds {
 /// orientation then takes out gravity. `AssemblyConfig::axes` rotates all vectors of the IMU.
 class SignalArrays {
  public:
+  /// `is_one_step`: numbers, and rows of six and of three, instead of arrays with a row per step.
   /// Errors: `InputError` for arrays that are needed and missing or have another shape.
-  SignalArrays(const py::object& arrays, const SignalNeeds& needs, AssemblyConfig imu);
+  SignalArrays(const py::object& arrays, const SignalNeeds& needs, AssemblyConfig imu,
+               bool is_one_step = false);
 
   std::size_t steps() const { return map_.steps(); }
   bool has_record(std::size_t step) const { return !has_record_ || (*has_record_)(step) != 0.0; }
@@ -41,8 +43,11 @@ class SignalArrays {
   std::optional<double> period() const;
 
  private:
+  StepArray column(const char* name, std::size_t columns);
   std::optional<StepArray> column(const char* name, std::size_t columns, bool is_needed);
 
+  py::object arrays_;
+  bool is_one_step_;
   ArrayMap map_;
   AssemblyConfig imu_;
   StepArray time_;
@@ -58,10 +63,6 @@ class SignalArrays {
   std::optional<StepArray> has_record_;
   bool has_layout_of_signals_ = false;
 };
-
-/// Signals of one step: numbers, and rows of six and of three. Errors: as above.
-Signals signals_of_step(const py::object& step, const SignalNeeds& needs,
-                        const AssemblyConfig& imu);
 
 /// Arrays that view the signals of a run, with the same names.
 py::dict arrays_of(std::vector<Signals> steps);
