@@ -1,11 +1,10 @@
 import copy
-import csv
 import unittest
 
 import numpy as np
 
 import touchdown
-from scene import HOP, SHORT, InFolder, hop, program
+from scene import HOP, SHORT, InFolder, assert_same, estimated, hop, program
 
 NAMES = ("time", "position", "velocity", "torque", "linear_acceleration", "angular_velocity", "vertical_acceleration",
          "ground_velocity_command")
@@ -78,18 +77,8 @@ class Run(InFolder):
                 touchdown.fit(run, name).save(f"{name}.npz")
                 fitted[name] = options = ["--model", f"{name}.npz"]
             with self.subTest(name):
-                program("estimate", "hop.mpack", "--estimator", name, *options, "-o", "beliefs.csv")
-                with open("beliefs.csv", newline="", encoding="utf-8") as file:
-                    rows = list(csv.DictReader(file))
-                beliefs = touchdown.Estimator(name, options[1] if options else None).run(run)
-                for column, values in (("p_contact_left", beliefs["p_contact"][:, 0]),
-                                       ("p_contact_right", beliefs["p_contact"][:, 1]),
-                                       ("contact_left", beliefs["contact"][:, 0]),
-                                       ("contact_right", beliefs["contact"][:, 1]),
-                                       ("p_any_wheel", beliefs["p_any_wheel"]),
-                                       ("p_both_wheels", beliefs["p_both_wheels"])):
-                    np.testing.assert_array_equal(values, [float(row[column]) for row in rows], column)
-                self.assertEqual([touchdown.STATUS[k] for k in beliefs["status"]], [row["status"] for row in rows])
+                rows = estimated("hop.mpack", "--estimator", name, *options)
+                assert_same(touchdown.Estimator(name, options[1] if options else None).run(run), rows)
         self.assertGreater(len(fitted), 10)
 
     def test_takes_the_targets_of_servos(self):
@@ -101,10 +90,7 @@ class Run(InFolder):
         self.assertEqual([touchdown.STATUS[k] for k in beliefs["status"][:2]], ["degraded", "good"])
         self.assertNotIn(4, beliefs["status"][1:])
         targets = ("target_position", "target_velocity", "target_torque", "target_kp", "target_kd")
-        program("estimate", "hop.mpack", "--model", "m.npz", "-o", "beliefs.csv")
-        with open("beliefs.csv", newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
-        np.testing.assert_array_equal(beliefs["p_contact"][:, 1], [float(row["p_contact_right"]) for row in rows])
+        assert_same(beliefs, estimated("hop.mpack", "--model", "m.npz"))
         estimator.reset()
         for k in range(100):
             belief = estimator.update({name: run[name][k] for name in NAMES + targets})
@@ -135,36 +121,15 @@ class Run(InFolder):
             self.assertEqual(belief.unusable, expected)
             self.assertEqual(belief.status, "invalid" if k == 100 else "good")
 
-    def test_gives_the_beliefs_of_the_program(self):
-        run = hop()
-        run.save("hop.mpack")
-        model = touchdown.fit(run, "robust")
-        model.save("model.npz")
-        for name, options, loaded in (("robust", ["--model", "model.npz"], "model.npz"), ("free_fall", [], None)):
-            program("estimate", "hop.mpack", "--estimator", name, *options, "-o", "beliefs.csv")
-            with open("beliefs.csv", newline="", encoding="utf-8") as file:
-                rows = list(csv.DictReader(file))
-            beliefs = touchdown.Estimator(name, loaded).run(run)
-            for wheel, side in enumerate(("left", "right")):
-                np.testing.assert_array_equal(beliefs["p_contact"][:, wheel],
-                                              [float(row[f"p_contact_{side}"]) for row in rows])
-                np.testing.assert_array_equal(beliefs["contact"][:, wheel],
-                                              [row[f"contact_{side}"] == "1" for row in rows])
-            np.testing.assert_array_equal(beliefs["p_any_wheel"], [float(row["p_any_wheel"]) for row in rows])
-            self.assertEqual([touchdown.STATUS[status] for status in beliefs["status"]],
-                             [row["status"] for row in rows])
-
     def test_of_another_robot_uses_its_legs_as_the_program_does(self):
         for robot in ("upkie_heavy", "knee_and_wheel"):
             run = touchdown.simulate(HOP, overrides={**SHORT, "robot": f"models/{robot}.yaml"})
             run.save("own.mpack")
-            program("estimate", "own.mpack", "--estimator", "support_force", "-o", "beliefs.csv")
-            with open("beliefs.csv", newline="", encoding="utf-8") as file:
-                left = [float(row["p_contact_left"]) for row in csv.DictReader(file)]
-            beliefs = touchdown.Estimator("support_force").run(run)["p_contact"][:, 0]
-            np.testing.assert_array_equal(beliefs, left)
+            beliefs = touchdown.Estimator("support_force").run(run)
+            assert_same(beliefs, estimated("own.mpack", "--estimator", "support_force"))
             plain = {key: np.asarray(value) for key, value in run.items()}
-            self.assertFalse(np.array_equal(touchdown.Estimator("support_force").run(plain)["p_contact"][:, 0], left))
+            of_upkie = touchdown.Estimator("support_force").run(plain)
+            self.assertFalse(np.array_equal(of_upkie["p_contact"], beliefs["p_contact"]))
             with self.assertRaisesRegex(touchdown.InputError, f"not to '{robot}'"):
                 touchdown.Estimator().run(run)
             model = touchdown.fit(run, "force_kinematics")

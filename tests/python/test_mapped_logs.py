@@ -1,4 +1,3 @@
-import csv
 import unittest
 import warnings
 
@@ -6,7 +5,7 @@ import numpy as np
 
 import bags
 import touchdown
-from scene import InFolder, hop, program
+from scene import InFolder, assert_same, estimated, hop, program
 
 
 class OtherRobotsLogs(InFolder):
@@ -15,18 +14,12 @@ class OtherRobotsLogs(InFolder):
     def compare(self, log, mapping, rate, name="", model=None):
         options = ["--estimator", name] if name else []
         options += ["--model", model] if model else []
-        program("estimate", log, "--mapping", mapping, *options, "-o", "beliefs.csv")
-        with open("beliefs.csv", newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
+        rows = estimated(log, "--mapping", mapping, *options)
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             run = touchdown.Recording.load(log, mapping=mapping)
         self.assertAlmostEqual(run.sample_rate, rate, delta=0.01 * rate)
-        beliefs = touchdown.Estimator(name, model, sample_rate=rate).run(run)
-        for wheel, side in enumerate(("left", "right")):
-            np.testing.assert_array_equal(beliefs["p_contact"][:, wheel], [float(row[f"p_contact_{side}"]) for row in rows])
-            np.testing.assert_array_equal(beliefs["contact"][:, wheel], [row[f"contact_{side}"] == "1" for row in rows])
-        self.assertEqual([touchdown.STATUS[status] for status in beliefs["status"]], [row["status"] for row in rows])
+        assert_same(touchdown.Estimator(name, model, sample_rate=rate).run(run), rows)
         return run, [str(one.message) for one in caught]
 
     def test_of_bags_give_the_beliefs_of_the_program(self):
@@ -80,9 +73,7 @@ class OtherRobotsLogs(InFolder):
             belief = estimator.update({name: values[k] for name, values in log.items()})
             self.assertEqual(belief.p_contact, tuple(whole["p_contact"][k]))
         (self.folder / "npz.yaml").write_text((self.folder / "npz.yaml").read_text().replace("contact:", "#"), encoding="utf-8")
-        with open(program("estimate", "log.npz", "--mapping", "npz.yaml", "-o", "b.csv") and "b.csv", newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
-        np.testing.assert_array_equal(whole["p_contact"][:, 0], [float(row["p_contact_left"]) for row in rows])
+        assert_same(whole, estimated("log.npz", "--mapping", "npz.yaml"))
 
         upright = dict(run, angular_velocity=log["gyro"], linear_acceleration=log["acc"],
                        orientation=np.column_stack([-y, -z, w, x]))
