@@ -24,19 +24,23 @@ JointSignals joint(const RobotRecord& record, const JointSource& source,
                    const RecordUnits& units) noexcept {
   if (source.index >= record.joints.size()) return {not_reported, not_reported, not_reported};
   const JointSignals& theirs = record.joints[source.index];
-  return {source.sign * (source.position_scale * (units.position * theirs.position) - source.zero),
-          source.sign * (source.velocity_scale * (units.velocity * theirs.velocity)),
-          source.sign * (source.torque_scale * (units.torque * theirs.torque))};
+  const double sign = source.sign;
+  return {
+      in_our_convention(theirs.position, units.position, source.position_scale, sign, source.zero),
+      in_our_convention(theirs.velocity, units.velocity, source.velocity_scale, sign),
+      in_our_convention(theirs.torque, units.torque, source.torque_scale, sign)};
 }
 
 JointTarget target(const RobotRecord& record, const JointSource& source,
                    const RecordUnits& units) noexcept {
   if (source.index >= record.targets.size()) return {};
   const JointTarget& theirs = record.targets[source.index];
-  return {source.sign * (source.position_scale * (units.position * theirs.position) - source.zero),
-          source.sign * (source.velocity_scale * (units.velocity * theirs.velocity)),
-          source.sign * (source.torque_scale * (units.torque * theirs.feedforward_torque)),
-          units.kp * theirs.kp, units.kd * theirs.kd};
+  const double sign = source.sign;
+  return {
+      in_our_convention(theirs.position, units.position, source.position_scale, sign, source.zero),
+      in_our_convention(theirs.velocity, units.velocity, source.velocity_scale, sign),
+      in_our_convention(theirs.feedforward_torque, units.torque, source.torque_scale, sign),
+      units.kp * theirs.kp, units.kd * theirs.kd};
 }
 
 bool is_positive(double value) { return std::isfinite(value) && value > 0.0; }

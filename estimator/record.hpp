@@ -39,8 +39,14 @@ struct RobotRecord {
   std::span<const JointTarget> targets = {};
 };
 
-/// How one of our joints follows from one of the record's: ours = sign · (scale · unit · theirs −
-/// zero).
+/// One of our numbers, from one of the robot's. Records, mapping files and loops share this
+/// formula.
+[[nodiscard]] constexpr double in_our_convention(double theirs, double unit, double scale,
+                                                 double sign, double zero = 0.0) noexcept {
+  return sign * (scale * (unit * theirs) - zero);
+}
+
+/// How one of our joints follows from one of the record's (`in_our_convention`).
 struct JointSource {
   std::size_t index = 0;  ///< among the record's joints
   double sign = 1.0;      ///< −1: their joint turns the other way than Upkie's

@@ -48,4 +48,17 @@ Signals signals_from(const models::Observation& observation,
   return signals;
 }
 
+void StepSignals::reset() {
+  assembler_.reset();
+  previous_.reset();
+}
+
+const Signals& StepSignals::next(const models::Observation& observation,
+                                 const models::Action& action) {
+  const Signals& signals =
+      assembler_.assemble(record_of(observation, previous_ ? &*previous_ : nullptr, joints_));
+  previous_ = action;
+  return signals;
+}
+
 }  // namespace touchdown::logs

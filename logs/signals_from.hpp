@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "estimator/record.hpp"
+#include "estimator/signal_assembler.hpp"
 #include "models/robot.hpp"
 
 namespace touchdown::logs {
@@ -35,5 +37,24 @@ Signals signals_from(const models::Observation& observation, const models::Actio
 /// The same without targets, given the ground velocity of the previous action (m/s).
 Signals signals_from(const models::Observation& observation,
                      double previous_ground_velocity_command);
+
+/// The input of an estimator, from the steps of a log or of a robot's loop one after the other.
+class StepSignals {
+ public:
+  /// `sample_rate` in Hz. Repeated values are no fault: a simulated robot at rest reports the same
+  /// values again.
+  explicit StepSignals(double sample_rate)
+      : assembler_(AssemblyConfig{.sample_rate = sample_rate, .stale_after = 0.0}) {}
+
+  void reset();
+  /// Valid until the next step.
+  const Signals& next(const models::Observation& observation, const models::Action& action);
+  const SignalAssembler& assembler() const { return assembler_; }
+
+ private:
+  SignalAssembler assembler_;
+  RecordedJoints joints_;
+  std::optional<models::Action> previous_;  ///< of the step before
+};
 
 }  // namespace touchdown::logs

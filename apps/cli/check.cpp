@@ -168,16 +168,12 @@ std::size_t check_robot(const std::string& path, bool as_json, const CliSession&
 /// Returns the number of findings. Errors: `InputError` for a log that cannot be read.
 std::size_t check_log(const std::string& path, const std::string& mapping,
                       const experiments::LogRobot& robot, const CliSession& session) {
-  std::optional<logs::MappedLog> mapped;
-  if (!mapping.empty()) {
-    mapped.emplace(path, mapping, [&] {
-      if (*session.stop) throw Stopped("stopped");
-    });
-    print_warnings(mapped->warnings());
-  }
-  logs::LogReader reader(
-      logs::file_source(mapped ? mapped->path() : std::filesystem::path(path), session.stop),
-      path == "-" ? "standard input" : path);
+  const auto check_stop = [&] {
+    if (*session.stop) throw Stopped("stopped");
+  };
+  logs::LogReader reader =
+      mapping.empty() ? logs::LogReader(path, session.stop)
+                      : logs::LogReader(logs::mapped_records(path, mapping, {check_stop}), path);
   experiments::LogSteps log(reader, nullptr, experiments::checked_robot(robot, reader.info()));
   std::int64_t steps = 0;
   double last = 0.0;

@@ -170,7 +170,6 @@ Evaluation evaluate(logs::LogReader& reader, const experiments::LogEstimator& ch
   }
   std::vector<std::string> findings = log.findings();
   const std::string summary = writer.finish(reader, findings.size());
-  require_valid_steps(reader, writer, findings);
   return {fmt::format("{}: {} steps, {:.3f} s at {:.6g} Hz, {}\n", reader.name(), writer.steps(),
                       writer.duration(), log.sample_rate(), chosen.entry.title) +
               outcome_line(reader.info(), writer.duration()) + summary + gravity_line(log) +
@@ -197,26 +196,29 @@ std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* 
     BeliefWriter writer(csv, mpack,
                         flags.figure.empty() ? std::nullopt : std::optional(flags.drawn));
     const bool live = path == "-";
-    std::optional<logs::MappedLog> mapped;
-    if (!flags.mapping.empty()) {
-      mapped.emplace(path, flags.mapping, [&] {
-        if (*session.stop) throw Stopped("stopped; nothing was written");
-      });
-      print_warnings(mapped->warnings());
-    }
-    const std::string log = mapped ? mapped->path().string() : path;
-    // A reader of a live stream gets every line before the program waits for the next record.
-    const logs::ByteSource source =
-        [&, bytes = logs::file_source(log, session.stop)](std::span<char> buffer) {
-          if (outputs.prints_csv()) writer.flush();
-          return bytes(buffer);
+    const auto open = [&] {
+      if (!flags.mapping.empty()) {
+        const auto check_stop = [&] {
+          if (*session.stop) throw Stopped("stopped; nothing was written");
         };
-    logs::LogReader reader(source, live ? "standard input" : path);
+        return logs::LogReader(
+            logs::mapped_records(path, flags.mapping, {check_stop, mpack != nullptr}), path);
+      }
+      // A reader of a live stream gets every line before the program waits for the next record.
+      return logs::LogReader(
+          [&, bytes = logs::file_source(path, session.stop)](std::span<char> buffer) {
+            if (outputs.prints_csv()) writer.flush();
+            return bytes(buffer);
+          },
+          live ? "standard input" : path);
+    };
+    logs::LogReader reader = open();
     const Evaluation evaluation = evaluate(reader, estimator, labels, writer);
     summary = evaluation.summary;
     findings = evaluation.findings.size();
     if (*session.stop && !live) throw Stopped("stopped; nothing was written");
     print_warnings(reader.warnings());
+    require_valid_steps(reader, writer, evaluation.findings);
     for (const std::string& finding : evaluation.findings) {
       print_message(fmt::format("touchdown: {}: {}\n", reader.name(), finding));
     }

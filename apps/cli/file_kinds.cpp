@@ -10,7 +10,7 @@
 #include "core/fields.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/studies/experiment_file.hpp"
-#include "logs/mapping/mapping_file.hpp"
+#include "logs/mapping/mapping.hpp"
 #include "noise/sensor_profile.hpp"
 #include "scenarios/scenario_file.hpp"
 

@@ -14,8 +14,6 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/logs/estimator.hpp"
 #include "experiments/logs/fit.hpp"
-#include "logs/log/byte_source.hpp"
-#include "logs/log/writer.hpp"
 #include "logs/model_file.hpp"
 #include "logs/sample_times.hpp"
 #include "logs/signals_from.hpp"
@@ -105,8 +103,8 @@ class Estimator {
   Belief update(const py::object& signals, bool gravity_included) {
     const AssemblyConfig imu = with_gravity(gravity_included);
     const ExclusiveUse use(busy_);
-    const Signals step =
-        loop_ ? loop_->next(signals) : SignalArrays::of_step(signals, needs_of(source_.entry), imu);
+    const Signals step = loop_ ? loop_->next(signals)
+                               : SignalArrays(signals, needs_of(source_.entry), imu, true).at(0);
     ++steps_;
     return estimator_->update(step);
   }

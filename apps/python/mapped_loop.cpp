@@ -6,8 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "logs/mapping/conversion.hpp"
-#include "logs/mapping/mapping_file.hpp"
+#include "logs/mapping/row_values.hpp"
 
 namespace touchdown::python {
 
@@ -46,13 +45,10 @@ StepArray numbers_of(const py::object& arrays, const std::string& name, bool is_
 }  // namespace
 
 MappedLoop::MappedLoop(std::filesystem::path mapping, double sample_rate)
-    : path_(std::move(mapping)),
-      // As for logs: repeated values are no fault, a simulated robot at rest has them.
-      assembler_(AssemblyConfig{.sample_rate = sample_rate, .stale_after = 0.0}) {}
+    : path_(std::move(mapping)), signals_(sample_rate) {}
 
 void MappedLoop::reset() {
-  assembler_.reset();
-  previous_.reset();
+  signals_.reset();
   steps_ = 0;
 }
 
@@ -87,14 +83,12 @@ std::vector<MappedLoop::Column> MappedLoop::columns_of(const py::object& arrays,
 Signals MappedLoop::convert(const std::vector<Column>& columns, std::size_t step) {
   std::vector<double> row;
   for (const Column& column : columns) row.push_back(column.numbers(step, column.item));
-  logs::LogRow mapped = logs::mapped_row(*mapping_, steps_, row);
+  logs::LogRow mapped =
+      logs::to_row(logs::log_values(*mapping_, steps_, row), logs::log_presence(*mapping_));
   double& time = mapped.observation.time;
   if (steps_++ == 0) start_ = time;
   if (start_ != 0.0) time -= start_;
-  const Signals& signals = assembler_.assemble(
-      logs::record_of(mapped.observation, previous_ ? &*previous_ : nullptr, joints_));
-  previous_ = mapped.action;
-  return signals;
+  return signals_.next(mapped.observation, mapped.action);
 }
 
 }  // namespace touchdown::python

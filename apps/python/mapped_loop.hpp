@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "apps/python/arrays.hpp"
-#include "estimator/signal_assembler.hpp"
 #include "logs/mapping/mapping.hpp"
 #include "logs/signals_from.hpp"
 
@@ -35,11 +34,9 @@ class MappedLoop {
 
   std::filesystem::path path_;
   std::optional<logs::LogMapping> mapping_;  ///< once the names are known
-  SignalAssembler assembler_;
+  logs::StepSignals signals_;
   std::size_t steps_ = 0;
   double start_ = 0.0;  ///< time of the first step (s)
-  std::optional<models::Action> previous_;
-  logs::RecordedJoints joints_;
 };
 
 }  // namespace touchdown::python

@@ -31,7 +31,7 @@ Model fit(const std::vector<DeclaredRun>& runs, const std::string& name, double 
   std::vector<experiments::FitLog> logs;
   for (const auto& [run, contact] : runs) {
     if (py::hasattr(run, "info")) {
-      logs.push_back({fmt::format("recording {}", logs.size()), contact, records_of(run)});
+      logs.push_back({fmt::format("recording {}", logs.size()), contact, recording_of(run)});
     } else {
       logs.push_back({path_of(run), contact});
     }

@@ -4,14 +4,12 @@
 #include <array>
 #include <limits>
 #include <pybind11/stl.h>
-#include <sstream>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "apps/python/signal_arrays.hpp"
 #include "core/error.hpp"
-#include "logs/log/writer.hpp"
 #include "logs/signals_from.hpp"
 #include "scoring/labels.hpp"
 
@@ -319,16 +317,9 @@ logs::Recording recording_of(const py::object& arrays, const py::dict& info) {
   return recording;
 }
 
-std::shared_ptr<const std::string> records_of(const py::object& recording) {
-  const logs::Recording whole = recording_of(recording, recording.attr("info").cast<py::dict>());
-  std::ostringstream stream;
-  logs::LogWriter writer(stream, whole.info, logs::truth_of(whole));
-  for (std::size_t k = 0; k < whole.steps(); ++k) {
-    writer.write(whole.observation[k], whole.action[k],
-                 whole.truth.empty() ? nullptr : &whole.truth[k]);
-  }
-  writer.finish();
-  return std::make_shared<const std::string>(stream.str());
+std::shared_ptr<const logs::Recording> recording_of(const py::object& recording) {
+  return std::make_shared<const logs::Recording>(
+      recording_of(recording, recording.attr("info").cast<py::dict>()));
 }
 
 models::Observation observation_of(const py::dict& spine, double time) {

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <memory>
-#include <string>
 
 #include "apps/python/arrays.hpp"
 #include "logs/recording.hpp"
@@ -25,8 +24,8 @@ logs::RecordingInfo info_of(const py::dict& dict);
 /// `InputError` for arrays that are missing or have another shape.
 logs::Recording recording_of(const py::object& arrays, const py::dict& info);
 
-/// A recording as the records of a log (logs/log).
-std::shared_ptr<const std::string> records_of(const py::object& recording);
+/// The same for a `Recording` of Python, which has its info.
+std::shared_ptr<const logs::Recording> recording_of(const py::object& recording);
 
 /// Reads a dictionary of Upkie's spine: `info["spine_observation"]` of a gym environment, or
 /// `observation` of a log's record. A missing number or vector, or None, becomes NaN: a failed

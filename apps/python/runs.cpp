@@ -15,7 +15,6 @@
 #include "experiments/config/yaml_kind.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
-#include "logs/log/byte_source.hpp"
 #include "logs/log/recording_file.hpp"
 #include "logs/mapping/conversion.hpp"
 #include "scenarios/engine.hpp"
@@ -50,22 +49,22 @@ py::tuple simulate(const fs::path& scenario, const std::string& simulator, std::
 }
 
 /// `mapping` converts another robot's log or bag.
+logs::LogReader reader_of(const fs::path& path, const std::optional<fs::path>& mapping,
+                          const std::atomic<bool>& stop) {
+  if (!mapping) return logs::LogReader(path, &stop);
+  const auto check_stop = [&] {
+    if (stop) throw Stopped("stopped");
+  };
+  return {logs::mapped_records(path, *mapping, {check_stop}), path.string()};
+}
+
 py::tuple load(const fs::path& path, const std::optional<fs::path>& mapping) {
   std::vector<std::string> warnings;
   py::tuple read = with_info(long_call([&](const std::atomic<bool>& stop) {
-    const auto stopped = [&] {
-      if (stop) throw Stopped("stopped");
-    };
-    if (!mapping) {
-      logs::LogReader reader(path, &stop);
-      logs::Recording recording = logs::read_recording(reader, &warnings);
-      stopped();
-      return recording;
-    }
-    const logs::MappedLog mapped(path, *mapping, stopped);
-    warnings = mapped.warnings();
-    logs::LogReader reader(logs::file_source(mapped.path(), &stop), path.string());
-    return logs::read_recording(reader, &warnings);
+    logs::LogReader reader = reader_of(path, mapping, stop);
+    logs::Recording recording = logs::read_recording(reader, &warnings);
+    if (stop) throw Stopped("stopped");
+    return recording;
   }));
   for (const std::string& warning : warnings) {
     if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) throw py::error_already_set();
@@ -135,26 +134,18 @@ std::vector<std::string> check(const py::object& log, const std::string& robot,
                                const std::optional<fs::path>& mapping) {
   const bool in_memory = py::hasattr(log, "info");
   if (in_memory && mapping) throw InputError("check: mapping is for logs by path");
-  const auto records = in_memory ? records_of(log) : nullptr;
+  const auto recording = in_memory ? recording_of(log) : nullptr;
   const fs::path path = in_memory ? fs::path("recording") : path_of(log);
   return long_call([&](const std::atomic<bool>& stop) {
-    std::optional<logs::MappedLog> mapped;
-    if (mapping) {
-      mapped.emplace(path, *mapping, [&] {
-        if (stop) throw Stopped("stopped");
-      });
-    }
-    logs::LogReader reader(in_memory ? logs::memory_source(records, &stop)
-                                     : logs::file_source(mapped ? mapped->path() : path, &stop),
-                           path.string());
+    logs::LogReader reader =
+        in_memory ? logs::LogReader(logs::records_of(recording, &stop), path.string())
+                  : reader_of(path, mapping, stop);
     experiments::LogSteps steps(
         reader, nullptr,
         experiments::checked_robot(experiments::robot_of_file(robot), reader.info()));
     while (steps.next() != nullptr) {
     }
-    std::vector<std::string> lines;
-    if (mapped) lines = mapped->warnings();
-    lines.insert(lines.end(), reader.warnings().begin(), reader.warnings().end());
+    std::vector<std::string> lines = reader.warnings();
     const std::vector<std::string> findings = steps.findings();
     lines.insert(lines.end(), findings.begin(), findings.end());
     return lines;

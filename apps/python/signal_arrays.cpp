@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
-#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
@@ -31,6 +30,18 @@ void set_joints(Signals& signals, const Joint& joint) {
   }
 }
 
+/// The arrays of targets, by member of `JointTarget`.
+struct TargetArray {
+  const char* name;
+  double JointTarget::*member;
+};
+constexpr std::array<TargetArray, 5> target_arrays = {
+    {{"target_position", &JointTarget::position},
+     {"target_velocity", &JointTarget::velocity},
+     {"target_torque", &JointTarget::feedforward_torque},
+     {"target_kp", &JointTarget::kp},
+     {"target_kd", &JointTarget::kd}}};
+
 /// Sets one member of all targets to `number(index)`.
 template <typename Number>
 void set_targets(Signals& signals, double JointTarget::*member, const Number& number) {
@@ -55,23 +66,18 @@ bool have_layout_of_signals(const StepArray& position, const StepArray& velocity
          is_member(torque, offsetof(JointSignals, torque));
 }
 
-/// Numbers of one step, by name, as an array of one row; nothing if they are missing and not
-/// needed.
-std::optional<StepArray> numbers_of(const py::object& step, const char* name, std::size_t columns,
-                                    bool is_needed) {
-  const auto expected = [&] {
-    return columns == 0 ? std::string("a number") : fmt::format("{} numbers", columns);
-  };
+/// `count` numbers of one step, by name, as an array of one step.
+StepArray numbers_of(const py::object& step, const char* name, std::size_t count) {
+  const std::string expected = count == 1 ? "a number" : fmt::format("{} numbers", count);
   if (!step.contains(name)) {
-    if (!is_needed) return std::nullopt;
-    throw InputError(fmt::format("signals: '{}' is missing: expected {}", name, expected()));
+    throw InputError(fmt::format("signals: '{}' is missing: expected {}", name, expected));
   }
   auto array = StepArray::Array::ensure(step[name]);
-  const auto count = static_cast<py::ssize_t>(std::max<std::size_t>(columns, 1));
-  if (!array || array.size() != count || array.ndim() > 1) {
-    throw InputError(fmt::format("signals: '{}': expected {}", name, expected()));
+  if (!array || array.size() != static_cast<py::ssize_t>(count) || array.ndim() > 1) {
+    throw InputError(fmt::format("signals: '{}': expected {}", name, expected));
   }
-  return StepArray(StepArray::Array(array.reshape({py::ssize_t{1}, count})));
+  return StepArray(
+      StepArray::Array(array.reshape({py::ssize_t{1}, static_cast<py::ssize_t>(count)})));
 }
 
 /// Whether the vertical acceleration follows from acceleration and orientation.
@@ -100,18 +106,24 @@ void convert_imu(Signals& signals, const std::optional<std::array<double, 4>>& o
 
 }  // namespace
 
-SignalArrays::SignalArrays(const py::object& arrays, const SignalNeeds& needs, AssemblyConfig imu)
-    : SignalArrays(
-          arrays, needs, std::move(imu),
-          [map = std::make_shared<ArrayMap>(arrays, "signals")](
-              const char* name, std::size_t columns, bool is_needed) -> std::optional<StepArray> {
-            if (!is_needed && !map->has(name)) return std::nullopt;
-            return map->column(name, columns);
-          }) {}
+StepArray SignalArrays::column(const char* name, std::size_t columns) {
+  return is_one_step_ ? numbers_of(arrays_, name, std::max<std::size_t>(columns, 1))
+                      : map_.column(name, columns);
+}
+
+std::optional<StepArray> SignalArrays::column(const char* name, std::size_t columns,
+                                              bool is_needed) {
+  if (!is_needed && !map_.has(name)) return std::nullopt;
+  return column(name, columns);
+}
 
 SignalArrays::SignalArrays(const py::object& arrays, const SignalNeeds& needs, AssemblyConfig imu,
-                           const Column& column)
-    : imu_(std::move(imu)), time_(*column("time", 0, true)) {
+                           bool is_one_step)
+    : arrays_(arrays),
+      is_one_step_(is_one_step),
+      map_(arrays, "signals"),
+      imu_(std::move(imu)),
+      time_(column("time", 0)) {
   const bool derives = is_derived(arrays, needs, imu_);
   position_ = column("position", joint_count, needs.position);
   velocity_ = column("velocity", joint_count, needs.velocity);
@@ -119,7 +131,7 @@ SignalArrays::SignalArrays(const py::object& arrays, const SignalNeeds& needs, A
   linear_acceleration_ = column("linear_acceleration", 3, needs.acceleration_vector || derives);
   angular_velocity_ = column("angular_velocity", 3, needs.angular_velocity);
   if (derives) {
-    orientation_ = column("orientation", 4, true);
+    orientation_.emplace(column("orientation", 4));
   } else {
     vertical_acceleration_ = column("vertical_acceleration", 0, needs.acceleration);
   }
@@ -127,7 +139,7 @@ SignalArrays::SignalArrays(const py::object& arrays, const SignalNeeds& needs, A
   for (std::size_t i = 0; i < target_.size(); ++i) {
     target_[i] = column(target_arrays[i].name, joint_count, false);
   }
-  has_record_ = column("has_record", 0, false);
+  if (!is_one_step) has_record_ = column("has_record", 0, false);
   has_layout_of_signals_ =
       position_ && velocity_ && torque_ && have_layout_of_signals(*position_, *velocity_, *torque_);
 }
@@ -168,14 +180,6 @@ std::optional<double> SignalArrays::period() const {
   std::vector<double> times;
   for (std::size_t k = 0; k < std::min(steps(), most); ++k) times.push_back(time_(k));
   return logs::typical_step(times);
-}
-
-Signals SignalArrays::of_step(const py::object& step, const SignalNeeds& needs,
-                              const AssemblyConfig& imu) {
-  const auto column = [&](const char* name, std::size_t columns, bool is_needed) {
-    return numbers_of(step, name, columns, is_needed);
-  };
-  return SignalArrays(step, needs, imu, column).at(0);
 }
 
 py::dict arrays_of(std::vector<Signals> steps) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -9,18 +8,6 @@
 #include "estimator/record.hpp"
 
 namespace touchdown::python {
-
-/// The arrays of targets, by member of `JointTarget`.
-struct TargetArray {
-  const char* name;
-  double JointTarget::*member;
-};
-inline constexpr std::array<TargetArray, 5> target_arrays = {
-    {{"target_position", &JointTarget::position},
-     {"target_velocity", &JointTarget::velocity},
-     {"target_torque", &JointTarget::feedforward_torque},
-     {"target_kp", &JointTarget::kp},
-     {"target_kd", &JointTarget::kd}}};
 
 /// The signals that an estimator uses. Arrays of others may be missing: they are 0.
 struct SignalNeeds {
@@ -44,27 +31,24 @@ struct SignalNeeds {
 /// orientation then takes out gravity. `AssemblyConfig::axes` rotates all vectors of the IMU.
 class SignalArrays {
  public:
+  /// `is_one_step`: numbers, and rows of six and of three, instead of arrays with a row per step.
   /// Errors: `InputError` for arrays that are needed and missing or have another shape.
-  SignalArrays(const py::object& arrays, const SignalNeeds& needs, AssemblyConfig imu);
+  SignalArrays(const py::object& arrays, const SignalNeeds& needs, AssemblyConfig imu,
+               bool is_one_step = false);
 
-  /// Signals of one step: numbers, and rows of six and of three. Errors: as above.
-  static Signals of_step(const py::object& step, const SignalNeeds& needs,
-                         const AssemblyConfig& imu);
-
-  std::size_t steps() const { return time_.steps(); }
+  std::size_t steps() const { return map_.steps(); }
   bool has_record(std::size_t step) const { return !has_record_ || (*has_record_)(step) != 0.0; }
   Signals at(std::size_t step) const;
   /// Period (s): the median of the first thousand steps; nothing for fewer than two steps.
   std::optional<double> period() const;
 
  private:
-  /// An array by name, with so many numbers per step (0: one); nothing if it is missing and not
-  /// needed.
-  using Column = std::function<std::optional<StepArray>(const char* name, std::size_t columns,
-                                                        bool is_needed)>;
-  SignalArrays(const py::object& arrays, const SignalNeeds& needs, AssemblyConfig imu,
-               const Column& column);
+  StepArray column(const char* name, std::size_t columns);
+  std::optional<StepArray> column(const char* name, std::size_t columns, bool is_needed);
 
+  py::object arrays_;
+  bool is_one_step_;
+  ArrayMap map_;
   AssemblyConfig imu_;
   StepArray time_;
   std::optional<StepArray> position_;

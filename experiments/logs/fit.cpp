@@ -13,6 +13,7 @@
 #include "estimator/signal_guard.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 #include "experiments/signals/run_signals.hpp"
+#include "logs/log/recording_file.hpp"
 #include "scoring/labels.hpp"
 
 namespace touchdown::experiments {
@@ -20,8 +21,8 @@ namespace touchdown::experiments {
 namespace {
 
 logs::LogReader reader_of(const FitLog& log, const LogFitConfig& config) {
-  if (!log.records) return logs::LogReader(log.path, config.stop);
-  return logs::LogReader(logs::memory_source(log.records, config.stop), log.path.string());
+  if (!log.recording) return logs::LogReader(log.path, config.stop);
+  return {logs::records_of(log.recording, config.stop), log.path.string()};
 }
 
 using Sink = std::function<void(bool contact, const TorqueSample& sample)>;
@@ -350,8 +351,7 @@ void FitLogSteps::compare_with_declared_class() {
 
 void FitLogSteps::finish(std::int64_t used_steps) {
   stop_if_asked(config_);
-  report_.warnings.insert(report_.warnings.end(), reader_.warnings().begin(),
-                          reader_.warnings().end());
+  for (std::string& warning : reader_.warnings()) report_.warnings.push_back(std::move(warning));
   for (const std::string& finding : steps_.findings()) {
     report_.warnings.push_back(fmt::format("{}: {}", log_.path.string(), finding));
   }

@@ -23,8 +23,8 @@ struct FitLog {
   std::filesystem::path path;
   /// The one class of all steps, as in the paper. Without it the log's own ground truth counts.
   std::optional<bool> contact = {};
-  /// Its records, if they are in memory; `path` is then only their name.
-  std::shared_ptr<const std::string> records = {};
+  /// The log, if it is in memory; `path` is then only its name.
+  std::shared_ptr<const logs::Recording> recording = {};
   /// Labels of segments of the log; steps between the segments are left out.
   std::shared_ptr<const logs::ContactIntervals> labels = {};
 };

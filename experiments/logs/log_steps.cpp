@@ -26,11 +26,6 @@ double usable_rate(logs::LogReader& reader) {
   return rate;
 }
 
-/// Repeated values are no fault: a simulated robot at rest reports the same values again.
-AssemblyConfig assembly_of(double sample_rate) {
-  return {.sample_rate = sample_rate, .stale_after = 0.0};
-}
-
 /// Stand-ins for the forces of a log with labels of contact alone.
 std::optional<std::array<double, models::wheel_count>> forces(const logs::ContactInterval* label) {
   if (label == nullptr) return std::nullopt;
@@ -46,16 +41,14 @@ LogSteps::LogSteps(logs::LogReader& reader, const logs::ContactIntervals* labels
       labels_(labels),
       sample_rate_(usable_rate(reader)),
       period_us_(std::llround(1e6 / sample_rate_)),
-      assembler_(assembly_of(sample_rate_)),
+      signals_(sample_rate_),
       plausibility_(1.0 / sample_rate_, robot) {}
 
 const LogStep* LogSteps::next() {
   const std::optional<logs::LogRow> row = reader_.next();
   if (!row) return nullptr;
   plausibility_.add(row->observation);
-  step_.signals = assembler_.assemble(
-      logs::record_of(row->observation, previous_ ? &*previous_ : nullptr, joints_));
-  previous_ = row->action;
+  step_.signals = signals_.next(row->observation, row->action);
   step_.normal_force.reset();
   if (labels_ != nullptr) {
     step_.normal_force = forces(labels_->at(row->observation.time));

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 
-#include "estimator/signal_assembler.hpp"
 #include "logs/log/contact_intervals.hpp"
 #include "logs/log/reader.hpp"
 #include "logs/plausibility/check.hpp"
@@ -42,7 +41,7 @@ class LogSteps {
 
   /// Number of steps so far with an IMU orientation that contradicts gravity. Their vertical
   /// acceleration is NaN.
-  std::uint64_t upside_down() const { return assembler_.count(RecordFault::upside_down); }
+  std::uint64_t upside_down() const { return signals_.assembler().count(RecordFault::upside_down); }
 
   /// What is implausible about the steps so far, one line each.
   std::vector<std::string> findings() const { return plausibility_.findings(); }
@@ -52,10 +51,8 @@ class LogSteps {
   const logs::ContactIntervals* labels_;
   double sample_rate_;
   std::int64_t period_us_;
-  SignalAssembler assembler_;
+  logs::StepSignals signals_;
   logs::PlausibilityCheck plausibility_;
-  logs::RecordedJoints joints_;
-  std::optional<models::Action> previous_;  ///< of the step before
   LogStep step_;
 };
 

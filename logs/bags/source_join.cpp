@@ -7,16 +7,9 @@
 
 namespace touchdown::logs {
 
-SourceJoin::SourceJoin(Config config, Emit emit)
-    : config_(std::move(config)), emit_(std::move(emit)) {
-  std::size_t offset = 0;
-  for (const std::size_t width : config_.widths) {
-    Source& source = sources_.emplace_back();
-    source.offset = offset;
-    source.width = width;
-    offset += width;
-  }
-  joined_.resize(offset);
+SourceJoin::SourceJoin(Config config)
+    : config_(std::move(config)), sources_(config_.columns.size()) {
+  for (const std::vector<std::size_t>& columns : config_.columns) width_ += columns.size();
 }
 
 void SourceJoin::add(std::size_t index, double arrival, double time, std::span<const double> row,
@@ -25,19 +18,32 @@ void SourceJoin::add(std::size_t index, double arrival, double time, std::span<c
   Source& source = sources_[index];
   if (source.report.rows++ == 0) source.report.first = time;
   source.report.last = time;
+  arrival_ = arrival;
+  latest_ = index;
   if (index == config_.clock) {
     insert({arrival, time, position, {row.begin(), row.end()}});
   } else {
     source.by_arrival.push_back(
         source.held.insert({time, Held{arrival, {row.begin(), row.end()}}}));
   }
-  while (!pending_.empty() && pending_.front().arrival + arrival_window < arrival) {
-    emit(pending_.front());
+}
+
+bool SourceJoin::pop(std::vector<double>& row) {
+  while (!pending_.empty() &&
+         (is_finished_ || pending_.front().arrival + arrival_window < arrival_)) {
+    const Pending pending = std::move(pending_.front());
     pending_.pop_front();
+    if (join(pending, row)) return true;
   }
-  // A source must not fill the memory while the joints have no rows.
-  const double oldest = (pending_.empty() ? arrival : pending_.front().arrival) - arrival_window -
+  forget_old();
+  return false;
+}
+
+/// A source must not fill the memory while the joints have no rows.
+void SourceJoin::forget_old() {
+  const double oldest = (pending_.empty() ? arrival_ : pending_.front().arrival) - arrival_window -
                         config_.stale_after;
+  Source& source = sources_[latest_];
   while (!source.by_arrival.empty() && source.by_arrival.front()->second.arrival < oldest) {
     source.held.erase(source.by_arrival.front());
     source.by_arrival.pop_front();
@@ -56,43 +62,42 @@ void SourceJoin::insert(Pending pending) {
   pending_.insert(at, std::move(pending));
 }
 
-/// Adds the source's values to the joined row. Returns false if it has not had any so far.
-bool SourceJoin::hold(Source& source, const Pending& pending) {
-  const auto to = joined_.begin() + static_cast<std::ptrdiff_t>(source.offset);
-  auto latest = source.held.upper_bound(pending.time);
+/// Writes the source's values into the joined row. Returns false if it has not had any so far.
+bool SourceJoin::hold(std::size_t index, double time, std::vector<double>& row) {
+  Source& source = sources_[index];
+  const std::vector<std::size_t>& columns = config_.columns[index];
+  auto latest = source.held.upper_bound(time);
   if (latest != source.held.begin()) {
     --latest;
-    const double age = pending.time - latest->first;
+    const double age = time - latest->first;
     if (age <= config_.stale_after) {
       source.has_begun = true;
       source.report.ages.add(age);
-      std::copy(latest->second.row.begin(), latest->second.row.end(), to);
+      for (std::size_t i = 0; i < columns.size(); ++i) row[columns[i]] = latest->second.row[i];
       return true;
     }
   }
-  std::fill_n(to, source.width, std::numeric_limits<double>::quiet_NaN());
+  for (const std::size_t column : columns) row[column] = std::numeric_limits<double>::quiet_NaN();
   if (source.has_begun) ++source.report.stale;
   return source.has_begun;
 }
 
-void SourceJoin::emit(const Pending& pending) {
+/// Returns false for a row of the joints before another source has begun.
+bool SourceJoin::join(const Pending& pending, std::vector<double>& row) {
+  row.resize(width_);
   bool has_begun = true;
   for (std::size_t i = 0; i < sources_.size(); ++i) {
-    if (i != config_.clock) has_begun = hold(sources_[i], pending) && has_begun;
+    if (i != config_.clock) has_begun = hold(i, pending.time, row) && has_begun;
   }
   if (!has_begun) {
     ++rows_before_;
-    return;
+    return false;
   }
-  std::copy(pending.row.begin(), pending.row.end(),
-            joined_.begin() + static_cast<std::ptrdiff_t>(sources_[config_.clock].offset));
+  const std::vector<std::size_t>& columns = config_.columns[config_.clock];
+  for (std::size_t i = 0; i < columns.size(); ++i) row[columns[i]] = pending.row[i];
+  position_ = pending.position;
   ++rows_;
-  emit_(joined_, pending.position);
-}
-
-void SourceJoin::finish() {
-  for (const Pending& pending : pending_) emit(pending);
-  pending_.clear();
+  return true;
 }
 
 }  // namespace touchdown::logs

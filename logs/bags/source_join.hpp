@@ -4,9 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <map>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,9 +46,10 @@ class SourceJoin {
   static constexpr double largest_disorder = 0.1;
 
   struct Config {
-    std::vector<std::size_t> widths;  ///< numbers per row of each source
-    std::size_t clock = 0;            ///< the source that gives the rows
-    double stale_after = 0.05;        ///< s
+    /// Where the numbers of each source's rows are in a joined row.
+    std::vector<std::vector<std::size_t>> columns;
+    std::size_t clock = 0;      ///< the source that gives the rows
+    double stale_after = 0.05;  ///< s
   };
 
   /// What became of one source's rows.
@@ -62,18 +61,18 @@ class SourceJoin {
     std::uint64_t stale = 0;  ///< joined rows without a value of this source
   };
 
-  /// A joined row: the numbers of all sources, source by source. `position` is that of the joints'
-  /// row.
-  using Emit = std::function<void(std::span<const double> row, std::uint64_t position)>;
+  explicit SourceJoin(Config config);
 
-  SourceJoin(Config config, Emit emit);
-
-  /// Adds a row of a source. `arrival` must not decrease from call to call, over all sources. A row
-  /// without a finite time is left out.
+  /// Adds a row of a source, after all rows that are due were popped. `arrival` must not decrease
+  /// from call to call, over all sources. A row without a finite time is left out.
   void add(std::size_t source, double arrival, double time, std::span<const double> row,
            std::uint64_t position);
-  /// Call it at the end.
-  void finish();
+  /// No row follows: all are due.
+  void finish() { is_finished_ = true; }
+  /// Writes the next joined row that is due. Returns false if none is.
+  bool pop(std::vector<double>& row);
+  /// That of the joints' row that was popped last.
+  std::uint64_t position() const { return position_; }
 
   const Report& report(std::size_t source) const { return sources_[source].report; }
   std::uint64_t rows() const { return rows_; }
@@ -87,8 +86,6 @@ class SourceJoin {
   };
   using ByTime = std::multimap<double, Held>;
   struct Source {
-    std::size_t offset = 0;  ///< of its numbers in a joined row
-    std::size_t width = 0;
     ByTime held;
     std::deque<ByTime::iterator> by_arrival;
     bool has_begun = false;
@@ -102,14 +99,18 @@ class SourceJoin {
   };
 
   void insert(Pending pending);
-  void emit(const Pending& pending);
-  bool hold(Source& source, const Pending& pending);
+  bool join(const Pending& pending, std::vector<double>& row);
+  bool hold(std::size_t source, double time, std::vector<double>& row);
+  void forget_old();
 
   Config config_;
-  Emit emit_;
+  std::size_t width_ = 0;
   std::vector<Source> sources_;
   std::deque<Pending> pending_;
-  std::vector<double> joined_;
+  double arrival_ = 0.0;    ///< of the latest row …
+  std::size_t latest_ = 0;  ///< … and its source
+  bool is_finished_ = false;
+  std::uint64_t position_ = 0;
   std::uint64_t rows_ = 0;
   std::uint64_t rows_before_ = 0;
 };

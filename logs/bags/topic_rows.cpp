@@ -145,6 +145,21 @@ void TopicRows::take(const ImuState& state) {
   put_all(state.linear_acceleration);
 }
 
+std::vector<std::string> TopicRows::notes() const {
+  std::vector<std::string> notes;
+  if (malformed_ > 0) {
+    notes.push_back(fmt::format("{}: {} messages are left out, the first because {}", topic_.name,
+                                malformed_, first_malformed_));
+  }
+  if (ages_.count() > 0) {
+    notes.push_back(fmt::format(
+        "{}: {} values that a message lacks are held from an earlier one, ages {:.1f} ms (median) "
+        "to {:.1f} ms",
+        topic_.name, ages_.count(), 1e3 * ages_.median(), 1e3 * ages_.largest()));
+  }
+  return notes;
+}
+
 namespace {
 
 /// Messages of each topic that show its joints and stamps.

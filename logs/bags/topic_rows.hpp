@@ -56,10 +56,9 @@ class TopicRows {
   std::span<const double> row() const { return row_; }
   double time() const { return time_; }
 
-  const SignalTopic& topic() const { return topic_; }
-  const Ages& ages() const { return ages_; }  ///< of the values from earlier messages
   std::uint64_t malformed() const { return malformed_; }
-  const std::string& first_malformed() const { return first_malformed_; }
+  /// One line for each thing that a user should know about the messages.
+  std::vector<std::string> notes() const;
 
  private:
   /// The two latest values of a number: messages can come in another order than their stamps.
@@ -86,7 +85,7 @@ class TopicRows {
   std::array<std::size_t, 10> imu_slot_{};
   JointState joint_state_;
   ImuState imu_;
-  Ages ages_;
+  Ages ages_;  ///< of the values from earlier messages
   std::uint64_t malformed_ = 0;
   std::string first_malformed_;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 #include <span>
 
 #include <fmt/format.h>
@@ -48,6 +50,74 @@ std::string complaint(std::size_t name, double value, double last_time) {
   return fmt::format("{}: expected 1 for contact or 0 for none", value);
 }
 
+/// Throws an error in the names, or in the values of one step, at a column.
+using Complain = std::function<void(std::size_t column, const std::string& what)>;
+
+/// Collects beliefs from the columns of a file of any format: `time`, `p_left`, `p_right`, and both
+/// or none of `contact_left` and `contact_right`, in any order.
+class BeliefColumns {
+ public:
+  BeliefColumns(const std::filesystem::path& path, Complain complain)
+      : complain_(std::move(complain)) {
+    beliefs.file = path.string();
+  }
+
+  /// Sets the names of the columns in order.
+  void set_names(std::span<const std::string> names) {
+    const std::vector<std::string>& known = known_names();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (std::find(known.begin(), known.end(), names[i]) == known.end()) {
+        complain_(i, fmt::format("unknown name '{}'{}: {}", names[i], did_you_mean(names[i], known),
+                                 expected_names));
+      }
+      const std::span<const std::string> before = names.first(i);
+      if (std::find(before.begin(), before.end(), names[i]) != before.end()) {
+        complain_(i, fmt::format("'{}' appears twice", names[i]));
+      }
+    }
+    names_.assign(names.begin(), names.end());
+    const auto place_of = [&](std::size_t name) {
+      return static_cast<std::size_t>(std::find(names.begin(), names.end(), known[name]) -
+                                      names.begin());
+    };
+    const bool decides =
+        place_of(first_contact) < names.size() || place_of(first_contact + 1) < names.size();
+    column_.clear();
+    for (std::size_t name = 0; name < (decides ? known.size() : needed); ++name) {
+      column_.push_back(place_of(name));
+      if (column_.back() == names.size()) {
+        complain_(names.size(), fmt::format("'{}' is missing: {}", known[name], expected_names));
+      }
+    }
+  }
+
+  /// Adds one step, with values in the order of the names.
+  void add(std::span<const double> values) {
+    const double last = beliefs.time.empty() ? -HUGE_VAL : beliefs.time.back();
+    for (std::size_t name = 0; name < column_.size(); ++name) {
+      const std::size_t column = column_[name];
+      const std::string what = complaint(name, values[column], last);
+      if (!what.empty()) complain_(column, fmt::format("{}: {}", names_[column], what));
+    }
+    beliefs.time.push_back(values[column_[time_name]]);
+    const bool decides = column_.size() > needed;
+    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+      const double p = values[column_[first_p + wheel]];
+      const bool contact = decides ? values[column_[first_contact + wheel]] != 0.0 : p >= 0.5;
+      beliefs.p_contact[wheel].push_back(p);
+      beliefs.contact[wheel].push_back(std::uint8_t{contact});
+    }
+  }
+
+  /// The beliefs so far.
+  Beliefs beliefs;
+
+ private:
+  Complain complain_;
+  std::vector<std::string> names_;
+  std::vector<std::size_t> column_;  ///< of each known name
+};
+
 }  // namespace
 
 std::string Beliefs::place(std::size_t index) const {
@@ -55,61 +125,15 @@ std::string Beliefs::place(std::size_t index) const {
   return fmt::format("{}: belief {}", file, index);
 }
 
-std::optional<ColumnError> BeliefColumns::set_names(std::span<const std::string> names) {
-  const std::vector<std::string>& known = known_names();
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (std::find(known.begin(), known.end(), names[i]) == known.end()) {
-      return ColumnError{i, fmt::format("unknown name '{}'{}: {}", names[i],
-                                        did_you_mean(names[i], known), expected_names)};
-    }
-    if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
-        names.begin() + static_cast<std::ptrdiff_t>(i)) {
-      return ColumnError{i, fmt::format("'{}' appears twice", names[i])};
-    }
-  }
-  names_.assign(names.begin(), names.end());
-  const auto has = [&](std::size_t name) {
-    return std::find(names.begin(), names.end(), known[name]) != names.end();
-  };
-  decides_ = has(first_contact) || has(first_contact + 1);
-  for (std::size_t name = 0; name < (decides_ ? known.size() : needed); ++name) {
-    if (!has(name)) {
-      return ColumnError{names.size(),
-                         fmt::format("'{}' is missing: {}", known[name], expected_names)};
-    }
-    column_[name] = static_cast<std::size_t>(std::find(names.begin(), names.end(), known[name]) -
-                                             names.begin());
-  }
-  return std::nullopt;
-}
-
-std::optional<ColumnError> BeliefColumns::add(std::span<const double> values) {
-  const double last = beliefs.time.empty() ? -HUGE_VAL : beliefs.time.back();
-  for (std::size_t name = 0; name < (decides_ ? known_names().size() : needed); ++name) {
-    const std::size_t column = column_[name];
-    const std::string what = complaint(name, values[column], last);
-    if (!what.empty()) return ColumnError{column, fmt::format("{}: {}", names_[column], what)};
-  }
-  beliefs.time.push_back(values[column_[time_name]]);
-  for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-    const double p = values[column_[first_p + wheel]];
-    const bool contact = decides_ ? values[column_[first_contact + wheel]] != 0.0 : p >= 0.5;
-    beliefs.p_contact[wheel].push_back(p);
-    beliefs.contact[wheel].push_back(std::uint8_t{contact});
-  }
-  return std::nullopt;
-}
-
 Beliefs read_belief_csv(const std::filesystem::path& path) {
-  BeliefColumns columns;
-  columns.beliefs.file = path.string();
-  read_numbers_csv(path,
-                   {[&](std::span<const std::string> names) { return columns.set_names(names); },
-                    [&](std::span<const double> values, std::size_t line) {
-                      std::optional<ColumnError> wrong = columns.add(values);
-                      if (!wrong) columns.beliefs.line.push_back(line);
-                      return wrong;
-                    }});
+  NumbersCsv csv(path);
+  BeliefColumns columns(
+      path, [&](std::size_t column, const std::string& what) { csv.complain(column, what); });
+  columns.set_names(csv.names());
+  while (csv.next()) {
+    columns.add(csv.values());
+    columns.beliefs.line.push_back(csv.line());
+  }
   if (columns.beliefs.size() == 0) {
     throw InputError(fmt::format("{}:1:1: holds no beliefs", path.string()));
   }
@@ -118,11 +142,12 @@ Beliefs read_belief_csv(const std::filesystem::path& path) {
 
 Beliefs read_belief_npz(const std::filesystem::path& path) {
   const std::vector<std::string> names = npz_names(path);
-  BeliefColumns columns;
-  columns.beliefs.file = path.string();
-  if (const std::optional<ColumnError> wrong = columns.set_names(names)) {
-    throw InputError(fmt::format("{}: {}", path.string(), wrong->what));
-  }
+  std::optional<std::size_t> step;  // without one, the names are wrong
+  BeliefColumns columns(path, [&](std::size_t /*column*/, const std::string& what) {
+    throw InputError(
+        fmt::format("{}: {}{}", path.string(), step ? fmt::format("index {}: ", *step) : "", what));
+  });
+  columns.set_names(names);
   const ModelArrays arrays = read_npz(path);
   const std::size_t steps = arrays.at("time").data.size();
   for (const auto& [name, array] : arrays) {
@@ -132,11 +157,9 @@ Beliefs read_belief_npz(const std::filesystem::path& path) {
   }
   if (steps == 0) throw InputError(fmt::format("{}: holds no beliefs", path.string()));
   std::vector<double> values(names.size());
-  for (std::size_t step = 0; step < steps; ++step) {
-    for (std::size_t i = 0; i < names.size(); ++i) values[i] = arrays.at(names[i]).data[step];
-    if (const std::optional<ColumnError> wrong = columns.add(values)) {
-      throw InputError(fmt::format("{}: index {}: {}", path.string(), step, wrong->what));
-    }
+  for (step = 0; *step < steps; ++*step) {
+    for (std::size_t i = 0; i < names.size(); ++i) values[i] = arrays.at(names[i]).data[*step];
+    columns.add(values);
   }
   return std::move(columns.beliefs);
 }
@@ -165,9 +188,9 @@ std::optional<double> number_of(const msgpack::object& value) {
 /// Reads one dictionary after the other. All must have the names of the first.
 class DictionaryReader {
  public:
-  explicit DictionaryReader(const std::filesystem::path& path) {
-    columns_.beliefs.file = path.string();
-  }
+  explicit DictionaryReader(const std::filesystem::path& path)
+      : columns_(path,
+                 [this](std::size_t /*column*/, const std::string& what) { complain(what); }) {}
 
   [[noreturn]] void complain(const std::string& what) const {
     throw InputError(
@@ -186,7 +209,7 @@ class DictionaryReader {
       if (!names_.empty() && sorted(names) != sorted(names_)) {
         complain(fmt::format("expected the names of the first: {}", fmt::join(names_, ", ")));
       }
-      check(columns_.set_names(names));
+      columns_.set_names(names);
       names_ = names;
     }
     std::vector<double> values;
@@ -195,7 +218,7 @@ class DictionaryReader {
       if (!number) complain(names[values.size()] + ": expected a number");
       values.push_back(*number);
     }
-    check(columns_.add(values));
+    columns_.add(values);
   }
 
   Beliefs finish() {
@@ -209,9 +232,6 @@ class DictionaryReader {
   static std::vector<std::string> sorted(std::vector<std::string> names) {
     std::sort(names.begin(), names.end());
     return names;
-  }
-  void check(const std::optional<ColumnError>& wrong) const {
-    if (wrong) complain(wrong->what);
   }
 
   BeliefColumns columns_;

@@ -4,12 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "logs/log/numbers_csv.hpp"
 #include "models/robot.hpp"
 
 namespace touchdown::logs {
@@ -26,24 +23,6 @@ struct Beliefs {
   std::size_t size() const { return time.size(); }
   /// Position of a belief for messages: "beliefs.csv:12", "beliefs.npz: belief 11".
   std::string place(std::size_t index) const;
-};
-
-/// Collects beliefs from the columns of a file of any format: `time`, `p_left`, `p_right`, and both
-/// or none of `contact_left` and `contact_right`, in any order.
-class BeliefColumns {
- public:
-  /// Sets the names of the columns in order. Returns an error, if any.
-  std::optional<ColumnError> set_names(std::span<const std::string> names);
-  /// Adds one step, with values in the order of the names, unless it has an error.
-  std::optional<ColumnError> add(std::span<const double> values);
-
-  /// The beliefs so far.
-  Beliefs beliefs;
-
- private:
-  std::vector<std::string> names_;
-  std::array<std::size_t, 5> column_{};  ///< of each known name
-  bool decides_ = false;
 };
 
 /// Reads beliefs as comma-separated values: a line of names, then a line per step. Decisions are 1

@@ -7,7 +7,6 @@
 #include <poll.h>
 #include <string_view>
 #include <unistd.h>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -68,15 +67,6 @@ ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool
       if (errno == EINTR) continue;
       complain_unreadable(name, {errno, std::generic_category()});
     }
-  };
-}
-
-ByteSource memory_source(std::shared_ptr<const std::string> bytes, const std::atomic<bool>* stop) {
-  return [bytes = std::move(bytes), stop, given = std::size_t{0}](std::span<char> buffer) mutable {
-    if (stop != nullptr && *stop) return std::size_t{0};
-    const std::size_t count = bytes->copy(buffer.data(), buffer.size(), given);
-    given += count;
-    return count;
   };
 }
 

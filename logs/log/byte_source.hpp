@@ -3,7 +3,6 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <span>
 #include <string>
 
@@ -17,9 +16,5 @@ using ByteSource = std::function<std::size_t(std::span<char>)>;
 /// while it waits for bytes. `stop` may be null, and must outlive the source. Errors: `InputError`
 /// when the file cannot be opened or read.
 ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool>* stop = nullptr);
-
-/// Bytes in memory. The stream ends once `stop`, as above, is true.
-ByteSource memory_source(std::shared_ptr<const std::string> bytes,
-                         const std::atomic<bool>* stop = nullptr);
 
 }  // namespace touchdown::logs

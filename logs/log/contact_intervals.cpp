@@ -25,49 +25,48 @@ struct IntervalColumns {
   std::array<std::size_t, models::wheel_count> contact = {};
 };
 
-std::optional<ColumnError> find_columns(std::span<const std::string> names,
-                                        IntervalColumns& columns) {
+IntervalColumns find_columns(const NumbersCsv& csv) {
   static const std::vector<std::string> known = {"start", "end", "contact", "left", "right"};
+  const std::vector<std::string>& names = csv.names();
   std::array<std::optional<std::size_t>, 5> place;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto found = std::find(known.begin(), known.end(), names[i]);
     if (found == known.end()) {
-      return ColumnError{i, fmt::format("unknown name '{}'{}: {}", names[i],
-                                        did_you_mean(names[i], known), expected_columns)};
+      csv.complain(i, fmt::format("unknown name '{}'{}: {}", names[i],
+                                  did_you_mean(names[i], known), expected_columns));
     }
     auto& here = place.at(static_cast<std::size_t>(found - known.begin()));
-    if (here) return ColumnError{i, fmt::format("'{}' appears twice", names[i])};
+    if (here) csv.complain(i, fmt::format("'{}' appears twice", names[i]));
     here = i;
   }
   const bool is_of_both = place[2] && !place[3] && !place[4];
   const bool is_of_each = !place[2] && place[3] && place[4];
   if (!place[0] || !place[1] || !(is_of_both || is_of_each)) {
-    return ColumnError{names.size(), expected_columns};
+    csv.complain(names.size(), expected_columns);
   }
-  columns = {*place[0], *place[1], {*place[is_of_both ? 2 : 3], *place[is_of_both ? 2 : 4]}};
-  return std::nullopt;
+  return {*place[0], *place[1], {*place[is_of_both ? 2 : 3], *place[is_of_both ? 2 : 4]}};
 }
 
-std::optional<ColumnError> interval_of(std::span<const double> values,
-                                       const IntervalColumns& columns, ContactInterval& interval) {
-  interval.start = values[columns.start];
-  interval.end = values[columns.end];
+/// The interval of the present row.
+ContactInterval interval_in(const NumbersCsv& csv, const IntervalColumns& columns) {
+  const std::span<const double> values = csv.values();
+  ContactInterval interval{values[columns.start], values[columns.end]};
   if (!std::isfinite(interval.start)) {
-    return ColumnError{columns.start, "start: expected a time in seconds"};
+    csv.complain(columns.start, "start: expected a time in seconds");
   }
   if (!(std::isfinite(interval.end) && interval.end > interval.start)) {
-    return ColumnError{columns.end, fmt::format("end: {}: expected a time after the start, {}",
-                                                interval.end, interval.start)};
+    csv.complain(columns.end, fmt::format("end: {}: expected a time after the start, {}",
+                                          interval.end, interval.start));
   }
   for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
     const double value = values[columns.contact[wheel]];
     if (value != 0.0 && value != 1.0) {
-      return ColumnError{columns.contact[wheel],
-                         fmt::format("{}: expected 1 for contact or 0 for none", value)};
+      csv.complain(columns.contact[wheel],
+                   fmt::format("{}: expected 1 for contact or 0 for none", value));
     }
     interval.contact[wheel] = value == 1.0;
   }
-  return std::nullopt;
+  return interval;
 }
 
 /// The first interval that starts after a time.
@@ -85,24 +84,6 @@ struct StartsBefore {
 /// In order of time, with rows of the file in any order.
 using OrderedIntervals = std::set<ContactInterval, StartsBefore>;
 
-/// Inserts an interval. Returns an error if it overlaps with another.
-std::optional<ColumnError> insert(const ContactInterval& interval, std::size_t start_column,
-                                  OrderedIntervals& intervals) {
-  const auto next = intervals.upper_bound(interval);
-  const ContactInterval* overlapping = nullptr;
-  if (next != intervals.end() && next->start < interval.end) overlapping = &*next;
-  if (next != intervals.begin() && std::prev(next)->end > interval.start) {
-    overlapping = &*std::prev(next);
-  }
-  if (overlapping != nullptr) {
-    return ColumnError{start_column,
-                       fmt::format("{} to {} overlaps with {} to {}", interval.start, interval.end,
-                                   overlapping->start, overlapping->end)};
-  }
-  intervals.insert(next, interval);
-  return std::nullopt;
-}
-
 }  // namespace
 
 const ContactInterval* ContactIntervals::at(double time) const {
@@ -114,15 +95,23 @@ const ContactInterval* ContactIntervals::at(double time) const {
 
 ContactIntervals read_contact_intervals(const std::filesystem::path& path) {
   ContactIntervals read{path.string(), {}};
-  IntervalColumns columns;
+  NumbersCsv csv(path);
+  const IntervalColumns columns = find_columns(csv);
   OrderedIntervals intervals;
-  read_numbers_csv(
-      path, {[&](std::span<const std::string> names) { return find_columns(names, columns); },
-             [&](std::span<const double> values, std::size_t /*line*/) {
-               ContactInterval interval;
-               const std::optional<ColumnError> wrong = interval_of(values, columns, interval);
-               return wrong ? wrong : insert(interval, columns.start, intervals);
-             }});
+  while (csv.next()) {
+    const ContactInterval interval = interval_in(csv, columns);
+    const auto next = intervals.upper_bound(interval);
+    const ContactInterval* overlapping = nullptr;
+    if (next != intervals.end() && next->start < interval.end) overlapping = &*next;
+    if (next != intervals.begin() && std::prev(next)->end > interval.start) {
+      overlapping = &*std::prev(next);
+    }
+    if (overlapping != nullptr) {
+      csv.complain(columns.start, fmt::format("{} to {} overlaps with {} to {}", interval.start,
+                                              interval.end, overlapping->start, overlapping->end));
+    }
+    intervals.insert(next, interval);
+  }
   read.intervals.assign(intervals.begin(), intervals.end());
   if (read.intervals.empty()) {
     throw InputError(fmt::format("{}:1:1: contains no contact interval", path.string()));

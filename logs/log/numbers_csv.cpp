@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
-#include <fstream>
-#include <optional>
 #include <sstream>
-#include <string_view>
 
 #include <fmt/format.h>
 
-#include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/resources.hpp"
 
@@ -88,143 +84,126 @@ char separator_of(std::string_view header) {
 
 bool is_comment(std::string_view row) { return row.starts_with('#') || row.starts_with('%'); }
 
-/// Reads one row after the other, with its place for messages.
-class RowReader {
- public:
-  RowReader(const std::filesystem::path& path, std::istream& text, const NumbersCsvSink& sink)
-      : file_(path.string()), rows_(text), sink_(sink) {}
+/// A decimal comma, as in files with semicolons between cells.
+std::optional<double> number_with_comma(std::string_view text) {
+  std::string copy(text);
+  const std::size_t comma = copy.find(',');
+  if (comma == std::string::npos) return std::nullopt;
+  copy[comma] = '.';
+  return number_of(copy);
+}
 
-  void read() {
-    std::string comment;
-    while (!(has_names_ && sink_.is_done && sink_.is_done()) && rows_.next()) {
-      if (is_comment(rows_.row())) {
-        comment = rows_.row();
-        continue;
-      }
-      if (!has_names_) {
-        find_names(comment);
-        continue;
-      }
-      if (is_cut_off()) continue;
-      for (const CsvCell& cell : rows_.cells()) {
-        if (cell.is_open) complain(cell.column, "expected the end of a quote on the same line");
-      }
-      const bool is_blank = rows_.cells().size() == 1 && rows_.cells().front().text.empty();
-      if (!is_blank) take_values();
-    }
-    if (!has_names_) take_names();  // complains about a file of comments
-  }
-
- private:
-  [[noreturn]] void complain(std::size_t column, const std::string& what) const {
-    throw InputError(fmt::format("{}:{}:{}: {}", file_, rows_.line(), column, what));
-  }
-
-  void check(const std::optional<ColumnError>& wrong) const {
-    if (!wrong) return;
-    const std::size_t cell = std::min(wrong->column, rows_.cells().size() - 1);
-    complain(rows_.cells()[cell].column, wrong->what);
-  }
-
-  /// The names are the first line that is no comment. Some programs, such as NumPy's savetxt, write
-  /// them into a comment: then that line has numbers alone.
-  void find_names(const std::string& comment) {
-    separator_ = separator_of(rows_.row());
-    rows_.separate_by(separator_);
-    for (const CsvCell& cell : rows_.cells()) {
-      if (cell.is_open) complain(cell.column, "expected the end of a quote on the same line");
-    }
-    const bool has_numbers_alone =
-        std::all_of(rows_.cells().begin(), rows_.cells().end(),
-                    [](const CsvCell& cell) { return number_of(cell.text).has_value(); });
-    if (comment.empty() || !has_numbers_alone) return take_names();
-    std::istringstream text(
-        comment.substr(std::min(comment.size(), comment.find_first_not_of("#% "))));
-    CsvRows names(text);
-    names.next();
-    names.separate_by(separator_);
-    if (names.cells().size() != rows_.cells().size()) return take_names();
-    take_names(names.cells());
-    take_values();
-  }
-
-  void take_names() { take_names(rows_.cells()); }
-
-  void take_names(const std::vector<CsvCell>& cells) {
-    has_names_ = true;
-    std::vector<std::string> names;
-    for (const CsvCell& cell : cells) {
-      names.push_back(cell.is_quoted ? content_of(cell) : std::string(cell.text));
-    }
-    check(sink_.names(names));
-    values_.resize(names.size());
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      needed_.push_back(!sink_.needs || sink_.needs(i));
-      has_text_.push_back(sink_.has_text && sink_.has_text(i));
-    }
-  }
-
-  /// Whether the file ends within this row, which is then left out with a note: a logger that was
-  /// switched off.
-  bool is_cut_off() const {
-    if (!rows_.is_unfinished() || !sink_.note) return false;
-    const std::vector<CsvCell>& cells = rows_.cells();
-    const CsvCell& last = cells.back();
-    const bool is_whole = cells.size() >= values_.size() && !last.is_open &&
-                          (last.text.empty() || !needed_.back() || number_of(last.text));
-    if (is_whole) return false;
-    sink_.note(fmt::format("{}:{}: the last row is cut off and was left out", file_, rows_.line()));
-    return true;
-  }
-
-  void take_values() {
-    const std::vector<CsvCell>& cells = rows_.cells();
-    if (cells.size() != values_.size()) {
-      complain(cells.back().column,
-               fmt::format("expected {} values, found {}", values_.size(), cells.size()));
-    }
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (needed_[i]) values_[i] = value_of(cells[i]);
-      if (has_text_[i]) sink_.text(i, cells[i].text);
-    }
-    check(sink_.row(values_, rows_.line()));
-  }
-
-  double value_of(const CsvCell& cell) const {
-    std::optional<double> value = cell.text.empty() ? sink_.empty_cell : number_of(cell.text);
-    if (!value && separator_ != ',') value = number_with_comma(cell.text);
-    if (!value) complain(cell.column, fmt::format("expected a number, found '{}'", cell.text));
-    return *value;
-  }
-
-  /// A decimal comma, as in files with semicolons between cells.
-  static std::optional<double> number_with_comma(std::string_view text) {
-    std::string copy(text);
-    const std::size_t comma = copy.find(',');
-    if (comma == std::string::npos) return std::nullopt;
-    copy[comma] = '.';
-    return number_of(copy);
-  }
-
-  std::string file_;
-  CsvRows rows_;
-  const NumbersCsvSink& sink_;
-  std::vector<double> values_;
-  std::vector<bool> needed_;
-  std::vector<bool> has_text_;
-  char separator_ = ',';
-  bool has_names_ = false;
-};
-
-}  // namespace
-
-void read_numbers_csv(const std::filesystem::path& path, const NumbersCsvSink& sink) {
+std::ifstream opened(const std::filesystem::path& path) {
   require_file(path);
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(fmt::format("{}: no such file", path.string()));
-  RowReader(path, file, sink).read();
+  return file;
+}
+
+}  // namespace
+
+NumbersCsv::NumbersCsv(const std::filesystem::path& path, const Config& config)
+    : file_(path.string()), config_(config), stream_(opened(path)), rows_(stream_) {
+  std::string comment;
+  bool has_line = false;
+  while (!has_line && rows_.next()) {
+    has_line = !is_comment(rows_.row());
+    if (!has_line) comment = rows_.row();
+  }
+  if (has_line) {
+    find_names(comment);
+  } else {
+    take_names(rows_.cells());  // of a file of comments: no reader takes it
+  }
+}
+
+/// The names are the first line that is no comment. Some programs, such as NumPy's savetxt, write
+/// them into a comment: then that line has numbers alone.
+void NumbersCsv::find_names(const std::string& comment) {
+  separator_ = separator_of(rows_.row());
+  rows_.separate_by(separator_);
+  require_closed_quotes();
+  const bool has_numbers_alone =
+      std::all_of(rows_.cells().begin(), rows_.cells().end(),
+                  [](const CsvCell& cell) { return number_of(cell.text).has_value(); });
+  if (comment.empty() || !has_numbers_alone) return take_names(rows_.cells());
+  std::istringstream text(
+      comment.substr(std::min(comment.size(), comment.find_first_not_of("#% "))));
+  CsvRows names(text);
+  names.next();
+  names.separate_by(separator_);
+  has_row_ = names.cells().size() == rows_.cells().size();
+  take_names(has_row_ ? names.cells() : rows_.cells());
+}
+
+void NumbersCsv::take_names(const std::vector<CsvCell>& cells) {
+  for (const CsvCell& cell : cells) {
+    names_.push_back(cell.is_quoted ? content_of(cell) : std::string(cell.text));
+  }
+  values_.resize(names_.size());
+  needed_.assign(names_.size(), true);
+}
+
+bool NumbersCsv::next() {
+  while (has_row_ || rows_.next()) {
+    if (!has_row_) {
+      if (is_comment(rows_.row()) || is_cut_off()) continue;
+      require_closed_quotes();
+      const bool is_blank = rows_.cells().size() == 1 && rows_.cells().front().text.empty();
+      if (is_blank) continue;
+    }
+    has_row_ = false;
+    take_values();
+    return true;
+  }
   // A read error looks like the end of the file.
-  if (file.bad()) throw Error(fmt::format("{}: cannot be read", path.string()));
+  if (stream_.bad()) throw Error(fmt::format("{}: cannot be read", file_));
+  return false;
+}
+
+void NumbersCsv::require_closed_quotes() const {
+  for (const CsvCell& cell : rows_.cells()) {
+    if (cell.is_open) complain_at(cell.column, "expected the end of a quote on the same line");
+  }
+}
+
+/// Whether the file ends within this row, which is then left out with a note: a logger that was
+/// switched off.
+bool NumbersCsv::is_cut_off() {
+  if (!rows_.is_unfinished() || !config_.may_be_cut_off) return false;
+  const std::vector<CsvCell>& cells = rows_.cells();
+  const CsvCell& last = cells.back();
+  const bool is_whole = cells.size() >= values_.size() && !last.is_open &&
+                        (last.text.empty() || !needed_.back() || number_of(last.text));
+  if (is_whole) return false;
+  note_ = fmt::format("{}:{}: the last row is cut off and was left out", file_, rows_.line());
+  return true;
+}
+
+void NumbersCsv::take_values() {
+  const std::vector<CsvCell>& cells = rows_.cells();
+  if (cells.size() != values_.size()) {
+    complain_at(cells.back().column,
+                fmt::format("expected {} values, found {}", values_.size(), cells.size()));
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (needed_[i]) values_[i] = value_of(cells[i]);
+  }
+}
+
+double NumbersCsv::value_of(const CsvCell& cell) const {
+  std::optional<double> value = cell.text.empty() ? config_.empty_cell : number_of(cell.text);
+  if (!value && separator_ != ',') value = number_with_comma(cell.text);
+  if (!value) complain_at(cell.column, fmt::format("expected a number, found '{}'", cell.text));
+  return *value;
+}
+
+void NumbersCsv::complain(std::size_t column, const std::string& what) const {
+  complain_at(rows_.cells()[std::min(column, rows_.cells().size() - 1)].column, what);
+}
+
+void NumbersCsv::complain_at(std::size_t column, const std::string& what) const {
+  throw InputError(fmt::format("{}:{}:{}: {}", file_, rows_.line(), column, what));
 }
 
 }  // namespace touchdown::logs

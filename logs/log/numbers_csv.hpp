@@ -2,39 +2,16 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
+#include <fstream>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/csv.hpp"
+
 namespace touchdown::logs {
-
-/// An error in the names or in one row of a file, with its column. The reader of the file adds the
-/// position.
-struct ColumnError {
-  std::size_t column = 0;
-  std::string what;
-};
-
-/// Receives a file of comma-separated numbers: first the names, then the rows in the order of the
-/// names. Each callback returns an error, if any.
-struct NumbersCsvSink {
-  std::function<std::optional<ColumnError>(std::span<const std::string> names)> names;
-  std::function<std::optional<ColumnError>(std::span<const double> values, std::size_t line)> row;
-  /// Called once the names are known. Columns that are not needed are not parsed.
-  std::function<bool(std::size_t column)> needs = {};
-  /// Called once the names are known: the columns of which `text` gets each cell, before `row`.
-  std::function<bool(std::size_t column)> has_text = {};
-  std::function<void(std::size_t column, std::string_view text)> text = {};
-  /// The value of an empty cell; without it an empty cell is an error.
-  std::optional<double> empty_cell = {};
-  /// Gets a line about a last row that is cut off and was left out; without it that is an error.
-  std::function<void(const std::string& line)> note = {};
-  /// Asked after the names and after each row: the rest of the file is not read once it is true.
-  std::function<bool()> is_done = {};
-};
 
 /// Reads a line of names, then lines of numbers. Cells are separated by commas, semicolons or tabs,
 /// whichever the names have most. true and false are 1 and 0; a date and time (2024-02-28 01:02:03)
@@ -42,8 +19,54 @@ struct NumbersCsvSink {
 /// before numbers may hold the names. Quoted cells may contain commas and must end on the same
 /// line. Errors: `InputError` with file:line:column for
 /// - a file without names, or a row of another length;
-/// - a cell that is not a number, or a quote without end;
-/// - errors of the sink.
-void read_numbers_csv(const std::filesystem::path& path, const NumbersCsvSink& sink);
+/// - a cell that is not a number, or a quote without end.
+class NumbersCsv {
+ public:
+  struct Config {
+    std::optional<double> empty_cell = {};  ///< its value; without one an empty cell is an error
+    /// Whether a last row that is cut off is left out with a `note`; otherwise it is an error.
+    bool may_be_cut_off = false;
+  };
+
+  /// Reads the names.
+  explicit NumbersCsv(const std::filesystem::path& path, const Config& config);
+  explicit NumbersCsv(const std::filesystem::path& path) : NumbersCsv(path, Config{}) {}
+
+  const std::vector<std::string>& names() const { return names_; }
+  /// Parses only the columns with true from now on; there is a flag for each.
+  void select(std::vector<bool> needed) { needed_ = std::move(needed); }
+
+  /// Proceeds to the next row. Returns false at the end.
+  bool next();
+  /// The numbers of the row, in the order of the names.
+  std::span<const double> values() const { return values_; }
+  std::string_view text(std::size_t column) const { return rows_.cells()[column].text; }
+  std::size_t line() const { return rows_.line(); }
+  /// A line about a row that was left out, if there is one.
+  const std::string& note() const { return note_; }
+
+  /// Errors: `InputError` at a column of this row, or of the names before the first row.
+  [[noreturn]] void complain(std::size_t column, const std::string& what) const;
+
+ private:
+  void find_names(const std::string& comment);
+  void take_names(const std::vector<CsvCell>& cells);
+  void require_closed_quotes() const;
+  bool is_cut_off();
+  void take_values();
+  double value_of(const CsvCell& cell) const;
+  [[noreturn]] void complain_at(std::size_t column, const std::string& what) const;
+
+  std::string file_;
+  Config config_;
+  std::ifstream stream_;
+  CsvRows rows_;
+  std::vector<std::string> names_;
+  std::vector<bool> needed_;
+  std::vector<double> values_;
+  std::string note_;
+  char separator_ = ',';
+  bool has_row_ = false;  ///< the row that was read to find the names has numbers
+};
 
 }  // namespace touchdown::logs

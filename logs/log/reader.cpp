@@ -6,70 +6,19 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.hpp"
-#include "logs/log/packing.hpp"
+#include "logs/held_number.hpp"
 #include "logs/sample_times.hpp"
 
 namespace touchdown::logs {
 
 namespace {
 
-double time_of(const LogValues& values, const LogPresence& present) {
-  return values[present[log_slot::time] ? log_slot::time : log_slot::wall_time];
-}
-
-}  // namespace
-
-HeldServos::HeldServos() {
-  for (const LogKey& key : log_keys()) {
-    if (key.role != LogKey::Role::needed) continue;
-    for (std::size_t i = 0; i < key.size; ++i) needed_.set(key.slot + i);
-  }
-}
-
-bool HeldServos::complete(LogValues& values, LogPresence& present) {
-  if (!is_started_) return false;
-  if (!present[log_slot::time] && !present[log_slot::wall_time]) return false;
-  const LogPresence missing = needed_ & ~present;
-  std::size_t of_servos = 0;
-  for (std::size_t i = 0; i < count; ++i) of_servos += missing[log_slot::servo + i] ? 1 : 0;
-  if (of_servos != missing.count() || 2 * of_servos > count) return false;
-  const double now = time_of(values, present);
-  double oldest = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t slot = log_slot::servo + i;
-    if (!missing[slot]) {
-      held_[i] = {values[slot], now};
-      continue;
-    }
-    const std::optional<double> age = held_[i].age(now);
-    values[slot] = age ? held_[i].value : std::numeric_limits<double>::quiet_NaN();
-    present.set(slot);
-    oldest = age ? std::max(oldest, *age) : std::numeric_limits<double>::infinity();
-  }
-  if (oldest > longest_hold) {
-    ++lost_;
-  } else {
-    ++records_;
-    oldest_ = std::max(oldest_, oldest);
-  }
-  return true;
-}
-
-void HeldServos::remember(const LogValues& values, const LogPresence& present) {
-  is_started_ = true;
-  const double now = time_of(values, present);
-  for (std::size_t i = 0; i < count; ++i) held_[i] = {values[log_slot::servo + i], now};
-}
-
-namespace {
-
-constexpr std::size_t chunk_size = std::size_t{1} << 18U;
-/// Larger than any record. A longer one is garbage that looks like a header.
-constexpr std::size_t largest_record = std::size_t{1} << 23U;
 /// Until all of its observers run, a spine logs incomplete records; two seconds are too long.
 constexpr std::uint64_t most_skipped_in_a_row = 2000;
 constexpr std::size_t rows_for_period = 200;
@@ -78,13 +27,250 @@ constexpr std::size_t rows_for_unit = 11;
 /// Beyond any clock in any unit: nanoseconds since 1970 are 2e18.
 constexpr double largest_time = 1e20;
 
+bool has_time(const LogPresence& present) {
+  return present[log_slot::time] || present[log_slot::wall_time];
+}
+
+double time_of(const LogValues& values, const LogPresence& present) {
+  return values[present[log_slot::time] ? log_slot::time : log_slot::wall_time];
+}
+
+LogPresence needed_values() {
+  LogPresence needed;
+  for (const LogKey& key : log_keys()) {
+    if (key.role != LogKey::Role::needed) continue;
+    for (std::size_t i = 0; i < key.size; ++i) needed.set(key.slot + i);
+  }
+  return needed;
+}
+
 }  // namespace
+
+/// Completes records in which a servo did not report: its numbers are held from the last record
+/// that has them, for as long as estimators bridge a gap (20 ms), and are NaN afterwards. Upkie's
+/// spine tolerates such failures, too.
+class HeldServos {
+ public:
+  /// Fills in the missing numbers of servos. Returns false for a record that lacks other needed
+  /// keys or most servos, and before the first whole record: nothing is held then.
+  bool complete(LogValues& values, LogPresence& present) {
+    if (!is_started_ || !has_time(present)) return false;
+    const LogPresence missing = needed_ & ~present;
+    std::size_t of_servos = 0;
+    for (std::size_t i = 0; i < count; ++i) of_servos += missing[log_slot::servo + i] ? 1 : 0;
+    if (of_servos != missing.count() || 2 * of_servos > count) return false;
+    const double now = time_of(values, present);
+    double oldest = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t slot = log_slot::servo + i;
+      if (!missing[slot]) {
+        held_[i] = {values[slot], now};
+        continue;
+      }
+      const std::optional<double> age = held_[i].age(now);
+      values[slot] = age ? held_[i].value : std::numeric_limits<double>::quiet_NaN();
+      present.set(slot);
+      oldest = age ? std::max(oldest, *age) : std::numeric_limits<double>::infinity();
+    }
+    if (oldest > longest_hold) {
+      ++lost_;
+    } else {
+      ++records_;
+      oldest_ = std::max(oldest_, oldest);
+    }
+    return true;
+  }
+
+  /// Remembers the numbers of a record that has them all.
+  void remember(const LogValues& values, const LogPresence& present) {
+    is_started_ = true;
+    const double now = time_of(values, present);
+    for (std::size_t i = 0; i < count; ++i) held_[i] = {values[log_slot::servo + i], now};
+  }
+
+  /// Records that were completed by held numbers, the largest age of a held number (s), and records
+  /// with numbers that are missing for longer.
+  std::uint64_t records() const { return records_; }
+  double oldest() const { return oldest_; }
+  std::uint64_t lost() const { return lost_; }
+
+ private:
+  static constexpr std::size_t count = log_slot::imu_orientation - log_slot::servo;
+
+  LogPresence needed_ = needed_values();
+  bool is_started_ = false;
+  std::array<HeldNumber, count> held_;
+  std::uint64_t records_ = 0;
+  std::uint64_t lost_ = 0;
+  double oldest_ = 0.0;
+};
+
+/// What is done to the values of a log's records: some are left out, and what servos did not report
+/// is held. It counts both.
+class LogReader::Cleaning {
+ public:
+  explicit Cleaning(std::string name) : name_(std::move(name)) {}
+
+  /// The row of the present record; nothing for one that is left out.
+  std::optional<LogRow> row_of(const RecordSource& records) {
+    ++records_;
+    LogValues values = records.values();
+    LogPresence present = records.present();
+    if (!has_all_values(records, values, present)) {
+      ++skipped_;
+      count_skipped(records);
+      return std::nullopt;
+    }
+    if (repeats_last(records)) return std::nullopt;
+    LogRow row = to_row(values, present);
+    double& time = row.observation.time;
+    if (!(std::abs(time) <= largest_time)) time = std::numeric_limits<double>::quiet_NaN();
+    if (is_without_time(records, time)) {
+      count_skipped(records);
+      return std::nullopt;
+    }
+    skipped_in_a_row_ = 0;
+    has_rows_ = true;
+    return row;
+  }
+
+  /// Errors: `InputError` for a log without rows, but a simulated run may end before its first
+  /// step.
+  void finish(const RecordSource& records, bool may_be_empty) const {
+    if (!has_rows_ && !may_be_empty) complain_about_missing_keys(records);
+  }
+
+  std::vector<std::string> warnings() const {
+    std::vector<std::string> warnings;
+    const auto warn = [&](std::uint64_t count, const auto& text) {
+      if (count > 0 && has_rows_) warnings.push_back(fmt::format("{}: {}", name_, text()));
+    };
+    warn(skipped_, [&] {
+      return fmt::format("{} of {} records lack needed keys and were left out", skipped_, records_);
+    });
+    warn(malformed_, [&] {
+      return malformed_ == 1 ? first_malformed_
+                             : fmt::format("{}; {} more like it", first_malformed_, malformed_ - 1);
+    });
+    warn(timeless_, [&] {
+      return fmt::format("{} is not a finite number: it was left out{}", first_timeless_,
+                         timeless_ == 1 ? ""
+                                        : fmt::format(", and {} more before the first good record",
+                                                      timeless_ - 1));
+    });
+    warn(held_servos_.records(), [&] {
+      return fmt::format(
+          "{} of {} records lack numbers of servos: they are held from the record before, for up "
+          "to "
+          "{:.4g} ms{}",
+          held_servos_.records(), records_, 1e3 * held_servos_.oldest(),
+          held_servos_.lost() == 0
+              ? ""
+              : fmt::format("; {} records lack them for longer", held_servos_.lost()));
+    });
+    warn(repeated_, [&] {
+      return fmt::format(
+          "{} of {} records repeat the one before, with its time and all its numbers, and were "
+          "left "
+          "out",
+          repeated_, records_);
+    });
+    return warnings;
+  }
+
+ private:
+  /// Whether a record has all values that are needed, or those that it lacks are held from an
+  /// earlier one. A value of another type is no missing one.
+  bool has_all_values(const RecordSource& records, LogValues& values, LogPresence& present) {
+    if ((present & needed_) == needed_ && has_time(present)) {
+      held_servos_.remember(values, present);
+      return true;
+    }
+    std::vector<std::string> malformed = records.missing();
+    std::erase_if(malformed, [](const std::string& path) { return !path.ends_with(')'); });
+    if (malformed.empty()) return held_servos_.complete(values, present);
+    if (++malformed_ == 1) {
+      first_malformed_ =
+          fmt::format("{}record {} has {}", records.place(), records_, fmt::join(malformed, ", "));
+    }
+    return false;
+  }
+
+  /// Applies before the first row only, which defines time zero. Later the guard of an estimator
+  /// checks the time.
+  bool is_without_time(const RecordSource& records, double time) {
+    if (has_rows_ || std::isfinite(time)) return false;
+    if (++timeless_ == 1) {
+      first_timeless_ = fmt::format("{}the time of record {}", records.place(), records_);
+    }
+    return true;
+  }
+
+  /// Whether the record has the time and all numbers of the last row: it was written twice.
+  bool repeats_last(const RecordSource& records) {
+    LogValues values = records.values();
+    if (records.present()[log_slot::time]) values[log_slot::wall_time] = 0.0;
+    // By bits, because missing commands are NaN.
+    const auto is_same = [](double a, double b) {
+      return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+    };
+    if (has_rows_ && std::equal(values.begin(), values.end(), last_values_.begin(), is_same)) {
+      ++repeated_;
+      return true;
+    }
+    last_values_ = values;
+    return false;
+  }
+
+  void count_skipped(const RecordSource& records) {
+    if (++skipped_in_a_row_ >= most_skipped_in_a_row) complain_about_missing_keys(records);
+  }
+
+  [[noreturn]] void complain_about_missing_keys(const RecordSource& records) const {
+    const std::vector<std::string> missing = records.missing();
+    if (missing.empty()) {
+      throw InputError(fmt::format("{}: {} is not a finite number, nor is any after it", name_,
+                                   first_timeless_));
+    }
+    throw InputError(
+        fmt::format("{}: needed keys are missing: {}", name_, fmt::join(missing, ", ")));
+  }
+
+  std::string name_;
+  LogPresence needed_ = needed_values();
+  HeldServos held_servos_;
+  std::uint64_t records_ = 0;
+  std::uint64_t skipped_ = 0;
+  std::uint64_t skipped_in_a_row_ = 0;
+  std::uint64_t timeless_ = 0;
+  std::string first_timeless_;  ///< position of the record
+  std::uint64_t malformed_ = 0;
+  std::string first_malformed_;  ///< position of the record and its errors
+  std::uint64_t repeated_ = 0;
+  LogValues last_values_{};  ///< of the last row, without its wall time
+  bool has_rows_ = false;
+};
 
 LogReader::LogReader(const std::filesystem::path& path, const std::atomic<bool>* stop)
     : LogReader(file_source(path, stop), path == "-" ? "standard input" : path.string()) {}
 
 LogReader::LogReader(ByteSource source, std::string name)
-    : source_(std::move(source)), name_(std::move(name)) {}
+    : LogReader(packed_records(std::move(source), name), name) {}
+
+LogReader::LogReader(std::unique_ptr<RecordSource> records, std::string name)
+    : records_(std::move(records)),
+      name_(std::move(name)),
+      cleaning_(std::make_unique<Cleaning>(name_)) {}
+
+LogReader::LogReader(LogReader&& other) noexcept = default;
+LogReader::~LogReader() = default;
+
+std::vector<std::string> LogReader::warnings() const {
+  std::vector<std::string> all = records_->warnings();
+  const std::vector<std::string> of_values = cleaning_->warnings();
+  all.insert(all.end(), of_values.begin(), of_values.end());
+  return all;
+}
 
 std::optional<LogRow> LogReader::next() {
   if (!ahead_.empty()) {
@@ -150,40 +336,13 @@ void LogReader::read_entry(Entry& entry) {
   entry.row.reset();
   entry.record.clear();
   entry.skipped.clear();
-  while (parse_record()) {
-    const std::string_view record(buffer_.data() + begin_, record_size_);
-    begin_ += record_size_;
-    offset_ += record_size_;
-    ++record_count_;
-    if (parser_.has_config() && !info_) {
-      info_ = unpack_info(record, name_);
-      if (!info_) robot_ = unpack_robot(record);
-    }
-    LogValues values = parser_.values();
-    LogPresence present = parser_.present();
-    const bool lacks_keys = parser_.is_missing_any() && !is_completed(values, present);
-    if (lacks_keys) {
-      ++skipped_count_;
-      count_malformed();
-    } else {
-      if (!parser_.is_missing_any()) held_servos_.remember(values, present);
-      entry.row = to_row(values, present);
-      double& time = entry.row->observation.time;
-      if (!(std::abs(time) <= largest_time)) time = std::numeric_limits<double>::quiet_NaN();
-    }
-    if (!lacks_keys && repeats_last()) {
-      entry.row.reset();
-      entry.skipped += record;
+  while (records_->next()) {
+    if (!info_) records_->read_origin(info_, robot_);
+    entry.row = cleaning_->row_of(*records_);
+    if (!entry.row) {
+      entry.skipped += records_->bytes();
       continue;
     }
-    if (lacks_keys || is_without_time(*entry.row)) {
-      entry.row.reset();
-      if (++skipped_in_a_row_ >= most_skipped_in_a_row) complain_about_missing_keys();
-      entry.skipped += record;
-      continue;
-    }
-    skipped_in_a_row_ = 0;
-    has_rows_ = true;
     double& time = entry.row->observation.time;
     if (!start_time_) start_time_ = info_ ? 0.0 : time;
     if (*start_time_ != 0.0) time -= *start_time_;
@@ -191,145 +350,11 @@ void LogReader::read_entry(Entry& entry) {
       has_period_ = true;
       compare_clock_with_period(time);
     }
-    entry.record = record;
+    entry.record = records_->bytes();
     return;
   }
-}
-
-/// Applies before the first row only, which defines time zero. Later the guard of an estimator
-/// checks the time.
-bool LogReader::is_without_time(const LogRow& row) {
-  if (has_rows_ || std::isfinite(row.observation.time)) return false;
-  if (++timeless_count_ == 1) {
-    first_timeless_ =
-        fmt::format("byte {}: the time of record {}", offset_ - record_size_, record_count_);
-  }
-  return true;
-}
-
-/// Whether missing numbers of servos could be held from an earlier record. A value of another type
-/// is no missing number.
-bool LogReader::is_completed(LogValues& values, LogPresence& present) {
-  return parser_.malformed().empty() && held_servos_.complete(values, present);
-}
-
-/// Whether the record has the time and all numbers of the last row: it was written twice.
-bool LogReader::repeats_last() {
-  LogValues values = parser_.values();
-  if (parser_.present()[log_slot::time]) values[log_slot::wall_time] = 0.0;
-  // By bits, because missing commands are NaN.
-  const auto is_same = [](double a, double b) {
-    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-  };
-  if (has_rows_ && std::equal(values.begin(), values.end(), last_values_.begin(), is_same)) {
-    ++repeated_count_;
-    return true;
-  }
-  last_values_ = values;
-  return false;
-}
-
-void LogReader::count_malformed() {
-  const std::vector<std::string> malformed = parser_.malformed();
-  if (malformed.empty() || ++malformed_count_ > 1) return;
-  first_malformed_ = fmt::format("byte {}: record {} has {}", offset_ - record_size_, record_count_,
-                                 fmt::join(malformed, ", "));
-}
-
-bool LogReader::parse_record() {
-  while (true) {
-    if (begin_ == end_ && !refill()) {
-      finish();
-      return false;
-    }
-    const std::string_view bytes(buffer_.data() + begin_, end_ - begin_);
-    const LogParser::Result result = parser_.parse(bytes, record_size_);
-    if (result == LogParser::Result::record) return true;
-    if (result == LogParser::Result::garbage || bytes.size() > largest_record) {
-      complain_about_garbage(result == LogParser::Result::garbage ? record_size_ : 0);
-    }
-    if (refill()) continue;
-    if (record_count_ == 0) complain_about_garbage(0);
-    warnings_.push_back(
-        fmt::format("{}: byte {}: the last record is cut off after {} bytes and was left out",
-                    name_, offset_, bytes.size()));
-    begin_ = end_;
-    finish();
-    return false;
-  }
-}
-
-bool LogReader::refill() {
-  if (at_end_) return false;
-  std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(begin_),
-            buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());
-  end_ -= begin_;
-  begin_ = 0;
-  if (buffer_.size() < end_ + chunk_size) buffer_.resize(2 * (end_ + chunk_size));
-  const std::size_t size = source_(std::span(buffer_).subspan(end_, chunk_size));
-  end_ += size;
-  at_end_ = size == 0;
-  return !at_end_;
-}
-
-void LogReader::finish() {
-  if (record_count_ == 0) throw InputError(fmt::format("{}: the log is empty", name_));
-  // A simulated run may end before its first step. A robot's log without rows is an error.
-  if (!has_rows_ && !info_) complain_about_missing_keys();
-  if (skipped_count_ > 0 && has_rows_ && !has_finished_) {
-    warnings_.push_back(fmt::format("{}: {} of {} records lack needed keys and were left out",
-                                    name_, skipped_count_, record_count_));
-  }
-  if (malformed_count_ > 0 && has_rows_ && !has_finished_) {
-    warnings_.push_back(fmt::format(
-        "{}: {}{}", name_, first_malformed_,
-        malformed_count_ == 1 ? "" : fmt::format("; {} more like it", malformed_count_ - 1)));
-  }
-  if (timeless_count_ > 0 && has_rows_ && !has_finished_) {
-    warnings_.push_back(fmt::format(
-        "{}: {} is not a finite number: it was left out{}", name_, first_timeless_,
-        timeless_count_ == 1
-            ? ""
-            : fmt::format(", and {} more before the first good record", timeless_count_ - 1)));
-  }
-  if (held_servos_.records() > 0 && !has_finished_) {
-    warnings_.push_back(
-        fmt::format("{}: {} of {} records lack numbers of servos: they are held from the record "
-                    "before, for up to {:.4g} ms{}",
-                    name_, held_servos_.records(), record_count_, 1e3 * held_servos_.oldest(),
-                    held_servos_.lost() == 0
-                        ? ""
-                        : fmt::format("; {} records lack them for longer", held_servos_.lost())));
-  }
-  if (repeated_count_ > 0 && !has_finished_) {
-    warnings_.push_back(
-        fmt::format("{}: {} of {} records repeat the one before, with its time and all its "
-                    "numbers, and were left out",
-                    name_, repeated_count_, record_count_));
-  }
-  has_finished_ = true;
-}
-
-void LogReader::complain_about_garbage(std::size_t offset) const {
-  constexpr std::array source_logs = {".csv", ".CSV", ".tsv", ".npz", ".mcap", ".db3", ".zstd"};
-  const bool is_source_log =
-      std::any_of(source_logs.begin(), source_logs.end(),
-                  [&](const char* extension) { return name_.ends_with(extension); });
-  const bool is_scenario = name_.ends_with(".yaml") || name_.ends_with(".yml");
-  throw InputError(fmt::format(
-      "{}: byte {}: expected a MessagePack map, one per control step{}", name_, offset_ + offset,
-      is_source_log ? ": `touchdown export --mapping` makes such a log"
-      : is_scenario ? ": `touchdown simulate` makes such a log of a scenario"
-                    : ""));
-}
-
-void LogReader::complain_about_missing_keys() const {
-  if (const auto missing = parser_.missing(); missing.empty()) {
-    throw InputError(
-        fmt::format("{}: {} is not a finite number, nor is any after it", name_, first_timeless_));
-  }
-  throw InputError(
-      fmt::format("{}: needed keys are missing: {}", name_, fmt::join(parser_.missing(), ", ")));
+  if (!info_) records_->read_origin(info_, robot_);  // of a run without steps
+  cleaning_->finish(*records_, info_.has_value());
 }
 
 void LogReader::complain_about_unit(double step, const std::string& unit) const {

@@ -1,5 +1,7 @@
 #include "logs/log/recording_file.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "core/error.hpp"
@@ -7,6 +9,45 @@
 #include "logs/log/writer.hpp"
 
 namespace touchdown::logs {
+
+namespace {
+
+class RecordedRows final : public RecordSource {
+ public:
+  RecordedRows(std::shared_ptr<const Recording> recording, const std::atomic<bool>* stop)
+      : recording_(std::move(recording)),
+        stop_(stop),
+        present_(written_values(truth_of(*recording_))) {}
+
+  bool next() override {
+    if (next_ == recording_->steps() || (stop_ != nullptr && *stop_)) return false;
+    values_ = to_values(recording_->observation[next_], recording_->action[next_],
+                        recording_->truth.empty() ? nullptr : &recording_->truth[next_]);
+    ++next_;
+    return true;
+  }
+  const LogValues& values() const override { return values_; }
+  const LogPresence& present() const override { return present_; }
+  std::string_view bytes() const override { return {}; }
+  void read_origin(std::optional<RecordingInfo>& info, std::string& /*robot*/) const override {
+    info = recording_->info;
+  }
+  std::vector<std::string> warnings() const override { return {}; }
+
+ private:
+  std::shared_ptr<const Recording> recording_;
+  const std::atomic<bool>* stop_;
+  LogPresence present_;
+  LogValues values_{};
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<RecordSource> records_of(std::shared_ptr<const Recording> recording,
+                                         const std::atomic<bool>* stop) {
+  return std::make_unique<RecordedRows>(std::move(recording), stop);
+}
 
 void write_recording(const Recording& recording, const std::filesystem::path& path) {
   const bool with_truth = !recording.truth.empty();
@@ -42,7 +83,7 @@ Recording read_recording(LogReader& reader, std::vector<std::string>* warnings) 
   }
   if (recording.truth.size() != recording.steps()) recording.truth.clear();
   if (warnings != nullptr) {
-    warnings->insert(warnings->end(), reader.warnings().begin(), reader.warnings().end());
+    for (std::string& warning : reader.warnings()) warnings->push_back(std::move(warning));
   }
   return recording;
 }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,5 +21,10 @@ Recording read_recording(const std::filesystem::path& path,
                          std::vector<std::string>* warnings = nullptr);
 /// Reads the rest of a log.
 Recording read_recording(LogReader& reader, std::vector<std::string>* warnings = nullptr);
+
+/// The rows of a recording in memory, as the records of a log. They end once `stop` is true; it may
+/// be null.
+std::unique_ptr<RecordSource> records_of(std::shared_ptr<const Recording> recording,
+                                         const std::atomic<bool>* stop = nullptr);
 
 }  // namespace touchdown::logs

@@ -30,16 +30,24 @@ WrittenTruth truth_of(const Recording& recording) {
   return {true, first.joint_torque.has_value(), first.held.size()};
 }
 
+LogPresence written_values(const WrittenTruth& truth) {
+  LogPresence written;
+  for (const LogKey& key : log_keys()) {
+    for (std::size_t i = 0; i < key.size && is_written(key, truth); ++i) written.set(key.slot + i);
+  }
+  return written;
+}
+
 LogWriter::LogWriter(std::ostream& stream, RecordingInfo info, const WrittenTruth& truth)
-    : stream_(stream),
-      info_(std::move(info)),
-      with_truth_(truth.of_robot),
-      tree_([&](const LogKey& key) { return is_written(key, truth); }),
-      packer_(buffer_) {}
+    : LogWriter(stream, written_values(truth)) {
+  info_ = std::move(info);
+  with_truth_ = truth.of_robot;
+  is_robots_ = false;
+  is_first_ = true;
+}
 
 LogWriter::LogWriter(std::ostream& stream, const LogPresence& present, std::string robot)
     : stream_(stream),
-      is_robots_(true),
       is_first_(!robot.empty()),
       tree_(
           [&](const LogKey& key) { return key.role != LogKey::Role::alias && present[key.slot]; }),

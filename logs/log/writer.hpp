@@ -18,6 +18,9 @@ struct WrittenTruth {
 /// The ground truth that a run has. Joint torques are included if the actuators are not ideal.
 WrittenTruth truth_of(const Recording& recording);
 
+/// Marks the values of a log of touchdown with this ground truth.
+LogPresence written_values(const WrittenTruth& truth);
+
 /// Writes a log in Upkie's layout, row by row, with constant memory. Each control step is one
 /// MessagePack map. Ground truth is under `observation.sim`, `info` under `config.touchdown` of the
 /// first record. Reading it back gives the same bits. For files, use it within `write_atomically`.
@@ -47,8 +50,8 @@ class LogWriter {
   std::ostream& stream_;
   RecordingInfo info_;
   bool with_truth_ = false;
-  bool is_robots_ = false;
-  bool is_first_ = true;
+  bool is_robots_ = true;
+  bool is_first_;
   LogKeyTree tree_;
   msgpack::sbuffer buffer_;
   LogPacker packer_;

@@ -3,132 +3,105 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
+#include <deque>
 #include <optional>
-#include <span>
+#include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/files.hpp"
-#include "estimator/record.hpp"
-#include "logs/bags/bag.hpp"
+#include "logs/held_number.hpp"
 #include "logs/log/writer.hpp"
-#include "logs/mapping/mapping_file.hpp"
-#include "logs/mapping/source_log.hpp"
+#include "logs/mapping/row_source.hpp"
+#include "logs/mapping/row_values.hpp"
 #include "logs/sample_times.hpp"
 
 namespace touchdown::logs {
 
 namespace {
 
-Eigen::Vector3d vector_of(const MappedSignal& signal, std::span<const double> row) {
-  return {signal.value(row, 0), signal.value(row, 1), signal.value(row, 2)};
-}
-
-/// The IMU of a row, in Upkie's frames.
-ImuSignals imu_of(const LogMapping& mapping, std::span<const double> row) {
-  RobotRecord record{.angular_velocity = vector_of(mapping.angular_velocity, row)};
-  for (std::size_t i = 0; i < 4; ++i) {
-    record.orientation.at(mapping.is_w_last ? (i + 1) % 4 : i) = mapping.orientation.value(row, i);
+/// Completes rows in which numbers are missing, as in a table that joins topics of several rates: a
+/// missing number is held from an earlier row for as long as estimators bridge a gap (20 ms). Rows
+/// without any number of a joint belong to another topic; their numbers are held for the rows of
+/// the joints.
+class RowHold {
+ public:
+  explicit RowHold(const LogMapping& mapping) {
+    for (const MappedSignal* signal : {&mapping.position, &mapping.velocity, &mapping.torque}) {
+      add(*signal, true);
+    }
+    if (mapping.leg_targets) {
+      add(mapping.leg_targets->position, true);
+      if (mapping.leg_targets->velocity) add(*mapping.leg_targets->velocity, true);
+      if (mapping.leg_targets->torque) add(*mapping.leg_targets->torque, true);
+    }
+    if (!mapping.clocks.empty()) return;  // the others have sources of their own (SourceJoin)
+    add(mapping.orientation, false);
+    add(mapping.angular_velocity, false);
+    if (mapping.linear_acceleration) add(*mapping.linear_acceleration, false);
+    if (mapping.proper_acceleration) add(*mapping.proper_acceleration, false);
   }
-  if (mapping.linear_acceleration) {
-    record.linear_acceleration = vector_of(*mapping.linear_acceleration, row);
+
+  /// Fills in missing numbers of a row, and counts what it did. `time` in seconds; without one,
+  /// nothing is held. Returns whether the row has a number of a joint.
+  bool complete(std::span<double> row, double time, ConvertedLog& converted) {
+    bool has_joint = false;
+    bool has_other = false;
+    bool is_completed = false;
+    double oldest = 0.0;
+    for (Held& held : held_) {
+      double& number = row[held.column];
+      if (!std::isnan(number)) {
+        (held.is_of_joint ? has_joint : has_other) = true;
+        held.last = {number, std::isfinite(time) ? time : held.last.time};
+        continue;
+      }
+      const std::optional<double> age = held.last.age(time);
+      if (!age) continue;
+      number = held.last.value;
+      is_completed = true;
+      oldest = std::max(oldest, *age);
+    }
+    if (!has_joint && has_other) {
+      ++converted.rows_without_joints;
+      return false;
+    }
+    if (is_completed) {
+      ++converted.completed_rows;
+      converted.oldest = std::max(converted.oldest, oldest);
+    }
+    return true;
   }
-  if (mapping.proper_acceleration) {
-    record.proper_acceleration = vector_of(*mapping.proper_acceleration, row);
-  }
-  return touchdown::imu_of(record, mapping.conventions);
-}
 
-void put(LogValues& values, std::size_t slot, const Eigen::Vector3d& vector) {
-  std::copy(vector.begin(), vector.end(), values.begin() + static_cast<std::ptrdiff_t>(slot));
-}
+ private:
+  struct Held {
+    std::size_t column = 0;
+    bool is_of_joint = false;
+    HeldNumber last = {};
+  };
 
-constexpr std::size_t velocity_target(models::Servo wheel) {
-  return log_slot::command + 6 * models::index(wheel) + 2;
-}
-
-constexpr std::array<models::Servo, 4> leg_servos = {
-    models::Servo::left_hip, models::Servo::left_knee, models::Servo::right_hip,
-    models::Servo::right_knee};
-
-/// The slots of a servo's feed-forward torque, position, velocity and scales of its gains.
-constexpr std::size_t command_of(models::Servo servo) {
-  return log_slot::command + 6 * models::index(servo);
-}
-constexpr std::size_t leg_command_size = 5;
-
-void put_leg_targets(const MappedLegTargets& targets, std::span<const double> row,
-                     LogValues& values) {
-  for (std::size_t i = 0; i < leg_servos.size(); ++i) {
-    double* const command = values.data() + command_of(leg_servos[i]);
-    command[0] = targets.torque ? targets.torque->value(row, i) : 0.0;
-    command[1] = targets.position.value(row, i);
-    command[2] = targets.velocity ? targets.velocity->value(row, i) : 0.0;
-    command[3] = targets.kp[i] / models::servo_kp;
-    command[4] = targets.kd[i] / models::servo_kd;
-  }
-}
-
-/// Converts one row to the numbers of a record.
-LogValues log_values(const LogMapping& mapping, std::uint64_t k, std::span<const double> row) {
-  LogValues values{};
-  values[log_slot::time] =
-      mapping.time ? mapping.time->at(row) : static_cast<double>(k) * mapping.period;
-  for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
-    const std::size_t slot = log_slot::servo + 3 * servo;
-    values[slot] = mapping.position.value(row, servo);
-    values[slot + 1] = mapping.velocity.value(row, servo);
-    values[slot + 2] = mapping.torque.value(row, servo);
-  }
-  const ImuSignals imu = imu_of(mapping, row);
-  std::copy(imu.orientation.begin(), imu.orientation.end(),
-            values.begin() + log_slot::imu_orientation);
-  put(values, log_slot::angular_velocity, imu.angular_velocity);
-  put(values, log_slot::linear_acceleration, imu.linear_acceleration);
-  if (mapping.proper_acceleration) put(values, log_slot::raw_acceleration, imu.proper_acceleration);
-  if (mapping.wheel_velocity_target) {
-    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-      values[velocity_target(models::wheel_servos[wheel])] =
-          mapping.wheel_velocity_target->value(row, wheel);
+  void add(const MappedSignal& signal, bool is_of_joint) {
+    for (const MappedSignal::Number& number : signal.numbers) {
+      if (number.column != MappedSignal::no_column) held_.push_back({number.column, is_of_joint});
     }
   }
-  if (mapping.leg_targets) put_leg_targets(*mapping.leg_targets, row, values);
-  return values;
-}
 
-/// Marks the numbers that a record has.
-LogPresence log_presence(const LogMapping& mapping) {
-  LogPresence present;
-  present.set(log_slot::time);
-  for (std::size_t slot = log_slot::servo; slot < log_slot::raw_angular_velocity; ++slot) {
-    present.set(slot);
-  }
-  if (mapping.proper_acceleration) present.set(log_slot::raw_acceleration);
-  if (mapping.wheel_velocity_target) {
-    for (const models::Servo wheel : models::wheel_servos) present.set(velocity_target(wheel));
-  }
-  if (mapping.leg_targets) {
-    for (const models::Servo servo : leg_servos) {
-      for (std::size_t i = 0; i < leg_command_size; ++i) present.set(command_of(servo) + i);
-    }
-  }
-  return present;
-}
+  std::vector<Held> held_;
+};
 
 /// Builds contact intervals from the contact labels of the rows.
 class IntervalBuilder {
  public:
-  IntervalBuilder(const LogMapping& mapping, ContactIntervals& labels)
-      : mapping_(mapping), labels_(labels) {}
+  explicit IntervalBuilder(const LogMapping& mapping) : mapping_(mapping) {}
 
   /// `time` counts from the first time of the log.
-  void add(double time, std::span<const double> row, const SourceLocation& place) {
+  void add(double time, std::span<const double> row, const RowSource& rows) {
     if (!mapping_.contact || !std::isfinite(time)) return;
     if (time < last_) {
-      throw InputError(fmt::format(
-          "{}: contact labels need increasing times: {} s comes after {} s", place(), time, last_));
+      throw InputError(
+          fmt::format("{}: contact labels need increasing times: {} s comes after {} s",
+                      rows.place(), time, last_));
     }
     const std::optional<std::array<bool, models::wheel_count>> contact = contact_in(row);
     const bool continues = open_ && contact == labels_.intervals.back().contact;
@@ -140,8 +113,9 @@ class IntervalBuilder {
   }
 
   /// Ends the last interval: the last row lasts as long as the mean of the others.
-  void finish() {
+  ContactIntervals finish() {
     if (open_) end(last_ + last_ / std::max<double>(1.0, static_cast<double>(rows_) - 1.0));
+    return std::move(labels_);
   }
 
  private:
@@ -165,90 +139,89 @@ class IntervalBuilder {
   }
 
   const LogMapping& mapping_;
-  ContactIntervals& labels_;
+  ContactIntervals labels_;
   bool open_ = false;
   double last_ = 0.0;
   std::uint64_t rows_ = 0;
 };
 
-/// Converts a log row by row. The mapping is read once the names of the log are known.
-class Converter {
+class MappedRecords final : public RecordSource {
  public:
-  Converter(const std::filesystem::path& mapping, std::ostream& stream, bool with_labels)
-      : path_(mapping), stream_(stream), with_labels_(with_labels) {}
-
-  const LogMapping& begin(std::span<const SourceNames> sources) {
-    mapping_ = read_log_mapping(path_, sources);
-    writer_.emplace(stream_, log_presence(mapping_), mapping_.robot);
-    intervals_.emplace(mapping_, converted_.contact);
-    hold_.emplace(mapping_);
-    return mapping_;
+  MappedRecords(const std::filesystem::path& log, const std::filesystem::path& mapping,
+                MappingOptions options, bool with_labels)
+      : log_(log.string()),
+        options_(std::move(options)),
+        with_labels_(with_labels),
+        rows_(open_rows(log, read_log_sources(mapping))),
+        mapping_(read_log_mapping(mapping, rows_->names())),
+        present_(log_presence(mapping_)),
+        hold_(mapping_),
+        intervals_(mapping_) {
+    rows_->select(mapping_);
+    if (options_.with_bytes) writer_.emplace(stream_, present_, mapping_.robot);
   }
 
-  void add(std::span<const double> given, const SourceLocation& place) {
-    row_.assign(given.begin(), given.end());
-    const double given_time = mapping_.time
-                                  ? mapping_.time->at(given)
-                                  : static_cast<double>(converted_.rows) * mapping_.period;
-    if (!hold_->complete(row_, given_time)) {
-      if (has_time_) add_labels(given_time - converted_.start, given, place);
-      return;
+  bool next() override {
+    while (!is_clock_checked_ && ahead_.size() < rows_for_clock && pull(values_)) {
+      ahead_.push_back(values_);
     }
-    const std::span<const double> row = row_;
-    const LogValues values = log_values(mapping_, converted_.rows++, row);
-    writer_->write(values);
-    first_step_.add(values[log_slot::time]);
-    const bool is_whole =
-        std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
-    if (!is_whole) ++converted_.incomplete_rows;
-    const double time = values[log_slot::time];
-    if (std::isfinite(time)) {
-      if (has_time_) {
-        if (time < converted_.end) ++converted_.time_reversals;
-        if (time > converted_.end + longest_period) ++long_steps_;
-      } else {
-        converted_.start = time;
-      }
-      converted_.end = time;
-      has_time_ = true;
+    if (!is_clock_checked_) check_clock();
+    is_clock_checked_ = true;
+    if (ahead_.empty()) {
+      if (!pull(values_)) return false;
+    } else {
+      values_ = ahead_.front();
+      ahead_.pop_front();
     }
-    add_labels(time - converted_.start, row, place);
+    if (!writer_) return true;
+    stream_.str({});
+    writer_->write(values_);
+    return true;
   }
 
-  ConvertedLog finish(const std::filesystem::path& log) {
-    if (converted_.rows == 0) throw InputError(fmt::format("{}: holds no rows", log.string()));
-    if (!has_time_) {
-      throw InputError(fmt::format("{}: no row has a time that is a finite number", log.string()));
-    }
-    check_clock(log);
-    if (with_labels_) intervals_->finish();
-    converted_.completed_rows = hold_->completed();
-    converted_.oldest = hold_->oldest();
-    converted_.rows_without_joints = hold_->without_joints();
-    return std::move(converted_);
+  const LogValues& values() const override { return values_; }
+  const LogPresence& present() const override { return present_; }
+  std::string_view bytes() const override { return stream_.view(); }
+  void read_origin(std::optional<RecordingInfo>& /*info*/, std::string& robot) const override {
+    robot = mapping_.robot;
   }
+  std::vector<std::string> warnings() const override { return warnings_of(converted_, log_); }
+
+  const std::string& robot() const { return mapping_.robot; }
+  /// Complete at the end.
+  const ConvertedLog& converted() const { return converted_; }
 
  private:
-  /// The first times of the log.
-  class FirstTimes {
-   public:
-    void add(double time) {
-      constexpr std::size_t most = 200;
-      if (times_.size() < most) times_.push_back(time);
+  static constexpr std::size_t rows_for_clock = 200;
+
+  /// Converts the next row that is a record. Returns false at the end.
+  bool pull(LogValues& values) {
+    while (!is_at_end_) {
+      if (options_.check_stop) options_.check_stop();
+      if (!rows_->next(row_)) {
+        finish();
+        break;
+      }
+      const double given_time = mapping_.time
+                                    ? mapping_.time->at(row_)
+                                    : static_cast<double>(converted_.rows) * mapping_.period;
+      const bool is_record = hold_.complete(row_, given_time, converted_);
+      if (is_record) {
+        values = log_values(mapping_, converted_.rows++, row_);
+        count(values);
+      }
+      const double time = is_record ? values[log_slot::time] : given_time;
+      if (with_labels_ && (is_record || has_time_)) {
+        intervals_.add(time - converted_.start, row_, *rows_);
+      }
+      if (is_record) return true;
     }
-    std::optional<double> step() const { return typical_step(times_); }
-
-   private:
-    std::vector<double> times_;
-  };
-
-  void add_labels(double time, std::span<const double> row, const SourceLocation& place) {
-    if (with_labels_) intervals_->add(time, row, place);
+    return false;
   }
 
   /// Errors: `InputError` for a clock that counts another unit than the mapping states.
-  void check_clock(const std::filesystem::path& log) const {
-    const double step = first_step_.step().value_or(0.0);
+  void check_clock() const {
+    const double step = typical_step(first_times_).value_or(0.0);
     const std::string unit = unit_of_step(step);
     constexpr std::uint64_t few = 10;  // rows: their steps may be pauses
     if (!unit.empty() && converted_.rows > few && mapping_.time &&
@@ -256,35 +229,70 @@ class Converter {
       throw InputError(
           fmt::format("{}: times look like {}: rows are {:.6g} apart; set the `unit` of "
                       "`time`",
-                      log.string(), unit, step));
+                      log_, unit, step));
     }
     if (2 * long_steps_ > converted_.rows) {
       throw InputError(fmt::format(
           "{}: most rows come more than {} s after the one before: is time in ms, us or ns? "
           "Then set its `unit`",
-          log.string(), longest_period));
+          log_, longest_period));
     }
     constexpr double shortest_step = 4e-5;  // s, at 25,000 Hz
     if (converted_.rows > few && step > 0.0 && step < shortest_step) {
       throw InputError(
           fmt::format("{}: rows are {:.3g} s apart: is the `unit` of `time` smaller "
                       "than that of the log",
-                      log.string(), step));
+                      log_, step));
     }
   }
 
-  const std::filesystem::path& path_;
-  std::ostream& stream_;
+  void count(const LogValues& values) {
+    const double time = values[log_slot::time];
+    if (first_times_.size() < rows_for_clock) first_times_.push_back(time);
+    const bool is_whole =
+        std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+    if (!is_whole) ++converted_.incomplete_rows;
+    if (!std::isfinite(time)) return;
+    if (has_time_) {
+      if (time < converted_.end) ++converted_.time_reversals;
+      if (time > converted_.end + longest_period) ++long_steps_;
+    } else {
+      converted_.start = time;
+    }
+    converted_.end = time;
+    has_time_ = true;
+  }
+
+  void finish() {
+    is_at_end_ = true;
+    if (converted_.rows == 0) throw InputError(fmt::format("{}: holds no rows", log_));
+    if (!has_time_) {
+      throw InputError(fmt::format("{}: no row has a time that is a finite number", log_));
+    }
+    check_clock();
+    if (with_labels_) converted_.contact = intervals_.finish();
+    converted_.notes = rows_->notes();
+  }
+
+  std::string log_;
+  MappingOptions options_;
   bool with_labels_;
+  std::unique_ptr<RowSource> rows_;
   LogMapping mapping_;
-  std::optional<LogWriter> writer_;
-  std::optional<IntervalBuilder> intervals_;
-  std::optional<RowHold> hold_;
+  LogPresence present_;
+  RowHold hold_;
+  IntervalBuilder intervals_;
   std::vector<double> row_;
-  FirstTimes first_step_;
+  LogValues values_{};
+  std::vector<double> first_times_;
+  std::deque<LogValues> ahead_;  ///< the first rows, while their clock is checked
+  bool is_clock_checked_ = false;
+  bool is_at_end_ = false;
   ConvertedLog converted_;
   std::uint64_t long_steps_ = 0;
   bool has_time_ = false;
+  std::ostringstream stream_;  ///< the bytes of the present record
+  std::optional<LogWriter> writer_;
 };
 
 }  // namespace
@@ -311,50 +319,19 @@ std::vector<std::string> warnings_of(const ConvertedLog& converted, const std::s
   return warnings;
 }
 
-LogRow mapped_row(const LogMapping& mapping, std::uint64_t k, std::span<const double> row) {
-  return to_row(log_values(mapping, k, row), log_presence(mapping));
+std::unique_ptr<RecordSource> mapped_records(const std::filesystem::path& log,
+                                             const std::filesystem::path& mapping,
+                                             MappingOptions options) {
+  return std::make_unique<MappedRecords>(log, mapping, std::move(options), false);
 }
 
 ConvertedLog convert_log(const std::filesystem::path& log, const std::filesystem::path& mapping,
                          std::ostream& stream, const std::function<void()>& check_stop,
                          bool with_labels) {
-  Converter converter(mapping, stream, with_labels);
-  std::vector<std::string> notes;
-  const auto row = [&](std::span<const double> numbers, const SourceLocation& place) {
-    if (check_stop) check_stop();
-    converter.add(numbers, place);
-  };
-  const LogSources sources = read_log_sources(mapping);
-  if (!sources.empty() || is_bag(log)) {
-    notes =
-        read_joined_log(log, sources,
-                        {.mapping = [&](std::span<const SourceNames> names) -> const LogMapping& {
-                           return converter.begin(names);
-                         },
-                         .row = row});
-  } else {
-    read_source_log(log, {.wanted =
-                              [&](const SourceNames& names) {
-                                return converter.begin(std::span(&names, 1)).columns;
-                              },
-                          .row = row,
-                          .note = [&](const std::string& line) { notes.push_back(line); }});
-  }
-  ConvertedLog converted = converter.finish(log);
-  converted.notes.insert(converted.notes.end(), notes.begin(), notes.end());
-  return converted;
-}
-
-MappedLog::MappedLog(const std::filesystem::path& log, const std::filesystem::path& mapping,
-                     const std::function<void()>& check_stop)
-    : folder_(temporary_folder() / "touchdown_mapped_log") {
-  std::ofstream stream(path(), std::ios::binary);
-  const ConvertedLog converted = convert_log(log, mapping, stream, check_stop, false);
-  stream.close();
-  if (!stream) {
-    throw Error(fmt::format("{}: cannot be written: is the disk full?", path().string()));
-  }
-  warnings_ = warnings_of(converted, log.string());
+  MappedRecords records(log, mapping, {.check_stop = check_stop}, with_labels);
+  LogWriter writer(stream, records.present(), records.robot());
+  while (records.next()) writer.write(records.values());
+  return records.converted();
 }
 
 }  // namespace touchdown::logs

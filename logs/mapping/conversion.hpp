@@ -3,15 +3,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <ostream>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "core/files.hpp"
 #include "logs/log/contact_intervals.hpp"
-#include "logs/log/row.hpp"
-#include "logs/mapping/mapping.hpp"
+#include "logs/log/record_source.hpp"
 
 namespace touchdown::logs {
 
@@ -33,37 +31,26 @@ struct ConvertedLog {
 /// One line for each thing that a user should know about the log of this name.
 std::vector<std::string> warnings_of(const ConvertedLog& converted, const std::string& log);
 
-/// One time step of another robot, in Upkie's conventions, from a row with the numbers of
-/// `LogMapping::columns`. `k` counts the rows, for logs without a clock.
-LogRow mapped_row(const LogMapping& mapping, std::uint64_t k, std::span<const double> row);
+/// How a log is converted.
+struct MappingOptions {
+  std::function<void()> check_stop = {};  ///< called for each row, and may throw
+  bool with_bytes = false;                ///< the records have bytes, for programs that copy them
+};
 
-/// Converts another robot's log, CSV, NumPy's arrays or a ROS 2 bag, to a robot's log in Upkie's
-/// layout, by a mapping file. `log` is the folder of the sources if the mapping has several. Each
-/// row becomes one record with the measurements only. Missing values are held from an earlier row
-/// or become NaN. Without `with_labels`, contact labels are not looked at. `check_stop` is called
-/// regularly, and may throw. Errors: `InputError` as in `read_log_mapping`, `read_source_log` and
-/// `read_joined_log`, for a log without rows or times, and for contact labels with decreasing
-/// times; `Error` when the stream fails.
+/// Another robot's log, CSV, NumPy's arrays or a ROS 2 bag, as records in Upkie's layout by a
+/// mapping file, pulled row by row. `log` is the folder of the sources if the mapping has several.
+/// Each row becomes one record with the measurements only. Missing values are held from an earlier
+/// row or become NaN. Errors: `InputError` as in `read_log_mapping` and `open_rows`, for a log
+/// without rows or times, and for a clock that counts another unit, which the first 200 rows show.
+std::unique_ptr<RecordSource> mapped_records(const std::filesystem::path& log,
+                                             const std::filesystem::path& mapping,
+                                             MappingOptions options = {});
+
+/// Writes such records as a log in Upkie's layout. Without `with_labels`, contact labels are not
+/// looked at. `check_stop` is called regularly, and may throw. Errors: as above; `InputError` for
+/// contact labels with decreasing times; `Error` when the stream fails.
 ConvertedLog convert_log(const std::filesystem::path& log, const std::filesystem::path& mapping,
                          std::ostream& stream, const std::function<void()>& check_stop = {},
                          bool with_labels = true);
-
-/// Another robot's log or ROS 2 bag as a log in Upkie's layout, for programs that read such logs.
-/// It is in a temporary folder, which is deleted with this object.
-class MappedLog {
- public:
-  /// `check_stop` is called regularly, and may throw. Errors: those of `convert_log`; `Error` if
-  /// the disk is full.
-  MappedLog(const std::filesystem::path& log, const std::filesystem::path& mapping,
-            const std::function<void()>& check_stop = {});
-
-  std::filesystem::path path() const { return folder_.path() / "log.mpack"; }
-  /// One line for each thing that a user should know.
-  const std::vector<std::string>& warnings() const { return warnings_; }
-
- private:
-  PartFolder folder_;
-  std::vector<std::string> warnings_;
-};
 
 }  // namespace touchdown::logs

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/fields.hpp"
+#include "core/key.hpp"
 #include "estimator/record.hpp"
 #include "models/robot.hpp"
 
@@ -27,9 +28,6 @@ struct LogSources {
   /// Whether they are named like files, not like topics.
   bool are_files() const;
 };
-
-/// The keys of `sources`.
-void describe(Fields& fields, LogSources& sources);
 
 /// Reads only `sources` of a mapping file. Errors: `InputError` with file:line:column.
 LogSources read_log_sources(const std::filesystem::path& mapping);
@@ -60,7 +58,7 @@ struct SourceNames {
   std::function<std::size_t(const std::string& name)> width = {};
 };
 
-/// The numbers of one signal. Each is converted by sign · (scale · unit · value − zero).
+/// The numbers of one signal, converted by `in_our_convention`.
 struct MappedSignal {
   /// The column of a number that the robot lacks: it is 0.
   static constexpr std::size_t no_column = std::numeric_limits<std::size_t>::max();
@@ -78,7 +76,7 @@ struct MappedSignal {
   double value(std::span<const double> row, std::size_t i) const {
     const Number& number = numbers[i];
     if (number.column == no_column) return 0.0;
-    return number.sign * (number.scale * (unit * row[number.column]) - number.zero);
+    return in_our_convention(row[number.column], unit, number.scale, number.sign, number.zero);
   }
 };
 
@@ -140,5 +138,17 @@ struct LogMapping {
   std::optional<MappedSignal> contact;
   double contact_above = 0.5;  ///< a number above this is contact
 };
+
+/// Reads a mapping file for a log with these names; a log with several sources has several. Contact
+/// labels may be left out, as a robot's loop has none. Errors:
+/// `InputError` with file:line:column for
+/// - an unknown or missing key;
+/// - a name that the log lacks, or a column that is used twice;
+/// - a wrong number of names, signs or units.
+LogMapping read_log_mapping(const std::filesystem::path& path, std::span<const SourceNames> sources,
+                            bool with_labels = true);
+
+/// The keys of a mapping file.
+std::vector<Key> mapping_keys();
 
 }  // namespace touchdown::logs

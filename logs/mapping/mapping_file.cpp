@@ -1,17 +1,50 @@
-#include "logs/mapping/mapping_file.hpp"
-
+#include <algorithm>
+#include <cctype>
 #include <string>
 #include <string_view>
 
 #include <fmt/format.h>
 
-#include "core/fields.hpp"
 #include "core/resources.hpp"
 #include "logs/mapping/mapping_reader.hpp"
 
 namespace touchdown::logs {
 
 namespace {
+
+/// A text, or a list of them.
+void describe_names(Fields& fields, const char* key, std::vector<std::string>& names,
+                    const char* meaning) {
+  const YAML::Node given = fields.node()[key];
+  if (fields.documenting() || (given && given.IsSequence())) {
+    fields(key, names).type("text or list of texts").fallback("none").doc(meaning);
+  } else if (given) {
+    fields(key, names.emplace_back());
+  }
+  for (const std::string& name : names) fields.check(!name.empty(), key, "expected a name");
+}
+
+bool is_file_name(const std::string& name) {
+  std::string extension = std::filesystem::path(name).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".csv" || extension == ".npz" || extension == ".tsv" || extension == ".txt";
+}
+
+void describe_sources(Fields& fields, LogSources& sources) {
+  for (const char* key : {"joints", "imu", "contact", "stale_after"}) fields.know(key);
+  fields.finish();
+  fields.require("joints");
+  fields.require("imu");
+  describe_names(
+      fields, "joints", sources.joints,
+      "Files of one folder, or topics of a bag, with the joints. Their clock is the log's.");
+  describe_names(fields, "imu", sources.imu, "File or topic with the IMU.");
+  describe_names(fields, "contact", sources.contact,
+                 "File with the contact labels, if they are not among the joints.");
+  fields("stale_after", sources.stale_after, 1e-3, 10.0)
+      .doc("s", "A value is held until the next one, but is missing when it is older than this.");
+}
 
 constexpr double shortest_period = 1e-6;  // s, the unit of recordings
 
@@ -230,7 +263,7 @@ void describe_mapping(Fields& fields, MappingReader& reader, LogMapping& mapping
       .fallback("none")
       .doc("Name of the robot; a model that was fitted to another robot is then refused.");
   if (fields.present("sources", false)) {
-    fields.section("sources", mapping.sources)
+    fields.within("sources", [&](Fields& inner) { describe_sources(inner, mapping.sources); })
         .fallback("none")
         .doc("Sources with clocks of their own: files, or topics of a ROS 2 bag.");
   }
@@ -254,6 +287,28 @@ void describe_mapping(Fields& fields, MappingReader& reader, LogMapping& mapping
 }
 
 }  // namespace
+
+bool LogSources::are_files() const {
+  return std::any_of(joints.begin(), joints.end(), is_file_name) ||
+         std::any_of(imu.begin(), imu.end(), is_file_name);
+}
+
+LogSources read_log_sources(const std::filesystem::path& mapping) {
+  require_file(mapping);
+  const YamlDocument document = YamlDocument::load(mapping);
+  LogSources sources;
+  Fields fields(document);
+  if (fields.present("sources", false))
+    fields.within("sources", [&](Fields& inner) { describe_sources(inner, sources); });
+  return sources;
+}
+
+std::size_t LogMapping::joint_source() const {
+  for (const MappedSignal::Number& number : position.numbers) {
+    if (number.column < columns.size()) return columns[number.column].source;
+  }
+  return 0;
+}
 
 std::vector<Key> mapping_keys() {
   const SourceNames arrays{.file = "", .are_arrays = true, .names = {}};

@@ -18,57 +18,25 @@
 #include "core/files.hpp"
 #include "logs/bags/topic_rows.hpp"
 #include "tests/bag_writer.hpp"
+#include "tests/logs/bags/read_bag.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::logs {
 namespace {
 
 namespace fs = std::filesystem;
+using test::lines_of;
+using test::ReadBag;
 using test::TestBag;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 TestBag two_topics(std::size_t begin = 0, std::size_t end = 40) {
-  TestBag bag{{{"/a", "pkg/msg/A"}, {"/b", "pkg/msg/B"}}, {}};
-  for (std::size_t k = begin; k < end; ++k) {
-    bag.messages.push_back({k % 3 == 0 ? std::size_t{1} : std::size_t{0},
-                            static_cast<std::int64_t>(1000 + 10 * k),
-                            fmt::format("message {} {}", k, std::string(20 * (k % 7), 'x'))});
-  }
-  return bag;
+  return test::two_topics(begin, end, 20);
 }
-
-struct ReadBag {
-  std::vector<std::string> messages;
-  std::vector<std::string> notes;
-  std::vector<BagTopic> topics;
-  std::string error;
-};
 
 ReadBag read_bag(const fs::path& path, const TopicFilter& wanted = {}) {
-  ReadBag result;
-  try {
-    BagReader reader(path, wanted);
-    BagMessage message;
-    while (reader.next(message)) {
-      result.messages.push_back(
-          fmt::format("{} {} {}", message.time, reader.topics()[message.topic].name, message.data));
-    }
-    result.notes = reader.notes();
-    result.topics = reader.topics();
-  } catch (const InputError& error) {
-    result.error = error.what();
-  }
-  return result;
-}
-
-std::vector<std::string> lines_of(const TestBag& bag) {
-  std::vector<std::string> all;
-  for (const auto& message : bag.messages) {
-    all.push_back(
-        fmt::format("{} {} {}", message.time, bag.topics[message.topic].name, message.data));
-  }
-  return all;
+  return test::read_bag<BagReader>(path, wanted);
 }
 
 class Bag : public ::testing::Test {
@@ -230,7 +198,7 @@ TEST_F(Bag, ASqliteBagThatIsCutOffIsReadAsFarAsItIsWhole) {
         EXPECT_THAT(result.error, HasSubstr("cut.db3"));
         continue;
       }
-      EXPECT_EQ(result.notes.size(), 1U) << size;
+      EXPECT_NE(result.notes, "") << size;
       EXPECT_LE(result.messages.size(), all.size());
       for (const std::string& one : result.messages) {
         EXPECT_TRUE(known.contains(one));

@@ -13,63 +13,27 @@
 
 #include "core/error.hpp"
 #include "tests/bag_writer.hpp"
+#include "tests/logs/bags/read_bag.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::logs {
 namespace {
 
+using test::lines_of;
 using test::mcap_bytes;
 using test::McapOptions;
+using test::ReadBag;
 using test::TestBag;
 using ::testing::HasSubstr;
 
-/// Two topics with messages of different sizes.
-TestBag made_up_bag(std::size_t messages = 45) {
-  TestBag bag{{{"/a", "pkg/msg/A"}, {"/b", "pkg/msg/B"}}, {}};
-  for (std::size_t k = 0; k < messages; ++k) {
-    bag.messages.push_back({k % 3 == 0 ? std::size_t{1} : std::size_t{0},
-                            static_cast<std::int64_t>(1000 + 10 * k),
-                            fmt::format("message {} {}", k, std::string(k % 7, 'x'))});
-  }
-  return bag;
-}
-
-struct Read {
-  std::vector<std::string> messages;  ///< time, topic, type, data
-  std::string note;
-  std::string error;
-};
-
-std::string line(std::int64_t time, const BagTopic& topic, std::string_view data) {
-  return fmt::format("{} {} {} {}", time, topic.name, topic.type, data);
-}
-
-std::vector<std::string> lines(const TestBag& bag) {
-  std::vector<std::string> all;
-  for (const auto& message : bag.messages) {
-    const auto& topic = bag.topics[message.topic];
-    all.push_back(line(message.time, {topic.name, topic.type, "", 0}, message.data));
-  }
-  return all;
-}
+TestBag made_up_bag(std::size_t messages = 45) { return test::two_topics(0, messages); }
 
 class Mcap : public ::testing::Test {
  protected:
-  Read read(const std::string& bytes, const TopicFilter& wanted = {}) {
-    Read result;
-    try {
-      const std::filesystem::path path = folder_ / "bag.mcap";
-      std::ofstream(path, std::ios::binary) << bytes;
-      McapReader reader(path, wanted);
-      BagMessage message;
-      while (reader.next(message)) {
-        result.messages.push_back(line(message.time, reader.topics()[message.topic], message.data));
-      }
-      result.note = reader.note();
-    } catch (const InputError& error) {
-      result.error = error.what();
-    }
-    return result;
+  ReadBag read(const std::string& bytes, const TopicFilter& wanted = {}) {
+    const std::filesystem::path path = folder_ / "bag.mcap";
+    std::ofstream(path, std::ios::binary) << bytes;
+    return test::read_bag<McapReader>(path, wanted);
   }
 
   ScratchFolder folder_;
@@ -83,24 +47,24 @@ TEST_F(Mcap, EveryLayoutHasTheSameMessages) {
     for (const std::size_t per_chunk : {0U, 1U, 10U, 1000U}) {
       for (const int flags : {0, 1, 2, 3, 4, 7}) {
         SCOPED_TRACE(fmt::format("'{}' {} {}", compression, per_chunk, flags));
-        const Read result = read(mcap_bytes(
+        const ReadBag result = read(mcap_bytes(
             bag, {compression, per_chunk, (flags & 1) != 0, (flags & 2) != 0, (flags & 4) != 0}));
-        EXPECT_EQ(result.messages, lines(bag));
-        EXPECT_EQ(result.note + result.error, "");
+        EXPECT_EQ(result.messages, lines_of(bag));
+        EXPECT_EQ(result.notes + result.error, "");
       }
     }
   }
 }
 
 TEST_F(Mcap, ABagWithoutMessagesIsEmpty) {
-  const Read result = read(mcap_bytes(made_up_bag(0)));
+  const ReadBag result = read(mcap_bytes(made_up_bag(0)));
   EXPECT_TRUE(result.messages.empty());
-  EXPECT_EQ(result.note + result.error, "");
+  EXPECT_EQ(result.notes + result.error, "");
 }
 
 TEST_F(Mcap, ChunksThatOverlapAreSortedByTime) {
   TestBag bag = made_up_bag();
-  const std::vector<std::string> sorted = lines(bag);
+  const std::vector<std::string> sorted = lines_of(bag);
   const std::vector<std::function<void(std::vector<test::TestMessage>&)>> shuffles = {
       [](auto& m) { std::rotate(m.begin(), m.begin() + 20, m.end()); },
       [](auto& m) { std::reverse(m.begin(), m.end()); },
@@ -119,7 +83,7 @@ TEST_F(Mcap, ChunksThatOverlapAreSortedByTime) {
 }
 
 TEST_F(Mcap, OnlyWantedTopicsAreRead) {
-  const Read result = read(mcap_bytes(made_up_bag()), [](auto topic) { return topic == "/b"; });
+  const ReadBag result = read(mcap_bytes(made_up_bag()), [](auto topic) { return topic == "/b"; });
   EXPECT_EQ(result.messages.size(), 15U);
   for (const std::string& one : result.messages) EXPECT_THAT(one, HasSubstr("/b pkg/msg/B"));
 }
@@ -127,16 +91,16 @@ TEST_F(Mcap, OnlyWantedTopicsAreRead) {
 /// Whatever the byte at which a file ends, its whole records are read, and the loss is reported.
 TEST_F(Mcap, AFileThatIsCutOffIsReadAsFarAsItIsWhole) {
   const TestBag bag = made_up_bag(25);
-  const std::vector<std::string> all = lines(bag);
+  const std::vector<std::string> all = lines_of(bag);
   for (const std::string& compression : compressions) {
     for (const std::size_t per_chunk : {0U, 5U}) {
       const std::string bytes = mcap_bytes(bag, {compression, per_chunk});
       std::size_t before = 0;
       for (std::size_t size = 8; size < bytes.size(); ++size) {
         SCOPED_TRACE(fmt::format("'{}' {} {}", compression, per_chunk, size));
-        const Read result = read(bytes.substr(0, size));
+        const ReadBag result = read(bytes.substr(0, size));
         EXPECT_EQ(result.error, "");
-        EXPECT_THAT(result.note, HasSubstr(fmt::format("cut off at byte {}", size)));
+        EXPECT_THAT(result.notes, HasSubstr(fmt::format("cut off at byte {}", size)));
         ASSERT_LE(result.messages.size(), all.size());
         EXPECT_TRUE(std::equal(result.messages.begin(), result.messages.end(), all.begin()));
         EXPECT_GE(result.messages.size(), before);  // more bytes, no fewer messages
@@ -149,19 +113,19 @@ TEST_F(Mcap, AFileThatIsCutOffIsReadAsFarAsItIsWhole) {
 
 TEST_F(Mcap, AnyChangedByteOfCheckedDataIsAnErrorOrHarmless) {
   const TestBag bag = made_up_bag(20);
-  const std::vector<std::string> all = lines(bag);
+  const std::vector<std::string> all = lines_of(bag);
   for (const std::string& compression : compressions) {
     const std::string bytes = mcap_bytes(bag, {compression, 5});
     std::size_t errors = 0;
     for (std::size_t at = 0; at < bytes.size(); ++at) {
       std::string changed = bytes;
       changed[at] = static_cast<char>(changed[at] ^ 0x15);
-      const Read result = read(changed);
+      const ReadBag result = read(changed);
       if (!result.error.empty()) {
         ++errors;
         EXPECT_THAT(result.error, HasSubstr("bag.mcap"));
       } else if (result.messages != all) {
-        EXPECT_NE(result.note, "") << at;  // taken for a file that is cut off
+        EXPECT_NE(result.notes, "") << at;  // taken for a file that is cut off
       }
     }
     EXPECT_GT(errors, bytes.size() / 2);
@@ -191,7 +155,7 @@ TEST_F(Mcap, MalformedFilesAreRefusedWithTheirByte) {
         6, fmt::format("{}{}{}{}{}{}abc", u64(1), u64(2), u64(3), none, none, u64(size)));
     EXPECT_THAT(read(head + records).error, HasSubstr("byte 17: chunk")) << size;
     const std::string beyond = fmt::format("{}\6{}abc", head, u64(size));
-    EXPECT_THAT(read(beyond).note, HasSubstr("cut off"));
+    EXPECT_THAT(read(beyond).notes, HasSubstr("cut off"));
   }
   const std::string compression = test::mcap_record(
       6, u64(1) + u64(2) + u64(3) + none + std::string("\3\0\0\0bz2", 7) + u64(3) + "abc");

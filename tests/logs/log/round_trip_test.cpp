@@ -113,6 +113,20 @@ TEST(RoundTrip, KeepsHeldJoints) {
   EXPECT_EQ(read_file(folder / "none.mpack").find("held"), std::string::npos);
 }
 
+TEST(RoundTrip, RecordingInMemoryIsReadLikeItsFile) {
+  const ScratchFolder folder;
+  for (const std::size_t steps : {0U, 5U}) {
+    const auto recording = std::make_shared<Recording>(sample_recording(steps));
+    for (models::GroundTruth& truth : recording->truth) {
+      truth.held.push_back({0.1, 0.2, 0.3});
+      truth.joint_torque.emplace().fill(0.5);
+    }
+    write_recording(*recording, folder / "run.mpack");
+    LogReader reader(records_of(recording), "run");
+    expect_same(read_recording(reader), read_recording(folder / "run.mpack"));
+  }
+}
+
 TEST(RoundTrip, KeepsARunWithoutGroundTruthOrOutcome) {
   const ScratchFolder folder;
   Recording recording = sample_recording(3, false);

@@ -1,12 +1,10 @@
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <limits>
-#include <map>
 #include <numeric>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -15,22 +13,22 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "logs/bags/sensor_messages.hpp"
 #include "logs/log/reader.hpp"
 #include "logs/mapping/conversion.hpp"
 #include "logs/model_file.hpp"
 #include "tests/bag_writer.hpp"
-#include "tests/scratch_folder.hpp"
+#include "tests/logs/mapping/mapped_logs.hpp"
 
 namespace touchdown::logs {
 namespace {
 
+namespace bags = touchdown::test;
 namespace fs = std::filesystem;
-using test::TestBag;
-using test::TestImu;
-using test::TestJoints;
+using bags::TestBag;
+using bags::TestImu;
+using bags::TestJoints;
 using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
@@ -72,11 +70,11 @@ TestBag robot_bag(double seconds) {
   for (int k = 0; k < static_cast<int>(500 * seconds); ++k) {
     const double t = 0.002 * k;
     bag.messages.push_back(
-        {0, stamp(t) + 3 * ms, test::joint_state_cdr(stamp(t), joints_at(t, all_joints))});
+        {0, stamp(t) + 3 * ms, bags::joint_state_cdr(stamp(t), joints_at(t, all_joints))});
   }
   for (int k = 0; k < static_cast<int>(200 * seconds); ++k) {
     const double t = 0.005 * k + 0.00035;
-    bag.messages.push_back({1, stamp(t) + 8 * ms, test::imu_cdr(stamp(t), imu_at(t))});
+    bag.messages.push_back({1, stamp(t) + 8 * ms, bags::imu_cdr(stamp(t), imu_at(t))});
   }
   bag.messages.push_back({2, stamp(0.1), "anything"});
   std::stable_sort(bag.messages.begin(), bag.messages.end(),
@@ -88,31 +86,9 @@ const std::string bag_mapping =
     fmt::format("sources: {{joints: /joint_states, imu: /imu}}\njoints: {{names: [{}]}}\n",
                 fmt::join(joint_names, ", "));
 
-class JoinedLog : public ::testing::Test {
+class JoinedLog : public test::MappedLogs {
  protected:
-  fs::path write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(folder_ / name, std::ios::binary) << bytes;
-    return folder_ / name;
-  }
-  fs::path write_bag(const TestBag& bag) const { return write("bag.mcap", test::mcap_bytes(bag)); }
-
-  std::vector<LogRow> convert(const fs::path& log, const std::string& mapping) {
-    std::ostringstream stream;
-    converted_ = convert_log(log, write("map.yaml", mapping), stream);
-    LogReader reader(memory_source(std::make_shared<const std::string>(stream.str())), "log");
-    std::vector<LogRow> rows;
-    while (const std::optional<LogRow> next = reader.next()) rows.push_back(*next);
-    start_ = reader.start_time();
-    return rows;
-  }
-  std::string complaint(const fs::path& log, const std::string& mapping) {
-    try {
-      (void)convert(log, mapping);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "none";
-  }
+  fs::path write_bag(const TestBag& bag) const { return write("bag.mcap", bags::mcap_bytes(bag)); }
 
   /// Rows have the joints of their time, and the latest IMU message that was not measured later.
   void expect_joined(const std::vector<LogRow>& rows) {
@@ -129,16 +105,12 @@ class JoinedLog : public ::testing::Test {
       EXPECT_NEAR(measured, latest, 1e-6) << t;
     }
   }
-
-  ScratchFolder folder_;
-  ConvertedLog converted_;
-  double start_ = 0.0;
 };
 
 TEST_F(JoinedLog, TopicsOfABagAreJoinedAtTheJointsClock) {
   const TestBag bag = robot_bag(1.0);
   for (const std::string compression : {"", "zstd"}) {
-    const auto rows = convert(write("bag.mcap", test::mcap_bytes(bag, {compression})), bag_mapping);
+    const auto rows = convert(write("bag.mcap", bags::mcap_bytes(bag, {compression})), bag_mapping);
     EXPECT_EQ(rows.size(), 499U);  // the first row is before the first IMU message
     EXPECT_EQ(converted_.incomplete_rows, 0U);
     expect_joined(rows);
@@ -146,10 +118,29 @@ TEST_F(JoinedLog, TopicsOfABagAreJoinedAtTheJointsClock) {
                 Contains(AllOf(HasSubstr("/imu: held at the rows of /joint_states"),
                                HasSubstr("ms (median)"))));
   }
-  test::write_db3(bag, folder_ / "bag.db3");
+  bags::write_db3(bag, folder_ / "bag.db3");
   const auto rows = convert(folder_ / "bag.db3", bag_mapping);
   EXPECT_EQ(rows.size(), 499U);
   expect_joined(rows);
+}
+
+TEST_F(JoinedLog, ReadingABagLeavesNoFileInTheTemporaryFolder) {
+  const fs::path bag = write_bag(robot_bag(1.0));
+  const fs::path map = write("map.yaml", bag_mapping);
+  const ScratchFolder temporary;
+  const char* const before = std::getenv("TMPDIR");
+  const std::string kept = before == nullptr ? "" : before;
+  ::setenv("TMPDIR", temporary.path().c_str(), 1);
+  LogReader reader(mapped_records(bag, map), "bag");
+  std::size_t rows = 0;
+  while (reader.next()) {
+    if (++rows % 100 == 1) {
+      EXPECT_TRUE(fs::is_empty(temporary.path())) << rows;
+    }
+  }
+  EXPECT_TRUE(fs::is_empty(temporary.path()));
+  EXPECT_EQ(rows, 499U);
+  before == nullptr ? ::unsetenv("TMPDIR") : ::setenv("TMPDIR", kept.c_str(), 1);
 }
 
 /// What messages may differ in: the order of joints, the byte order, the length of the frame's name
@@ -174,12 +165,12 @@ TEST_F(JoinedLog, MessagesMayDifferInOrderBytesAndFrames) {
           values->insert(values->begin() + at, -99.0);
         }
       }
-      message.data = test::joint_state_cdr(measured, joints, is_big, frame);
+      message.data = bags::joint_state_cdr(measured, joints, is_big, frame);
     } else if (message.topic == 1) {
-      message.data = test::imu_cdr(measured, imu_at(t), is_big, frame);
+      message.data = bags::imu_cdr(measured, imu_at(t), is_big, frame);
     }
   }
-  test::write_db3(bag, folder_ / "bag.db3", true);
+  bags::write_db3(bag, folder_ / "bag.db3", true);
   for (const fs::path& log : {write_bag(bag), folder_ / "bag.db3"}) {
     const auto rows = convert(log, bag_mapping);
     EXPECT_EQ(rows.size(), 249U);
@@ -196,7 +187,7 @@ TEST_F(JoinedLog, ImuConventionsAreThoseOfRos) {
                     .angular_velocity = {1.0, 2.0, 3.0},
                     .linear_acceleration = {0.5, 0.25, 9.81}};
   for (auto& message : bag.messages) {
-    if (message.topic == 1) message.data = test::imu_cdr(message.time - 8 * ms, imu);
+    if (message.topic == 1) message.data = bags::imu_cdr(message.time - 8 * ms, imu);
   }
   const auto rows = convert(write_bag(bag), bag_mapping);
   ASSERT_FALSE(rows.empty());
@@ -215,7 +206,7 @@ TEST_F(JoinedLog, WithoutSourcesTheOnlyTopicsAreTaken) {
   expect_joined(rows);
   TestBag two = robot_bag(0.1);
   two.topics.push_back({"/imu/raw", imu_type});
-  two.messages.push_back({3, stamp(0.05), test::imu_cdr(stamp(0.05), {})});
+  two.messages.push_back({3, stamp(0.05), bags::imu_cdr(stamp(0.05), {})});
   EXPECT_THAT(
       complaint(write_bag(two), only_names),
       AllOf(HasSubstr("more than one topic of sensor_msgs/msg/Imu"), HasSubstr("/imu/raw")));
@@ -230,10 +221,10 @@ TEST_F(JoinedLog, JointsOfSeveralPublishersAreHeld) {
       const double left = 0.002 * k;
       const double right = left + 0.0007;
       bag.messages.push_back({0, stamp(left) + 3 * ms,
-                              test::joint_state_cdr(stamp(left), joints_at(left, {2, 0, 1}))});
+                              bags::joint_state_cdr(stamp(left), joints_at(left, {2, 0, 1}))});
       bag.messages.push_back({is_one_topic ? 0U : 2U, stamp(right) + 3 * ms,
-                              test::joint_state_cdr(stamp(right), joints_at(right, {4, 3, 5}))});
-      bag.messages.push_back({1, stamp(left) + 3 * ms, test::imu_cdr(stamp(left), imu_at(left))});
+                              bags::joint_state_cdr(stamp(right), joints_at(right, {4, 3, 5}))});
+      bag.messages.push_back({1, stamp(left) + 3 * ms, bags::imu_cdr(stamp(left), imu_at(left))});
     }
     std::stable_sort(bag.messages.begin(), bag.messages.end(),
                      [](const auto& a, const auto& b) { return a.time < b.time; });
@@ -263,7 +254,7 @@ TEST_F(JoinedLog, AnEffortThatLacksNowAndThenIsHeldAndThenMissing) {
         is_empty ? joints.effort.clear()
                  : joints.effort.assign(6, std::numeric_limits<double>::quiet_NaN());
       }
-      message.data = test::joint_state_cdr(stamp(t), joints);
+      message.data = bags::joint_state_cdr(stamp(t), joints);
     }
     const auto rows = convert(write_bag(bag), bag_mapping);
     ASSERT_EQ(rows.size(), 249U);
@@ -295,8 +286,8 @@ TEST_F(JoinedLog, MessagesWithoutStampsHaveTheTimeOfRecording) {
   TestBag bag = robot_bag(0.5);
   for (auto& message : bag.messages) {
     const double t = 1e-9 * static_cast<double>(message.time - epoch);
-    if (message.topic == 0) message.data = test::joint_state_cdr(0, joints_at(t, all_joints));
-    if (message.topic == 1) message.data = test::imu_cdr(0, imu_at(t));
+    if (message.topic == 0) message.data = bags::joint_state_cdr(0, joints_at(t, all_joints));
+    if (message.topic == 1) message.data = bags::imu_cdr(0, imu_at(t));
   }
   const auto rows = convert(write_bag(bag), bag_mapping);
   EXPECT_GE(rows.size(), 240U);
@@ -311,9 +302,9 @@ TEST_F(JoinedLog, AClockThatStartsAtZeroAgainIsFollowed) {
     const double t = 0.002 * (k % 500);
     const std::int64_t recorded = epoch + 2 * ms * k;
     const std::int64_t simulated = 2 * ms * (k % 500);
-    bag.messages.push_back({1, recorded, test::imu_cdr(simulated, imu_at(t))});
+    bag.messages.push_back({1, recorded, bags::imu_cdr(simulated, imu_at(t))});
     bag.messages.push_back(
-        {0, recorded + 1, test::joint_state_cdr(simulated, joints_at(t, all_joints))});
+        {0, recorded + 1, bags::joint_state_cdr(simulated, joints_at(t, all_joints))});
   }
   const auto rows = convert(write_bag(bag), bag_mapping);
   ASSERT_EQ(rows.size(), 1000U);
@@ -342,8 +333,8 @@ TEST_F(JoinedLog, WhatABagLacksIsNamed) {
       TestJoints joints = joints_at(0.0, all_joints);
       TestImu imu;
       change(joints, imu);
-      if (message.topic == 0) message.data = test::joint_state_cdr(message.time, joints);
-      if (message.topic == 1) message.data = test::imu_cdr(message.time, imu);
+      if (message.topic == 0) message.data = bags::joint_state_cdr(message.time, joints);
+      if (message.topic == 1) message.data = bags::imu_cdr(message.time, imu);
     }
     return complaint(write_bag(bag), bag_mapping);
   };
@@ -380,7 +371,7 @@ TEST_F(JoinedLog, WrongMappingsOfABagAreRefused) {
 TEST_F(JoinedLog, TopicsWithoutACommonTimeAreRefusedWithTheirTimes) {
   TestBag bag = robot_bag(0.2);
   for (auto& message : bag.messages) {  // an IMU that counts since it was switched on
-    if (message.topic == 1) message.data = test::imu_cdr(message.time - epoch + 60'000 * ms, {});
+    if (message.topic == 1) message.data = bags::imu_cdr(message.time - epoch + 60'000 * ms, {});
   }
   EXPECT_THAT(complaint(write_bag(bag), bag_mapping),
               AllOf(HasSubstr("/imu has 40 rows from 60.0"), HasSubstr("time: {from: log_time}")));
