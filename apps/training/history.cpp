@@ -89,7 +89,7 @@ bool stopped_improving(const TrainingHistory& history, int patience) {
 }
 
 void write_history(const TrainingHistory& history, const std::filesystem::path& path) {
-  Table table{header(), {}};
+  TextTable table{header(), {}};
   for (const IterationRecord& record : history) {
     std::vector<std::string> cells = {exact(record.iteration)};
     for (const auto& [name, value] : columns(record)) cells.push_back(exact(*value));

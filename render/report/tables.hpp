@@ -9,9 +9,6 @@
 
 namespace touchdown::render {
 
-/// The number at the beginning of a CSV table's cell; NaN without one.
-double number(const std::string& cell);
-
 /// The table as HTML, with its caption. The first `text_columns` name the row.
 std::string table_html(const experiments::CaptionedTable& table, std::size_t text_columns);
 

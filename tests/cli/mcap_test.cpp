@@ -65,7 +65,7 @@ TEST_F(Mcap, HoldsSignalsAndBeliefsOfEveryStep) {
   EXPECT_EQ(read_file(folder_ / "with.mcap"), read_file(folder_ / "again.mcap"));
 
   const std::vector<Message> messages = read("with.mcap");
-  const Table beliefs = from_csv(read_file(folder_ / "beliefs.csv"));
+  const TextTable beliefs = from_csv(read_file(folder_ / "beliefs.csv"));
   ASSERT_EQ(messages.size(), 3000U);
   ASSERT_EQ(beliefs.rows.size(), 1500U);
   EXPECT_GT(std::filesystem::file_size(folder_ / "with.mcap"), 2U << 20U);

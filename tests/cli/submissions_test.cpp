@@ -63,7 +63,7 @@ bool shell(const std::string& command, const ScratchFolder& folder) {
 
 /// The rows of a benchmark's table of one estimator, without its name.
 std::vector<std::vector<std::string>> rows_of(const fs::path& run, const std::string& estimator) {
-  const Table table = from_csv(read_file(run / "tables/benchmark.csv"));
+  const TextTable table = from_csv(read_file(run / "tables/benchmark.csv"));
   std::vector<std::vector<std::string>> rows;
   for (std::vector<std::string> row : table.rows) {
     if (row.at(5) != estimator) continue;
@@ -265,7 +265,7 @@ TEST_F(Submission, ExportsAreTheSameBytesFromARunAndFromItsExperimentOnAnyThread
       different_files(result_files(*folder / "signals"), result_files(*folder / "one_thread")),
       IsEmpty());
   EXPECT_TRUE(shell("cd signals && sha256sum --check --strict --quiet SHA256SUMS", *folder));
-  const Table index = from_csv(read_file(*folder / "signals/index.csv"));
+  const TextTable index = from_csv(read_file(*folder / "signals/index.csv"));
   EXPECT_THAT(index.header, ElementsAre("file", "robot", "sensors", "simulator", "role", "scene",
                                         "run", "noise", "seed", "torque_noise_nm",
                                         "accelerometer_noise_mps2", "steps", "control_period_s"));
