@@ -48,7 +48,7 @@ class Benchmark : public ::testing::Test {
                                       "{robots: [models/upkie_actuated.yaml], sensors: "
                                       "[noise/profiles/harsh.yaml]}"),
                        options));
-    table = from_csv(read_file(*folder / "run/tables/benchmark.csv"));
+    table = table_of(from_csv(read_file(*folder / "run/tables/benchmark.csv")));
   }
   static void TearDownTestSuite() {
     delete result;
@@ -64,7 +64,7 @@ ExperimentResult* Benchmark::result = nullptr;
 Table Benchmark::table;
 
 TEST_F(Benchmark, HasARowForEverySceneRobotSensorsNoiseAndEstimator) {
-  EXPECT_THAT(table.header,
+  EXPECT_THAT(texts_of(table).header,
               IsSupersetOf({"simulator", "robot", "sensors", "scene", "split", "estimator",
                             "balanced_accuracy", "balanced_accuracy_low", "balanced_accuracy_high",
                             "no_contact_precision", "no_contact_recall", "flight_f1",

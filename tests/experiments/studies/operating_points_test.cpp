@@ -37,10 +37,11 @@ TEST(OperatingPoints, ScoreOtherThresholdsThanTheEstimators) {
   ASSERT_EQ(table.rows.size(), 2U * 2U * 2U * 5U);
   std::map<std::string, std::vector<std::string>> own, at_its_own_threshold;
   for (const TableRow& row : table.all()) {
-    const std::string key = row[0] + row[2] + row[4];
+    const std::vector<std::string> cells = row.texts();
+    const std::string key = cells[0] + cells[2] + cells[4];
     EXPECT_EQ(row.text("scenario"), "small_step");
     if (row.text("estimator") != "robust") continue;
-    const std::vector<std::string> numbers(row.begin() + 7, row.end());
+    const std::vector<std::string> numbers(cells.begin() + 7, cells.end());
     if (row.text("leave_below").empty()) own[key] = numbers;
     const bool is_its_own = row.text("leave_below") == "0.8" && row.text("return_above") == "0.8";
     if (is_its_own) at_its_own_threshold[key] = numbers;
