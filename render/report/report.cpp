@@ -12,11 +12,8 @@
 #include "core/files.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/run_directory/directory.hpp"
-#include "render/report/films.hpp"
 #include "render/report/html.hpp"
 #include "render/report/sections.hpp"
-#include "render/report/subject.hpp"
-#include "render/report/tables.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {

@@ -11,7 +11,6 @@
 #include "experiments/results/captions.hpp"
 #include "render/figures/error_scale.hpp"
 #include "render/report/sections.hpp"
-#include "render/report/tables.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {

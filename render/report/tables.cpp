@@ -1,5 +1,3 @@
-#include "render/report/tables.hpp"
-
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -10,6 +8,7 @@
 
 #include "core/files.hpp"
 #include "experiments/results/captions.hpp"
+#include "render/report/sections.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {

@@ -8,8 +8,7 @@
 
 #include "core/table.hpp"
 #include "render/gnuplot/figure.hpp"
-#include "render/report/study_pictures.hpp"
-#include "render/report/subject.hpp"
+#include "render/report/report.hpp"
 
 namespace touchdown::render {
 

@@ -7,7 +7,7 @@
 #include "core/table.hpp"
 #include "logs/recording.hpp"
 #include "render/gnuplot/figure.hpp"
-#include "render/report/study_pictures.hpp"
+#include "render/report/report.hpp"
 #include "scoring/labels.hpp"
 
 namespace touchdown::render {

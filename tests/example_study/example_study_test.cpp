@@ -11,7 +11,7 @@
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_experiment.hpp"
 #include "experiments/studies/experiment_file.hpp"
-#include "render/report/pictures.hpp"
+#include "render/report/report.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/experiments/studies/study_test.hpp"
 #include "tests/scratch_folder.hpp"
