@@ -1,8 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -21,46 +22,44 @@ namespace touchdown {
 template <typename Row>
 class Columns {
  public:
-  struct Column {
-    ColumnInfo info;
-    std::function<std::vector<std::string>(const Row&)> cells;  ///< one, or three with bounds
-  };
-
   /// A key: the text itself.
   template <typename Getter>
   Columns& text(std::string name, Getter getter) {
-    return add({std::move(name), ColumnRole::key},
+    return add({std::move(name), ColumnRole::key, ColumnType::text},
                [getter](const Row& row) { return std::string(std::invoke(getter, row)); });
   }
-  /// A key: a number that was set, not measured, as `exact` formats it.
+  /// A key: a number that was set, not measured.
   template <typename Getter>
   Columns& level(std::string name, Getter getter) {
-    return add({std::move(name), ColumnRole::key},
-               [getter](const Row& row) { return exact(std::invoke(getter, row)); });
+    return add({std::move(name), ColumnRole::key, ColumnType::exact},
+               [getter](const Row& row) { return double{std::invoke(getter, row)}; });
   }
   /// A key: a whole number.
   template <typename Getter>
   Columns& number(std::string name, Getter getter) {
-    return add({std::move(name), ColumnRole::key},
-               [getter](const Row& row) { return std::to_string(std::invoke(getter, row)); });
+    return add({std::move(name), ColumnRole::key, ColumnType::count}, [getter](const Row& row) {
+      return static_cast<std::int64_t>(std::invoke(getter, row));
+    });
   }
-  /// A measured number, as `metric` formats it.
+  /// A measured number.
   template <typename Getter>
   Columns& metric(std::string name, Getter getter) {
-    return add({std::move(name), ColumnRole::metric},
-               [getter](const Row& row) { return touchdown::metric(std::invoke(getter, row)); });
+    return add({std::move(name), ColumnRole::metric, ColumnType::measured},
+               [getter](const Row& row) { return rounded(std::invoke(getter, row)); });
   }
-  /// A measured number with its interval.
+  /// A measured number with its interval: three columns.
   template <typename Getter>
-  Columns& interval(std::string name, Getter getter) {
-    ColumnInfo info{std::move(name), ColumnRole::metric};
-    info.has_bounds = true;
-    columns_.push_back({std::move(info), [getter](const Row& row) {
-                          const Interval interval = std::invoke(getter, row);
-                          return std::vector{touchdown::metric(interval.estimate),
-                                             touchdown::metric(interval.low),
-                                             touchdown::metric(interval.high)};
-                        }});
+  Columns& interval(const std::string& name, Getter getter) {
+    last_ = columns_.size();
+    columns_.push_back({name, ColumnRole::metric, ColumnType::measured});
+    columns_.push_back({bound_name(name, "_low"), ColumnRole::low, ColumnType::measured});
+    columns_.push_back({bound_name(name, "_high"), ColumnRole::high, ColumnType::measured});
+    cells_.push_back([getter](const Row& row, std::vector<Cell>& cells) {
+      const Interval interval = std::invoke(getter, row);
+      for (const double value : {interval.estimate, interval.low, interval.high}) {
+        cells.emplace_back(rounded(value));
+      }
+    });
     return *this;
   }
   /// A measured count.
@@ -71,9 +70,7 @@ class Columns {
   /// A measured yes or no: 1 or 0.
   template <typename Getter>
   Columns& flag(std::string name, Getter getter) {
-    return add({std::move(name), ColumnRole::metric}, [getter](const Row& row) {
-      return std::string(std::invoke(getter, row) ? "1" : "0");
-    });
+    return count(std::move(name), getter);
   }
   /// The number of runs behind the metrics of a row. A table has at most one such column.
   template <typename Getter>
@@ -83,73 +80,52 @@ class Columns {
 
   /// Sets the role of the last column.
   Columns& is(ColumnRole role) {
-    columns_.back().info.role = role;
+    columns_[last_].role = role;
     return *this;
   }
   /// Sets the name of the last column in long tables.
   Columns& as(const std::string& name) {
-    columns_.back().info.as = name;
+    columns_[last_].as = name;
     return *this;
   }
 
   /// The columns of a part of the row, which `getter` returns.
   template <typename Getter, typename Part>
   Columns& part(Getter getter, const Columns<Part>& columns) {
-    for (const auto& column : columns.list()) {
-      columns_.push_back({column.info, [getter, cells = column.cells](const Row& row) {
-                            return cells(std::invoke(getter, row));
-                          }});
-    }
-    return *this;
-  }
-
-  /// More columns of the same row.
-  Columns& and_then(const Columns& more) {
-    columns_.insert(columns_.end(), more.columns_.begin(), more.columns_.end());
+    columns_.insert(columns_.end(), columns.list().begin(), columns.list().end());
+    cells_.push_back([getter, columns](const Row& row, std::vector<Cell>& cells) {
+      columns.add_cells(std::invoke(getter, row), cells);
+    });
     return *this;
   }
 
   const std::vector<Column>& list() const { return columns_; }
 
-  std::vector<ColumnInfo> infos() const {
-    std::vector<ColumnInfo> infos;
-    for (const Column& column : columns_) infos.push_back(column.info);
-    return infos;
+  /// Appends the cells of a row.
+  void add_cells(const Row& row, std::vector<Cell>& cells) const {
+    for (const auto& add : cells_) add(row, cells);
   }
 
-  std::vector<std::string> header() const {
-    std::vector<std::string> names;
-    for (const Column& column : columns_) {
-      for (std::string& name : column.info.cell_names()) names.push_back(std::move(name));
-    }
-    return names;
-  }
-
-  std::vector<std::string> cells(const Row& row) const {
-    std::vector<std::string> all;
-    for (const Column& column : columns_) {
-      for (std::string& cell : column.cells(row)) all.push_back(std::move(cell));
-    }
-    return all;
-  }
-
-  /// One line per row; without the meanings of the columns, `infos`.
   template <typename Rows>
   Table table(const Rows& rows) const {
-    Table table{header(), {}};
-    for (const Row& row : rows) table.rows.push_back(cells(row));
+    Table table{columns_, {}};
+    for (const Row& row : rows) add_cells(row, table.rows.emplace_back());
     return table;
   }
 
  private:
-  template <typename Cell>
-  Columns& add(ColumnInfo info, Cell cell) {
-    columns_.push_back(
-        {std::move(info), [cell](const Row& row) { return std::vector{cell(row)}; }});
+  template <typename Getter>
+  Columns& add(Column column, Getter cell) {
+    last_ = columns_.size();
+    columns_.push_back(std::move(column));
+    cells_.push_back(
+        [cell](const Row& row, std::vector<Cell>& cells) { cells.emplace_back(cell(row)); });
     return *this;
   }
 
   std::vector<Column> columns_;
+  std::size_t last_ = 0;  ///< the first column of the last call
+  std::vector<std::function<void(const Row&, std::vector<Cell>&)>> cells_;
 };
 
 }  // namespace touchdown

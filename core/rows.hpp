@@ -67,9 +67,9 @@ auto group_by(const Rows& rows, const Key& key) {
 /// with both keys, a dash where there is none. Both keys and the cell are texts; the corner is
 /// empty.
 template <typename Rows, typename Down, typename Across, typename Cell>
-Table pivot(const Rows& rows, const Down& down, const Across& across, const Cell& cell) {
+TextTable pivot(const Rows& rows, const Down& down, const Across& across, const Cell& cell) {
   const std::vector<std::string> columns = unique(rows, across);
-  Table table{{""}, {}};
+  TextTable table{{""}, {}};
   table.header.insert(table.header.end(), columns.begin(), columns.end());
   for (const auto& line : group_by(rows, down)) {
     std::vector<std::string>& cells = table.rows.emplace_back(table.header.size(), "–");

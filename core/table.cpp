@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -15,6 +16,13 @@
 namespace touchdown {
 
 namespace {
+
+/// The number with which a text begins; NaN without one.
+double number_in(std::string_view text) {
+  double number = std::numeric_limits<double>::quiet_NaN();
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
 
 bool is_number(std::string_view text) {
   double number = 0.0;
@@ -40,13 +48,26 @@ std::string csv_cell(std::string cell) {
   return quoted;
 }
 
+std::string text_of(const Cell& cell, const Column& column) {
+  if (const auto* const text = std::get_if<std::string>(&cell)) return *text;
+  if (const auto* const count = std::get_if<std::int64_t>(&cell)) return std::to_string(*count);
+  const double number = std::get<double>(cell);
+  return column.type == ColumnType::measured ? metric(number) : exact(number);
+}
+
+Cell cell_of(const std::string& text, ColumnType type) {
+  if (type == ColumnType::text) return text;
+  if (type == ColumnType::count) return static_cast<std::int64_t>(number_in(text));
+  return number_in(text);
+}
+
 std::string padded(const std::string& cell, std::size_t to, bool left) {
   const std::string space(to - width(cell), ' ');
   return left ? cell + space : space + cell;
 }
 
 /// Cells come from files, too: a line end or an escape sequence would break the table.
-Table shown(Table table) {
+TextTable shown(TextTable table) {
   const auto show = [](std::vector<std::string>& cells) {
     for (std::string& cell : cells) cell = terminal_text(cell);
   };
@@ -57,14 +78,72 @@ Table shown(Table table) {
 
 }  // namespace
 
-std::vector<std::string> ColumnInfo::cell_names() const {
-  if (!has_bounds) return {name};
+std::vector<TableRow> Table::all() const {
+  std::vector<TableRow> all;
+  for (std::size_t row = 0; row < rows.size(); ++row) all.emplace_back(*this, row);
+  return all;
+}
+
+std::size_t TableRow::index_of(std::string_view column) const {
+  const auto found = std::find_if(table_->columns.begin(), table_->columns.end(),
+                                  [&](const Column& one) { return one.name == column; });
+  return static_cast<std::size_t>(found - table_->columns.begin());
+}
+
+std::string TableRow::text(std::string_view column) const {
+  const std::size_t index = index_of(column);
+  return index < cells_->size() ? text_of((*cells_)[index], table_->columns[index]) : "nan";
+}
+
+double TableRow::number(std::string_view column) const {
+  const std::size_t index = index_of(column);
+  if (index >= cells_->size()) return std::numeric_limits<double>::quiet_NaN();
+  const Cell& cell = (*cells_)[index];
+  if (const auto* const number = std::get_if<double>(&cell)) return *number;
+  if (const auto* const count = std::get_if<std::int64_t>(&cell)) {
+    return static_cast<double>(*count);
+  }
+  return number_in(std::get<std::string>(cell));
+}
+
+Interval TableRow::interval(const std::string& column) const {
+  return {number(column), number(bound_name(column, "_low")), number(bound_name(column, "_high"))};
+}
+
+std::vector<std::string> TableRow::texts() const {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < cells_->size(); ++i) {
+    texts.push_back(text_of((*cells_)[i], table_->columns[i]));
+  }
+  return texts;
+}
+
+std::string bound_name(const std::string& name, const char* end) {
   const bool has_unit = name.ends_with("_ms") || name.ends_with("_nm");
-  const std::size_t stem = name.size() - (has_unit ? 3 : 0);
-  std::vector<std::string> names;
-  for (const char* end : {"", "_low", "_high"})
-    names.push_back(std::string(name).insert(stem, end));
-  return names;
+  return std::string(name).insert(name.size() - (has_unit ? 3 : 0), end);
+}
+
+TextTable texts_of(const Table& table) {
+  TextTable texts;
+  for (const Column& column : table.columns) texts.header.push_back(column.name);
+  for (const TableRow& row : table.all()) texts.rows.push_back(row.texts());
+  return texts;
+}
+
+Table table_of(const TextTable& texts, const std::vector<Column>& columns) {
+  Table table;
+  for (const std::string& name : texts.header) {
+    const auto known = std::find_if(columns.begin(), columns.end(),
+                                    [&](const Column& column) { return column.name == name; });
+    table.columns.push_back(known == columns.end() ? Column{name} : *known);
+  }
+  for (const std::vector<std::string>& row : texts.rows) {
+    std::vector<Cell>& cells = table.rows.emplace_back();
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      cells.push_back(cell_of(row[i], table.columns[i].type));
+    }
+  }
+  return table;
 }
 
 std::size_t width(const std::string& text) {
@@ -79,22 +158,25 @@ std::string csv_line(const std::vector<std::string>& cells) {
   return fmt::format("{}\n", fmt::join(quoted, ","));
 }
 
-std::string to_csv(const Table& table) {
+std::string to_csv(const TextTable& table) {
   std::string text = csv_line(table.header);
   for (const auto& row : table.rows) text += csv_line(row);
   return text;
 }
 
-std::string cell(const Table& table, const std::vector<std::string>& row, std::string_view column) {
+std::string to_csv(const Table& table) { return to_csv(texts_of(table)); }
+
+std::string cell(const TextTable& table, const std::vector<std::string>& row,
+                 std::string_view column) {
   const auto found = std::find(table.header.begin(), table.header.end(), column);
   const auto index = static_cast<std::size_t>(found - table.header.begin());
   return index < row.size() ? row[index] : "nan";
 }
 
-Table from_csv(std::string_view text) {
+TextTable from_csv(std::string_view text) {
   std::istringstream lines{std::string(text)};
   CsvRows rows(lines);
-  Table table;
+  TextTable table;
   while (rows.next()) {
     while (rows.is_open() && rows.append_line()) continue;
     std::vector<std::string> row;
@@ -114,8 +196,12 @@ Table from_csv(std::string_view text) {
   return table;
 }
 
-std::string to_text(const Table& raw, std::size_t text_columns) {
-  const Table table = shown(raw);
+std::string to_text(const Table& table, std::size_t text_columns) {
+  return to_text(texts_of(table), text_columns);
+}
+
+std::string to_text(const TextTable& raw, std::size_t text_columns) {
+  const TextTable table = shown(raw);
   std::vector<std::size_t> widths(table.header.size(), 0);
   const auto measure = [&](const std::vector<std::string>& cells) {
     widths.resize(std::max(widths.size(), cells.size()), 0);
@@ -153,6 +239,8 @@ std::string fixed(double value, int decimals) {
 std::string exact(double value) { return std::isnan(value) ? "nan" : fmt::format("{}", value); }
 
 std::string metric(double value) { return std::isnan(value) ? "nan" : fixed(value, 6); }
+
+double rounded(double value) { return number_in(metric(value)); }
 
 std::string with_interval(const Interval& interval, int decimals) {
   if (std::isnan(interval.estimate)) return "–";

@@ -47,9 +47,9 @@ std::string range_text(const CheckedJoint& joint) {
 }
 
 std::string joints_text(const RobotCheck& check) {
-  Table table{{"servo", "joint", "axis in the base", "sign", "zero (rad)", "range (rad)",
-               "limit (N·m)", "actuator"},
-              {}};
+  TextTable table{{"servo", "joint", "axis in the base", "sign", "zero (rad)", "range (rad)",
+                   "limit (N·m)", "actuator"},
+                  {}};
   for (const CheckedJoint& joint : check.joints) {
     table.rows.push_back({joint.servo, joint.joint, vector_text(joint.axis),
                           joint.is_reversed ? "reversed" : "kept",

@@ -29,7 +29,7 @@ std::string first_sentence(const std::filesystem::path& path) {
 
 void print_files(const char* title, const char* folder) {
   print("{}\n", title);
-  Table table{{}, {}};
+  TextTable table{{}, {}};
   for (const std::filesystem::path& path : resources_in(folder, ".yaml")) {
     table.rows.push_back({path.string(), first_sentence(find_resource(path))});
   }
@@ -39,7 +39,7 @@ void print_files(const char* title, const char* folder) {
 /// Name, title and summary of each entry of a registry.
 template <typename Entries>
 std::string entries_text(const Entries& entries) {
-  Table table{{}, {}};
+  TextTable table{{}, {}};
   for (const auto& entry : entries) {
     table.rows.push_back({entry.name, entry.title, entry.summary});
   }
@@ -47,7 +47,7 @@ std::string entries_text(const Entries& entries) {
 }
 
 std::string estimators_text() {
-  Table table{{}, {}};
+  TextTable table{{}, {}};
   for (const experiments::EstimatorEntry& entry : experiments::estimator_entries()) {
     table.rows.push_back({entry.name, entry.title, entry.summary, entry.reason,
                           experiments::given_text(entry, true)});
@@ -56,7 +56,7 @@ std::string estimators_text() {
 }
 
 std::string families_text() {
-  Table table{{}, {}};
+  TextTable table{{}, {}};
   for (const scenarios::Family& family : scenarios::families()) {
     table.rows.push_back({family.name, family.summary});
   }

@@ -11,7 +11,6 @@
 #include "core/program.hpp"
 #include "experiments/run_directory/lock.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "render/report/films.hpp"
 #include "render/studies/registry.hpp"
 
 namespace touchdown::cli {

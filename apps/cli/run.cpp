@@ -17,7 +17,6 @@
 #include "experiments/results/text_tables.hpp"
 #include "experiments/run_experiment.hpp"
 #include "experiments/studies/experiment_file.hpp"
-#include "render/report/pictures.hpp"
 #include "render/report/report.hpp"
 #include "render/studies/registry.hpp"
 

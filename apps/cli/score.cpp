@@ -7,7 +7,6 @@
 #include "core/files.hpp"
 #include "core/program.hpp"
 #include "experiments/submissions/score_beliefs.hpp"
-#include "render/report/films.hpp"
 #include "render/report/report.hpp"
 #include "render/studies/benchmark.hpp"
 #include "render/studies/registry.hpp"

@@ -72,7 +72,7 @@ bool stopped_improving(const TrainingHistory& history, int patience) {
 }
 
 void write_history(const TrainingHistory& history, const std::filesystem::path& path) {
-  Table table{header(), {}};
+  TextTable table{header(), {}};
   for (const IterationRecord& record : history) {
     std::vector<std::string> cells = {exact(record.iteration)};
     for (const auto& [name, value] : columns(record)) cells.push_back(exact(*value));
@@ -82,7 +82,7 @@ void write_history(const TrainingHistory& history, const std::filesystem::path& 
 }
 
 TrainingHistory read_history(const std::filesystem::path& path) {
-  const Table table = from_csv(read_file(path));
+  const TextTable table = from_csv(read_file(path));
   const auto require = [&](bool is_good, std::size_t line) {
     if (is_good) return;
     throw InputError(

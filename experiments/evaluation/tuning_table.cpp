@@ -101,7 +101,7 @@ std::string chosen_yaml(const std::vector<Trial>& trials, const Experiment& expe
 }
 
 std::string tuning_text(const std::vector<Trial>& trials, const Experiment& experiment) {
-  Table table{{"", "on", "defaults", "chosen", "with"}, {}};
+  TextTable table{{"", "on", "defaults", "chosen", "with"}, {}};
   const Trial* defaults = nullptr;
   for (const Trial& trial : trials) {
     if (trial.number == 0) defaults = &trial;
@@ -122,7 +122,7 @@ std::string tuning_text(const std::vector<Trial>& trials, const Experiment& expe
 TunedHyperparameters read_chosen(const std::filesystem::path& run_directory) {
   const std::filesystem::path file = run_directory / "tables" / "tuning.csv";
   if (!is_there(file)) return {};
-  const Table table = from_csv(read_file(file));
+  const TextTable table = from_csv(read_file(file));
   TunedHyperparameters chosen;
   for (const std::vector<std::string>& row : table.rows) {
     if (cell(table, row, "chosen") != "1" || !cell(table, row, "fit").empty()) continue;

@@ -1,9 +1,7 @@
 #include "experiments/figures/figure_spec.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -13,10 +11,9 @@ namespace touchdown::experiments {
 
 namespace {
 
-std::vector<std::string> values_of(const std::vector<std::string>& columns, const Table& table,
-                                   const std::vector<std::string>& row) {
+std::vector<std::string> values_of(const std::vector<std::string>& columns, const TableRow& row) {
   std::vector<std::string> values;
-  for (const std::string& column : columns) values.push_back(cell(table, row, column));
+  for (const std::string& column : columns) values.push_back(row.text(column));
   return values;
 }
 
@@ -30,15 +27,14 @@ std::string series_text(const FigureSpec& spec, const Table& table, std::size_t 
                         std::size_t series) {
   const FigureAxis& measure = spec.measures.front();
   std::string text;
-  for (const std::vector<std::string>& row : table.rows) {
-    const bool is_drawn = passes(table, row, spec.where) &&
-                          group_of(spec.panels, table, row) == panel &&
-                          group_of(spec.series, table, row) == series;
-    const std::optional<std::size_t> place = group_of(spec.rows, table, row);
-    const double value = drawn_value(measure, cell(table, row, measure.column));
+  for (const TableRow& row : table.all()) {
+    const bool is_drawn = passes(row, spec.where) && group_of(spec.panels, row) == panel &&
+                          group_of(spec.series, row) == series;
+    const std::optional<std::size_t> place = group_of(spec.rows, row);
+    const double value = drawn_value(measure, row);
     if (!is_drawn || !place || std::isnan(value)) continue;
     const std::string at = spec.rows.columns.empty()
-                               ? "at " + with_unit(cell(table, row, spec.x.column), spec.x)
+                               ? "at " + with_unit(row.text(spec.x.column), spec.x)
                                : "for " + spec.rows.groups[*place].title;
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ",
                         with_unit(fmt::format("{:.3g}", value), measure), at);
@@ -56,17 +52,15 @@ std::string title_of(const FigureGroups& groups, std::size_t place) {
 
 }  // namespace
 
-bool passes(const Table& table, const std::vector<std::string>& row,
-            const std::vector<CellFilter>& where) {
+bool passes(const TableRow& row, const std::vector<CellFilter>& where) {
   return std::all_of(where.begin(), where.end(), [&](const CellFilter& filter) {
-    return cell(table, row, filter.column) == filter.value;
+    return row.text(filter.column) == filter.value;
   });
 }
 
-std::optional<std::size_t> group_of(const FigureGroups& groups, const Table& table,
-                                    const std::vector<std::string>& row) {
+std::optional<std::size_t> group_of(const FigureGroups& groups, const TableRow& row) {
   if (groups.columns.empty()) return 0;
-  const std::vector<std::string> values = values_of(groups.columns, table, row);
+  const std::vector<std::string> values = values_of(groups.columns, row);
   const auto found = std::find_if(groups.groups.begin(), groups.groups.end(),
                                   [&](const FigureGroup& group) { return group.values == values; });
   if (found == groups.groups.end()) return {};
@@ -84,10 +78,10 @@ FigureGroups combinations_in(
     const Table& table, const std::vector<std::string>& columns,
     const std::function<std::string(const std::vector<std::string>& values)>& title,
     const std::vector<CellFilter>& filters) {
-  const auto rows = where(table.rows, [&](const auto& row) { return passes(table, row, filters); });
+  const auto rows = where(table.all(), [&](const TableRow& row) { return passes(row, filters); });
   FigureGroups groups{columns, {}};
   for (const auto& values :
-       unique(rows, [&](const auto& row) { return values_of(columns, table, row); })) {
+       unique(rows, [&](const TableRow& row) { return values_of(columns, row); })) {
     groups.groups.push_back({values, title(values)});
   }
   return groups;
@@ -103,10 +97,8 @@ FigureAxis axis_with_interval(const std::string& column, const std::string& titl
   return {.column = column, .title = title, .low = column + "_low", .high = column + "_high"};
 }
 
-double drawn_value(const FigureAxis& axis, const std::string& cell) {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  value = axis.offset + axis.factor * value;
+double drawn_value(const FigureAxis& axis, const TableRow& row, const std::string& column) {
+  const double value = axis.offset + axis.factor * row.number(column);
   return axis.floor && value < *axis.floor ? *axis.floor : value;
 }
 

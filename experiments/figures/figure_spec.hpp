@@ -75,13 +75,11 @@ struct FigureSpec {
 };
 
 /// Whether a row of the table passes all conditions.
-bool passes(const Table& table, const std::vector<std::string>& row,
-            const std::vector<CellFilter>& where);
+bool passes(const TableRow& row, const std::vector<CellFilter>& where);
 
 /// The first group with the row's values: its place; 0 without columns, empty for a row of no
 /// group.
-std::optional<std::size_t> group_of(const FigureGroups& groups, const Table& table,
-                                    const std::vector<std::string>& row);
+std::optional<std::size_t> group_of(const FigureGroups& groups, const TableRow& row);
 
 /// The distinct values of a column among the rows that pass `where`, in the order of the rows, each
 /// with its title.
@@ -101,8 +99,12 @@ FigureGroups noise_panels(const Table& table);
 /// The axis of a measured column, with the columns of its interval beside it.
 FigureAxis axis_with_interval(const std::string& column, const std::string& title);
 
-/// The value of a cell as an axis draws it; NaN for a cell without a number.
-double drawn_value(const FigureAxis& axis, const std::string& cell);
+/// A row's value in a column as an axis draws it; NaN without a number. The column is the axis's
+/// own, or that of an end of its interval.
+double drawn_value(const FigureAxis& axis, const TableRow& row, const std::string& column);
+inline double drawn_value(const FigureAxis& axis, const TableRow& row) {
+  return drawn_value(axis, row, axis.column);
+}
 
 /// The drawn values of the first measure as a text, panel by panel and series by series, for a
 /// figure's alternative text. It begins with a space.

@@ -68,18 +68,24 @@ std::string noise_text(const noise::NoiseCell& cell) {
                      cell.accelerometer);
 }
 
-std::string estimator_title(const std::string& estimator) {
-  for (const EstimatorEntry& entry : estimator_entries()) {
-    if (entry.name == estimator) return entry.title;
+const EstimatorEntry* find_estimator(std::string_view name,
+                                     std::span<const EstimatorEntry> external) {
+  for (const auto entries : {external, estimator_entries()}) {
+    for (const EstimatorEntry& entry : entries) {
+      if (entry.name == name) return &entry;
+    }
   }
-  return estimator;
+  return nullptr;
+}
+
+std::string estimator_title(const std::string& estimator) {
+  const EstimatorEntry* const entry = find_estimator(estimator);
+  return entry == nullptr ? estimator : entry->title;
 }
 
 std::string estimator_title_in(const Experiment& experiment, const std::string& estimator) {
-  for (const EstimatorEntry& entry : experiment.external_estimators) {
-    if (entry.name == estimator) return entry.title;
-  }
-  return estimator_title(estimator);
+  const EstimatorEntry* const entry = find_estimator(estimator, experiment.external_estimators);
+  return entry == nullptr ? estimator : entry->title;
 }
 
 std::string false_takeoffs_text(const std::vector<ScoreSummary>& scores,

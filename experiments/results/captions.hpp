@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/config/experiment.hpp"
@@ -27,6 +29,9 @@ std::string tuning_text(const Experiment& experiment);
 std::string conditions_text(const Experiment& experiment);
 /// "torque noise 1 N·m, accelerometer noise 5 m/s²".
 std::string noise_text(const noise::NoiseCell& cell);
+/// The estimator of this name, external or built-in; null for another name.
+const EstimatorEntry* find_estimator(std::string_view name,
+                                     std::span<const EstimatorEntry> external = {});
 /// "Bayes filter (robust)"; the name itself for an estimator without a title.
 std::string estimator_title(const std::string& estimator);
 /// The same for an experiment's own estimators, too, such as those written in Python.

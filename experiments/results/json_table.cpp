@@ -1,27 +1,23 @@
 #include "experiments/results/json_table.hpp"
 
-#include <charconv>
 #include <cmath>
 
 namespace touchdown::experiments {
 
-namespace {
-
-nlohmann::ordered_json json_of(const std::string& cell) {
-  double number = 0.0;
-  const char* end = cell.data() + cell.size();
-  const auto [rest, error] = std::from_chars(cell.data(), end, number);
-  if (error != std::errc() || rest != end) return cell;
-  return std::isfinite(number) ? nlohmann::ordered_json(number) : nullptr;
-}
-
-}  // namespace
-
 nlohmann::ordered_json json_of(const Table& table) {
   auto rows = nlohmann::ordered_json::array();
-  for (const std::vector<std::string>& cells : table.rows) {
+  for (const std::vector<Cell>& cells : table.rows) {
     nlohmann::ordered_json row;
-    for (std::size_t i = 0; i < cells.size(); ++i) row[table.header[i]] = json_of(cells[i]);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      auto& value = row[table.columns[i].name];
+      if (const auto* const text = std::get_if<std::string>(&cells[i])) {
+        value = *text;
+      } else if (const auto* const count = std::get_if<std::int64_t>(&cells[i])) {
+        value = static_cast<double>(*count);
+      } else if (std::isfinite(std::get<double>(cells[i]))) {
+        value = std::get<double>(cells[i]);
+      }
+    }
     rows.push_back(std::move(row));
   }
   return rows;

@@ -6,7 +6,7 @@
 
 namespace touchdown::experiments {
 
-/// A list of its rows, each an object by column; cells that are numbers as numbers, `nan` as null.
+/// A list of its rows, each an object by column; undefined numbers are null.
 nlohmann::ordered_json json_of(const Table& table);
 
 /// What is wrong with a JSON file, without the library's own number of the error.

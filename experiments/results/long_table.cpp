@@ -100,17 +100,14 @@ std::string unit_of(const std::string& metric) {
 }
 
 std::vector<std::vector<std::string>> long_rows(const std::string& study, const Table& table,
-                                                const std::vector<std::string>& line,
-                                                const ResultSetup& setup) {
+                                                std::size_t index, const ResultSetup& setup) {
+  const std::vector<std::string> line = TableRow(table, index).texts();
   Keys keys;
   std::string runs;
-  std::vector<std::pair<const ColumnInfo*, std::size_t>> metrics;  // with their first cells
-  std::size_t at = 0;
-  for (const ColumnInfo& column : table.columns) {
-    if (column.role == ColumnRole::key) keys.add(column.as, line[at]);
-    if (column.role == ColumnRole::runs) runs = line[at];
-    if (column.role == ColumnRole::metric) metrics.emplace_back(&column, at);
-    at += column.cells();
+  const std::vector<Column>& columns = table.columns;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].role == ColumnRole::key) keys.add(columns[i].as, line[i]);
+    if (columns[i].role == ColumnRole::runs) runs = line[i];
   }
   std::vector<std::string> common = {study, keys.take("simulator")};
   common.push_back(or_else(keys.take("robot"), setup.robot));
@@ -120,14 +117,14 @@ std::vector<std::vector<std::string>> long_rows(const std::string& study, const 
   const std::string named = keys.take("metric");
   const std::string unit = keys.take("unit");
   std::vector<std::vector<std::string>> rows;
-  for (const auto& [column, cell] : metrics) {
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].role != ColumnRole::metric) continue;
     const std::string metric =
-        named.empty() ? column->as : fmt::format("{}_of_{}", column->as, named);
+        named.empty() ? columns[i].as : fmt::format("{}_of_{}", columns[i].as, named);
     std::vector<std::string>& row = rows.emplace_back(common);
-    row.insert(row.end(), {metric, or_else(unit, unit_of(metric)), runs, line[cell]});
-    for (const std::size_t bound : {1U, 2U}) {
-      row.push_back(column->has_bounds ? line[cell + bound] : "");
-    }
+    row.insert(row.end(), {metric, or_else(unit, unit_of(metric)), runs, line[i]});
+    const bool has_bounds = i + 1 < columns.size() && columns[i + 1].role == ColumnRole::low;
+    for (const std::size_t bound : {i + 1, i + 2}) row.push_back(has_bounds ? line[bound] : "");
     row.push_back(keys.rest());
   }
   return rows;
@@ -142,7 +139,7 @@ void write_results(const RunRequest& request, const RunDirectory& directory) {
       if (!is_there(directory.file("tables", name))) continue;
       const Table& table = directory.read_table(name);
       const std::string study = std::filesystem::path(name).stem().string();
-      for (const std::vector<std::string>& line : table.rows) {
+      for (std::size_t line = 0; line < table.rows.size(); ++line) {
         for (const auto& row : long_rows(study, table, line, setup)) stream << csv_line(row);
       }
     }

@@ -30,8 +30,7 @@ inline const std::vector<std::string> long_header = {
 /// The numbers of one line of a table as rows of `results.csv`, metric by metric. Cells are empty
 /// where the table has none.
 std::vector<std::vector<std::string>> long_rows(const std::string& study, const Table& table,
-                                                const std::vector<std::string>& line,
-                                                const ResultSetup& setup);
+                                                std::size_t line, const ResultSetup& setup);
 
 /// Writes `results.csv` from all tables of the run directory with described columns, by name.
 void write_results(const RunRequest& request, const RunDirectory& directory);

@@ -6,7 +6,8 @@
 #include <fmt/format.h>
 
 #include "estimator/odometry/filter.hpp"
-#include "experiments/estimators/registry.hpp"
+#include "experiments/estimators/baselines.hpp"
+#include "experiments/results/captions.hpp"
 
 namespace touchdown::experiments {
 
@@ -85,11 +86,7 @@ std::string contact_title(const std::string& contact) {
   if (std::sscanf(contact.c_str(), "truth_delayed_%lfms", &milliseconds) == 1) {
     return fmt::format("Truth, delayed {} ms (oracle)", milliseconds);
   }
-  const std::string name = contact == "always" ? std::string(always_contact_name) : contact;
-  for (const EstimatorEntry& entry : estimator_entries()) {
-    if (entry.name == name) return entry.title;
-  }
-  return contact;
+  return estimator_title(contact == "always" ? std::string(always_contact_name) : contact);
 }
 
 }  // namespace touchdown::experiments

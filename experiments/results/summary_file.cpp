@@ -19,9 +19,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-/// Rounds as the CSV tables do. JSON has null for undefined values.
-double rounded(double value) { return std::stod(metric(value)); }
-
+/// JSON has null for undefined values.
 double number_from(const Json& json) { return json.is_null() ? NAN : json.get<double>(); }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/rows.hpp"
 #include "experiments/plan/rollouts.hpp"
 #include "experiments/results/captions.hpp"
 
@@ -15,11 +16,11 @@ namespace touchdown::experiments {
 namespace {
 
 /// Every estimator of one engine in one cell.
-Table cell_table(const ExperimentResult& result, const std::string& simulator,
-                 const noise::NoiseCell& cell) {
-  Table table{{"estimator", "accuracy", "contact precision", "recall", "no contact precision",
-               "recall", "false takeoffs/min"},
-              {}};
+TextTable cell_table(const ExperimentResult& result, const std::string& simulator,
+                     const noise::NoiseCell& cell) {
+  TextTable table{{"estimator", "accuracy", "contact precision", "recall", "no contact precision",
+                   "recall", "false takeoffs/min"},
+                  {}};
   for (const CellSummary& summary : result.summaries) {
     if (summary.condition.test_simulator != simulator || !(summary.cell == cell)) continue;
     table.rows.push_back({estimator_entry(result.experiment, summary.condition.estimator).title});
@@ -34,9 +35,9 @@ Table cell_table(const ExperimentResult& result, const std::string& simulator,
 }
 
 /// One estimator's accuracy over the noise grid.
-Table grid_table(const std::vector<CellSummary>& summaries, const std::string& simulator,
-                 const std::string& estimator, const noise::NoiseGridConfig& noise) {
-  Table table{{"torque noise"}, {}};
+TextTable grid_table(const std::vector<CellSummary>& summaries, const std::string& simulator,
+                     const std::string& estimator, const noise::NoiseGridConfig& noise) {
+  TextTable table{{"torque noise"}, {}};
   for (const double level : noise.accelerometer) {
     table.header.push_back(fmt::format("{} m/s²", level));
   }
@@ -92,11 +93,11 @@ std::string metric_cell(const ScoreSummary& summary, const std::string& metric) 
 }
 
 /// One column per name, filled by `cell`; the last column has the paper's numbers.
-Table table_of(const Experiment& experiment, const std::vector<ScoreSummary>& summaries,
-               const std::vector<std::string>& names,
-               std::string (*cell)(const ScoreSummary&, const std::string&),
-               std::string PaperRow::*reference) {
-  Table table{{"simulator", "estimator"}, {}};
+TextTable table_of(const Experiment& experiment, const std::vector<ScoreSummary>& summaries,
+                   const std::vector<std::string>& names,
+                   std::string (*cell)(const ScoreSummary&, const std::string&),
+                   std::string PaperRow::*reference) {
+  TextTable table{{"simulator", "estimator"}, {}};
   for (std::string name : names) {
     std::replace(name.begin(), name.end(), '_', ' ');
     table.header.push_back(name);
@@ -183,6 +184,30 @@ std::vector<Row> in_cell(std::vector<Row> rows, const noise::NoiseCell& cell) {
 
 }  // namespace
 
+TextTable accuracy_table(const Experiment& experiment, const std::vector<CellSummary>& cells,
+                         const std::vector<ScoreSummary>& scores, const noise::NoiseCell& noise,
+                         const std::vector<std::string>& engines) {
+  TextTable table{{"estimator"}, {}};
+  for (const std::string& engine : engines) {
+    table.header.insert(table.header.end(), {engine, "false takeoffs/min"});
+  }
+  for (const std::string& estimator :
+       unique(cells, [](const CellSummary& cell) { return cell.condition.estimator; })) {
+    std::vector<std::string>& row =
+        table.rows.emplace_back(std::vector{estimator_title_in(experiment, estimator)});
+    for (const std::string& simulator : experiment.simulators) {
+      const auto cell = std::find_if(cells.begin(), cells.end(), [&](const CellSummary& one) {
+        return one.condition.test_simulator == simulator && one.condition.estimator == estimator &&
+               one.cell == noise;
+      });
+      const bool is_scored = cell != cells.end();
+      row.push_back(is_scored ? with_interval(cell->success) : "–");
+      row.push_back(is_scored ? false_takeoffs_text(scores, *cell) : "–");
+    }
+  }
+  return table;
+}
+
 std::string summary_text(const ExperimentResult& result) {
   const Experiment& experiment = result.experiment;
   std::string text;
@@ -216,23 +241,11 @@ std::string summary_text(const ExperimentResult& result) {
 }
 
 std::string closing_text(const ExperimentResult& result) {
-  const noise::NoiseCell& cell = result.experiment.highlights.back();
-  Table table{{"estimator"}, {}};
-  for (const std::string& simulator : result.experiment.simulators) {
-    table.header.insert(table.header.end(), {simulator, "false takeoffs/min"});
-  }
-  for (const CellSummary& summary : result.summaries) {
-    if (!summary.condition.is_fitted_in_domain() || !(summary.cell == cell)) continue;
-    const std::string& title =
-        estimator_entry(result.experiment, summary.condition.estimator).title;
-    auto row = std::find_if(table.rows.begin(), table.rows.end(),
-                            [&](const auto& cells) { return cells.front() == title; });
-    if (row == table.rows.end()) row = table.rows.insert(row, {title});
-    row->push_back(with_interval(summary.success));
-    row->push_back(false_takeoffs_text(result.scores, summary));
-  }
-  return fmt::format("\nContact accuracy, {}{}\n\n{}", noise_text(cell),
-                     setup_caption(result.experiment), to_text(table));
+  const Experiment& experiment = result.experiment;
+  const noise::NoiseCell& cell = experiment.highlights.back();
+  return fmt::format("\nContact accuracy, {}{}\n\n{}", noise_text(cell), setup_caption(experiment),
+                     to_text(accuracy_table(experiment, result.summaries, result.scores, cell,
+                                            experiment.simulators)));
 }
 
 std::vector<CaptionedTable> paper_tables(const Experiment& experiment,

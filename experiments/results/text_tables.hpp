@@ -12,8 +12,14 @@ namespace touchdown::experiments {
 struct CaptionedTable {
   std::string caption;
   std::string label;  ///< a word, for LaTeX references
-  Table table;
+  TextTable table;
 };
+
+/// The accuracy and the false takeoffs per minute of every estimator at one noise setting: two
+/// columns for each engine of the experiment, with these names.
+TextTable accuracy_table(const Experiment& experiment, const std::vector<CellSummary>& cells,
+                         const std::vector<ScoreSummary>& scores, const noise::NoiseCell& noise,
+                         const std::vector<std::string>& engines);
 
 /// Tables I to III of the paper (point-wise classification, transitions, latency), one row per
 /// engine and estimator. The last column has the paper's numbers from the real robot. They are a

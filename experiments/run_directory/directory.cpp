@@ -81,17 +81,15 @@ fs::path RunDirectory::own_file(std::string_view folder, std::string_view name) 
 
 const Table& RunDirectory::write_table(std::string_view name, Table table) const {
   write_atomically(own_file("tables", name), to_csv(table));
-  if (!table.columns.empty()) store_.put(column_parts, name, table.columns);
   return tables_->insert_or_assign(std::string(name), std::move(table)).first->second;
 }
 
 const Table& RunDirectory::read_table(std::string_view name) const {
   const auto known = tables_->find(name);
   if (known != tables_->end()) return known->second;
-  Table table = from_csv(read_file(path_ / "tables" / name));
-  if (auto columns = store_.find<std::vector<ColumnInfo>>(column_parts, name)) {
-    table.columns = *std::move(columns);
-  }
+  const auto columns = store_.find<std::vector<Column>>(column_parts, name);
+  Table table = table_of(from_csv(read_file(path_ / "tables" / name)),
+                         columns.value_or(std::vector<Column>()));
   return tables_->emplace(name, std::move(table)).first->second;
 }
 

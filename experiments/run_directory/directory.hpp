@@ -18,7 +18,7 @@
 
 namespace touchdown::experiments {
 
-/// The columns of tables (`ColumnInfo`) in the store are of this kind, and have the table's name.
+/// The columns of tables (`Column`) in the store are of this kind, and have the table's name.
 inline constexpr std::string_view column_parts = "columns";
 
 /// The run directory of an experiment: `out` if given, else `runs/<experiment>/<id>`.
@@ -60,15 +60,14 @@ class RunDirectory {
   std::filesystem::path own_file(std::string_view folder, std::string_view name) const;
 
   /// Writes a table to `tables/`, and keeps it for its readers in this process and in copies of
-  /// this. Saves what its columns mean, if it has them. Returns it as `read_table` does.
+  /// this. Returns it as `read_table` does.
   const Table& write_table(std::string_view name, Table table) const;
-  /// The same for measured rows, which `results.csv` repeats.
+  /// The same for measured rows, which `results.csv` repeats. Saves the columns.
   template <typename Row>
   const Table& write_table(std::string_view name, const Columns<Row>& columns,
                            const std::vector<Row>& rows) const {
-    Table table = columns.table(rows);
-    table.columns = columns.infos();
-    return write_table(name, std::move(table));
+    store_.put(column_parts, name, columns.list());
+    return write_table(name, columns.table(rows));
   }
   /// A table of `tables/`: as it was written, or else read once from its file. The reference is
   /// valid until the table is written again. Errors: `Error` when it cannot be read.

@@ -15,7 +15,7 @@ std::filesystem::path test_seed_log() {
 }
 
 int log_evaluation(const std::filesystem::path& log, const TestSeedUse& use) {
-  Table table{{"seed", "id", "commit"}, {}};
+  TextTable table{{"seed", "id", "commit"}, {}};
   if (is_there(log)) table.rows = from_csv(read_file(log)).rows;
   const std::vector<std::string> own = {std::to_string(use.seed), use.id, use.commit};
   std::set<std::vector<std::string>> others;

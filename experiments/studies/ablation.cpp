@@ -158,7 +158,7 @@ std::string ablation_text(const std::vector<AblationRow>& rows, const Experiment
       "engines ({}; {})\n",
       labels_text(experiment), intervals_text(experiment));
   for (const auto& [noise, alike] : group_by(rows, &AblationRow::noise)) {
-    Table table{{noise_text(noise), "balanced accuracy", "gain"}, {}};
+    TextTable table{{noise_text(noise), "balanced accuracy", "gain"}, {}};
     for (const AblationRow& row : alike) {
       table.rows.push_back({estimator_title_in(experiment, row.estimator),
                             with_interval(row.accuracy), with_interval(row.gain)});

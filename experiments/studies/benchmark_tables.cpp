@@ -195,11 +195,11 @@ Columns<Standings::Difference> pair_columns() {
 
 /// Rows: estimators. Columns: scenes, then the mean and the worst scene of estimators that were
 /// scored in every scene with a scored run.
-Table scene_table(const std::vector<BenchmarkRow>& rows, const Experiment& experiment) {
+TextTable scene_table(const std::vector<BenchmarkRow>& rows, const Experiment& experiment) {
   const auto shown = [](double value) {
     return std::isnan(value) ? std::string("–") : fmt::format("{:.3f}", value);
   };
-  Table table = pivot(
+  TextTable table = pivot(
       rows, [&](const BenchmarkRow& row) { return estimator_title_in(experiment, row.estimator); },
       &BenchmarkRow::scene,
       [&](const BenchmarkRow& row) { return shown(row.balanced_accuracy.estimate); });
@@ -225,20 +225,15 @@ Table scene_table(const std::vector<BenchmarkRow>& rows, const Experiment& exper
 
 /// What the estimator is given; "–" for submissions.
 std::string given_in(const Experiment& experiment, const std::string& estimator) {
-  const auto find = [&](std::span<const EstimatorEntry> entries) -> const EstimatorEntry* {
-    for (const EstimatorEntry& entry : entries) {
-      if (entry.name == estimator) return &entry;
-    }
-    return nullptr;
-  };
-  if (find(experiment.external_estimators) != nullptr) return "signals";
-  const EstimatorEntry* const own = find(estimator_entries());
+  const EstimatorEntry* const own = find_estimator(estimator);
+  if (find_estimator(estimator, experiment.external_estimators) != own) return "signals";
   return own == nullptr ? "–" : given_text(*own, experiment.fit_servo_load);
 }
 
 std::string standings_text(const Standings& standings, const Experiment& experiment) {
   const bool has_upper_bound = !std::isnan(standings.entries.front().excess_log_loss);
-  Table table{{"", "mean", "not significantly worse than the best", "worst", "in", "given"}, {}};
+  TextTable table{{"", "mean", "not significantly worse than the best", "worst", "in", "given"},
+                  {}};
   if (has_upper_bound) table.header.emplace_back("excess log loss (bits)");
   for (const Standings::Entry& entry : standings.entries) {
     table.rows.push_back({estimator_title_in(experiment, entry.estimator),

@@ -151,11 +151,11 @@ std::string point_text(const SurvivalRow& row) {
 }
 
 /// One line per contact source: the points of its curve, then the other metrics at the last point.
-Table curve_table(const std::vector<SurvivalRow>& rows) {
+TextTable curve_table(const std::vector<SurvivalRow>& rows) {
   const SurvivalRow& first = rows.front();
-  Table table{{fmt::format("{}, {}, {}", first.scene, first.cell.law,
-                           simulators::simulator_title(first.cell.simulator))},
-              {}};
+  TextTable table{{fmt::format("{}, {}, {}", first.scene, first.cell.law,
+                               simulators::simulator_title(first.cell.simulator))},
+                  {}};
   const auto curves = group_by(rows, [](const SurvivalRow& row) { return row.cell.contact; });
   for (const SurvivalRow& row : curves.front().rows) table.header.push_back(point_text(row));
   table.header.insert(table.header.end(),

@@ -116,7 +116,7 @@ class LabelStudy final : public Study {
     write_atomically(directory.own_file("tables", "labels.md"),
                      to_markdown({"Point-wise scores by the definition of contact" +
                                       setup_caption(evaluation.request.experiment) + ".",
-                                  labels_name, table}));
+                                  labels_name, texts_of(table)}));
     return {};
   }
 };

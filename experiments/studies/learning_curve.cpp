@@ -177,7 +177,7 @@ std::string learning_curve_text(const std::vector<LearningCurveRow>& rows,
     return std::pair(row.simulator, noise_text(row.noise));
   };
   for (const auto& [key, alike] : group_by(rows, engine_and_noise)) {
-    Table table = pivot(
+    TextTable table = pivot(
         alike,
         [&](const LearningCurveRow& row) { return estimator_title_in(experiment, row.estimator); },
         [](const LearningCurveRow& row) { return fmt::format("{:.1f} s", row.labelled); },

@@ -281,7 +281,7 @@ void write_moments(const std::vector<EngineTorques>& engines, const RunDirectory
 }
 
 std::string moments_text(const std::vector<EngineTorques>& engines, const Experiment& experiment) {
-  Table table{{"|torque|", "real robot"}, {}};
+  TextTable table{{"|torque|", "real robot"}, {}};
   for (const RobotTorque& reference : robot_torques) {
     table.rows.push_back({fmt::format("{}, {}", joint_name(reference.joint),
                                       reference.contact == 1 ? "contact" : "air"),

@@ -298,7 +298,8 @@ std::string odometry_text(const std::vector<OdometryRow>& rows, const Experiment
     return fmt::format("{}, {}, {} sensors, {}", row.scene, row.robot, row.sensors, row.simulator);
   };
   for (const auto& [heading, alike] : group_by(rows, title)) {
-    Table table{{heading, "RMS (m)", "error per metre (%)", "height (m)", "velocity (m/s)"}, {}};
+    TextTable table{{heading, "RMS (m)", "error per metre (%)", "height (m)", "velocity (m/s)"},
+                    {}};
     for (const OdometryRow& row : alike) {
       table.rows.push_back({contact_title(row.contact), with_interval(row.rms),
                             in_percent(row.error_per_metre),
@@ -313,10 +314,10 @@ std::string odometry_text(const std::vector<OdometryRow>& rows, const Experiment
 /// The contact sources by their mean error over scenes and engines, the best first.
 FigureGroups ranked_contacts(const Table& odometry, const FigureSpec& spec) {
   std::map<std::string, double> sums;
-  for (const std::vector<std::string>& row : odometry.rows) {
-    const double error = drawn_value(spec.measures.front(), cell(odometry, row, "rms_m"));
-    if (!passes(odometry, row, spec.where) || std::isnan(error)) continue;
-    sums[cell(odometry, row, "contact")] += error;
+  for (const TableRow& row : odometry.all()) {
+    const double error = drawn_value(spec.measures.front(), row);
+    if (!passes(row, spec.where) || std::isnan(error)) continue;
+    sums[row.text("contact")] += error;
   }
   FigureGroups contacts = groups_in(odometry, "contact", contact_title, spec.where);
   std::stable_sort(contacts.groups.begin(), contacts.groups.end(),

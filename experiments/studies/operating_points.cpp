@@ -243,7 +243,7 @@ Columns<OperatingRow> row_columns() {
       .text("simulator", &OperatingRow::simulator)
       .text("scenario", &OperatingRow::scene)
       .as("scene")
-      .and_then(point_columns<OperatingRow>())
+      .part(std::identity(), point_columns<OperatingRow>())
       .part(&OperatingRow::score,
             Columns<Score>()
                 .metric("balanced_accuracy",
@@ -303,7 +303,7 @@ std::string operating_points_text(const std::vector<OperatingMean>& means,
       "brackets\n",
       labels_text(experiment));
   for (const noise::NoiseCell& cell : experiment.highlights) {
-    Table table{{noise_text(cell), "own decision"}, {}};
+    TextTable table{{noise_text(cell), "own decision"}, {}};
     for (const double limit : limits) table.header.push_back(fmt::format("≤ {:.0f}", limit));
     for (const OperatingMean& mean : means) {
       if (!mean.thresholds && mean.noise == cell)
@@ -321,15 +321,11 @@ std::string own_decisions_text(const FigureSpec& spec, const Table& table) {
   std::string text;
   for (std::size_t panel = 0; panel < spec.panels.groups.size(); ++panel) {
     text += fmt::format(" {}:", spec.panels.groups[panel].title);
-    for (const std::vector<std::string>& row : table.rows) {
-      if (group_of(spec.panels, table, row) != panel) continue;
-      if (!cell(table, row, "leave_below").empty()) continue;
-      const auto value = [&](const FigureAxis& axis) {
-        return drawn_value(axis, cell(table, row, axis.column));
-      };
+    for (const TableRow& row : table.all()) {
+      if (group_of(spec.panels, row) != panel || !row.text("leave_below").empty()) continue;
       text += fmt::format(" {} by its own decision {:.2f} % with {:.1f} per minute;",
-                          estimator_title(cell(table, row, "estimator")),
-                          value(spec.measures.front()), value(spec.x));
+                          estimator_title(row.text("estimator")),
+                          drawn_value(spec.measures.front(), row), drawn_value(spec.x, row));
     }
     text.back() = '.';
   }

@@ -118,7 +118,7 @@ std::string sweep_text(const std::vector<SweepRow>& rows, const Experiment& expe
     return std::pair(row.variation.key, row.simulator());
   };
   for (const auto& [key, alike] : group_by(rows, engine_and_disturbance)) {
-    Table table = pivot(
+    TextTable table = pivot(
         alike, [&](const SweepRow& row) { return estimator_title_in(experiment, row.estimator()); },
         [](const SweepRow& row) { return exact(row.variation.value); },
         [](const SweepRow& row) { return with_interval(row.score["success"]); });

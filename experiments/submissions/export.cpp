@@ -237,7 +237,7 @@ std::string export_outline(const ExportRequest& wanted) {
     return std::count_if(part_runs.begin(), part_runs.end(),
                          [](const ExportedRun& run) { return run.task; });
   };
-  Table table{{"robot", "sensors", "simulator", "fit files", "test files", "MB at most"}, {}};
+  TextTable table{{"robot", "sensors", "simulator", "fit files", "test files", "MB at most"}, {}};
   const auto add = [&](const std::array<std::string, 3>& name,
                        const std::vector<ExportedRun>& part_runs) {
     const auto test = static_cast<std::size_t>(test_files(part_runs));

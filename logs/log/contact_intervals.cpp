@@ -120,7 +120,7 @@ ContactIntervals read_contact_intervals(const std::filesystem::path& path) {
 }
 
 std::string to_csv(const ContactIntervals& intervals) {
-  Table table{{"start", "end", "left", "right"}, {}};
+  TextTable table{{"start", "end", "left", "right"}, {}};
   for (const ContactInterval& one : intervals.intervals) {
     table.rows.push_back(
         {exact(one.start), exact(one.end), one.contact[0] ? "1" : "0", one.contact[1] ? "1" : "0"});

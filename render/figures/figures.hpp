@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -88,10 +89,35 @@ struct HeatmapPlaces {
 };
 HeatmapPlaces heatmap_places(const HeatmapShape& shape);
 
-/// The estimators with a panel in the maps of `draw_heatmaps`, in this order.
+/// A noise level that maps vary.
+struct NoiseAxis {
+  double noise::NoiseCell::*level;
+  const char* unit;
+  const char* name;   ///< in a sentence
+  const char* title;  ///< of the axis
+  std::vector<double> levels;
+};
+
+/// The maps over a grid of two noise levels: `figures/<name>_<engine>`, with a panel per estimator.
+struct NoiseMaps {
+  std::string name;
+  std::string title;
+  NoiseAxis x, y;
+  std::optional<double> accelerometer = {};  ///< where it is no axis (m/s²)
+
+  /// The scores in a cell of a panel; null where the study has none.
+  const experiments::CellSummary* cell(const std::vector<experiments::CellSummary>& cells,
+                                       const std::string& simulator, const std::string& estimator,
+                                       double at_x, double at_y) const;
+};
+
+/// The maps that `draw_heatmaps` draws for every engine of an experiment.
+std::vector<NoiseMaps> noise_maps(const experiments::Experiment& experiment);
+
+/// The estimators with a panel in these maps, in this order.
 std::vector<std::string> mapped_estimators(const experiments::Experiment& experiment);
 
-/// Draws a heatmap. Errors: `InputError` when a panel's size is not y × x.
+/// Draws a heatmap with panels of y × x values.
 Figure draw_heatmap(const Heatmap& heatmap, const std::filesystem::path& stem);
 
 /// A measurement model and the estimators that use it.

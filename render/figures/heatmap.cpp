@@ -14,29 +14,6 @@
 namespace touchdown::render {
 namespace {
 
-void check(const Heatmap& heatmap) {
-  if (heatmap.panels.empty() || heatmap.x.empty() || heatmap.y.empty()) {
-    throw InputError("a heatmap without cells");
-  }
-  for (const HeatmapPanel& panel : heatmap.panels) {
-    if (!panel.marked.empty() && panel.marked.size() != heatmap.y.size()) {
-      throw InputError(
-          fmt::format("heatmap '{}': expected {} rows of marks", panel.title, heatmap.y.size()));
-    }
-    for (const auto* matrix : {&panel.value, &panel.low, &panel.high}) {
-      const bool optional = matrix != &panel.value && matrix->empty();
-      const bool fits = matrix->size() == heatmap.y.size() &&
-                        std::all_of(matrix->begin(), matrix->end(), [&](const auto& row) {
-                          return row.size() == heatmap.x.size();
-                        });
-      if (!optional && !fits) {
-        throw InputError(fmt::format("heatmap '{}': expected {} rows of {} values", panel.title,
-                                     heatmap.y.size(), heatmap.x.size()));
-      }
-    }
-  }
-}
-
 constexpr const char* nothing = "NaN\tNaN\n\n";
 
 std::string cell_text(const HeatmapPanel& panel, std::size_t row, std::size_t column) {
@@ -253,7 +230,9 @@ std::string described(const Heatmap& heatmap) {
 }  // namespace
 
 Figure draw_heatmap(const Heatmap& heatmap, const std::filesystem::path& stem) {
-  check(heatmap);
+  if (heatmap.panels.empty() || heatmap.x.empty() || heatmap.y.empty()) {
+    throw InputError("a heatmap without cells");
+  }
   const bool numbers = heatmap.x.size() * heatmap.y.size() <= most_numbered_cells;
   const PanelLayout layout = layout_of({heatmap.panels.size(), heatmap.x.size(), heatmap.y.size(),
                                         !heatmap.panels.front().low.empty(), heatmap.caption});

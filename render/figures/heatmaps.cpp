@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 
 #include <fmt/format.h>
 
@@ -16,32 +14,22 @@ namespace touchdown::render {
 
 namespace {
 
-/// The coordinates of a noise cell on a map.
-using CellCoordinates = std::function<std::array<double, 2>(const noise::NoiseCell&)>;
-
-std::size_t index_in(const std::vector<double>& levels, double level) {
-  return static_cast<std::size_t>(std::find(levels.begin(), levels.end(), level) - levels.begin());
-}
-
 HeatmapPanel panel_of(const experiments::ExperimentResult& result, const std::string& simulator,
-                      const std::string& estimator, const Heatmap& heatmap,
-                      const CellCoordinates& coordinates) {
+                      const std::string& estimator, const NoiseMaps& maps) {
   HeatmapPanel panel;
   panel.title = experiments::estimator_entry(result.experiment, estimator).title;
-  for (auto* rows : {&panel.value, &panel.low, &panel.high}) {
-    rows->assign(heatmap.y.size(), std::vector<double>(heatmap.x.size(), NAN));
-  }
-  panel.marked.assign(heatmap.y.size(), std::vector<bool>(heatmap.x.size(), false));
-  for (const experiments::CellSummary& summary : result.summaries) {
-    const experiments::Condition& condition = summary.condition;
-    if (condition.test_simulator != simulator || condition.estimator != estimator) continue;
-    const auto [x, y] = coordinates(summary.cell);
-    const std::size_t column = index_in(heatmap.x, x), row = index_in(heatmap.y, y);
-    if (column == heatmap.x.size() || row == heatmap.y.size()) continue;
-    panel.value[row][column] = error_percent(summary.success.estimate);
-    panel.low[row][column] = error_percent(summary.success.high);
-    panel.high[row][column] = error_percent(summary.success.low);
-    panel.marked[row][column] = summary.loses();
+  for (const double y : maps.y.levels) {
+    for (auto* rows : {&panel.value, &panel.low, &panel.high}) rows->emplace_back();
+    panel.marked.emplace_back();
+    for (const double x : maps.x.levels) {
+      const experiments::CellSummary* const cell =
+          maps.cell(result.summaries, simulator, estimator, x, y);
+      const Interval success = cell == nullptr ? Interval{NAN, NAN, NAN} : cell->success;
+      panel.value.back().push_back(error_percent(success.estimate));
+      panel.low.back().push_back(error_percent(success.high));
+      panel.high.back().push_back(error_percent(success.low));
+      panel.marked.back().push_back(cell != nullptr && cell->loses());
+    }
   }
   return panel;
 }
@@ -66,12 +54,19 @@ double always_contact(const experiments::ExperimentResult& result, const std::st
   return NAN;
 }
 
-/// The map of these axes with its panels, caption and lines.
-Heatmap filled(Heatmap heatmap, const experiments::ExperimentResult& result,
-               const std::string& simulator, const CellCoordinates& coordinates) {
+Heatmap heatmap_of(const experiments::ExperimentResult& result, const std::string& simulator,
+                   const NoiseMaps& maps) {
   const experiments::Experiment& experiment = result.experiment;
+  Heatmap heatmap{.title = fmt::format("{}: {}, {}", maps.title, experiment.name,
+                                       simulators::simulator_title(simulator)),
+                  .x_label = fmt::format("{} ({})", maps.x.title, maps.x.unit),
+                  .y_label = fmt::format("{} ({})", maps.y.title, maps.y.unit),
+                  .x = maps.x.levels,
+                  .y = maps.y.levels,
+                  .panels = {},
+                  .caption = {}};
   for (const std::string& estimator : mapped_estimators(experiment)) {
-    heatmap.panels.push_back(panel_of(result, simulator, estimator, heatmap, coordinates));
+    heatmap.panels.push_back(panel_of(result, simulator, estimator, maps));
   }
   heatmap.caption = fmt::format(
       "Error rate: the share of steps with a wrong decision; {}. Always contact has an error rate "
@@ -98,39 +93,47 @@ std::vector<std::string> mapped_estimators(const experiments::Experiment& experi
   return names;
 }
 
+std::vector<NoiseMaps> noise_maps(const experiments::Experiment& experiment) {
+  using noise::NoiseCell;
+  const noise::NoiseGridConfig& noise = experiment.noise;
+  const noise::KneeWheelGridConfig& joints = noise.knee_wheel;
+  std::vector<NoiseMaps> maps = {
+      {"error",
+       "Error rate under sensor noise",
+       {&NoiseCell::accelerometer, "m/s²", "accelerometer noise", "accelerometer noise",
+        noise.accelerometer},
+       {&NoiseCell::torque, "N·m", "torque noise", "torque noise", noise.torque}}};
+  if (joints.knee.empty()) return maps;
+  maps.push_back({"knee_wheel",
+                  fmt::format("Error rate under torque noise, {} m/s² on the accelerometer",
+                              joints.accelerometer),
+                  {&NoiseCell::wheel, "N·m", "wheel noise", "wheel torque noise", joints.wheel},
+                  {&NoiseCell::knee, "N·m", "knee noise", "knee torque noise", joints.knee},
+                  joints.accelerometer});
+  return maps;
+}
+
+const experiments::CellSummary* NoiseMaps::cell(const std::vector<experiments::CellSummary>& cells,
+                                                const std::string& simulator,
+                                                const std::string& estimator, double at_x,
+                                                double at_y) const {
+  const auto found =
+      std::find_if(cells.begin(), cells.end(), [&](const experiments::CellSummary& one) {
+        return one.condition.test_simulator == simulator && one.condition.estimator == estimator &&
+               one.cell.*x.level == at_x && one.cell.*y.level == at_y &&
+               one.cell.accelerometer == accelerometer.value_or(one.cell.accelerometer);
+      });
+  return found == cells.end() ? nullptr : &*found;
+}
+
 void draw_heatmaps(const experiments::ExperimentResult& result, const std::atomic<bool>* stop) {
-  const experiments::Experiment& experiment = result.experiment;
-  const noise::KneeWheelGridConfig& apart = experiment.noise.knee_wheel;
-  const CellCoordinates by_torque = [](const noise::NoiseCell& cell) {
-    return std::array{cell.accelerometer, cell.torque};
-  };
-  const CellCoordinates by_joint = [&](const noise::NoiseCell& cell) {
-    return cell.accelerometer == apart.accelerometer ? std::array{cell.wheel, cell.knee}
-                                                     : std::array<double, 2>{NAN, NAN};
-  };
-  for (const std::string& simulator : experiment.simulators) {
-    stop_if_asked(stop);
+  for (const std::string& simulator : result.experiment.simulators) {
     if (experiments::test_runs(result, simulator).scored == 0) continue;
-    const std::string where =
-        fmt::format("{}, {}", experiment.name, simulators::simulator_title(simulator));
-    Heatmap heatmap;
-    heatmap.title = "Error rate under sensor noise: " + where;
-    heatmap.x_label = "accelerometer noise (m/s²)";
-    heatmap.y_label = "torque noise (N·m)";
-    heatmap.x = experiment.noise.accelerometer;
-    heatmap.y = experiment.noise.torque;
-    draw_heatmap(filled(heatmap, result, simulator, by_torque),
-                 result.directory.file("figures", "error_" + simulator));
-    if (apart.knee.empty()) continue;
-    stop_if_asked(stop);
-    heatmap.title = fmt::format("Error rate under torque noise, {} m/s² on the accelerometer: {}",
-                                apart.accelerometer, where);
-    heatmap.x_label = "wheel torque noise (N·m)";
-    heatmap.y_label = "knee torque noise (N·m)";
-    heatmap.x = apart.wheel;
-    heatmap.y = apart.knee;
-    draw_heatmap(filled(heatmap, result, simulator, by_joint),
-                 result.directory.file("figures", "knee_wheel_" + simulator));
+    for (const NoiseMaps& maps : noise_maps(result.experiment)) {
+      stop_if_asked(stop);
+      draw_heatmap(heatmap_of(result, simulator, maps),
+                   result.directory.file("figures", fmt::format("{}_{}", maps.name, simulator)));
+    }
   }
 }
 

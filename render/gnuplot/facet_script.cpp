@@ -49,52 +49,41 @@ std::string shape_text(MarkShape shape, bool has_rows, bool has_interval) {
 
 }  // namespace
 
-std::string FacetData::text(const FacetRow& row, const std::string& column) const {
-  return cell(table, table.rows[row.index], column);
-}
-
-double FacetData::value(const FacetRow& row, const experiments::FigureAxis& axis) const {
-  return experiments::drawn_value(axis, text(row, axis.column));
-}
-
-bool FacetData::has_values(const experiments::FigureAxis& axis) const {
-  return std::any_of(rows.begin(), rows.end(),
-                     [&](const FacetRow& row) { return !std::isnan(value(row, axis)); });
-}
-
-FacetData facet_data(const experiments::FigureSpec& spec, const Table& table) {
-  FacetData data{table, {}};
+std::vector<FacetRow> facet_rows(const experiments::FigureSpec& spec, const Table& table) {
+  std::vector<FacetRow> rows;
   experiments::FigureAxis order = spec.x;
   order.floor.reset();  // values that are drawn at one place keep their order
-  for (std::size_t index = 0; index < table.rows.size(); ++index) {
-    const std::vector<std::string>& cells = table.rows[index];
-    const auto panel = experiments::group_of(spec.panels, table, cells);
-    const auto series = experiments::group_of(spec.series, table, cells);
-    const auto row = experiments::group_of(spec.rows, table, cells);
-    const auto mark =
-        std::find_if(spec.marks.begin(), spec.marks.end(), [&](const experiments::FigureMark& m) {
-          return experiments::passes(table, cells, m.where);
-        });
-    const bool is_drawn = experiments::passes(table, cells, spec.where) && panel && series && row &&
+  for (const TableRow& cells : table.all()) {
+    const auto panel = experiments::group_of(spec.panels, cells);
+    const auto series = experiments::group_of(spec.series, cells);
+    const auto row = experiments::group_of(spec.rows, cells);
+    const auto mark = std::find_if(
+        spec.marks.begin(), spec.marks.end(),
+        [&](const experiments::FigureMark& m) { return experiments::passes(cells, m.where); });
+    const bool is_drawn = experiments::passes(cells, spec.where) && panel && series && row &&
                           mark != spec.marks.end();
     if (!is_drawn) continue;
-    FacetRow drawn{index, *panel, *series, *row,
+    FacetRow drawn{cells, *panel, *series, *row,
                    static_cast<std::size_t>(mark - spec.marks.begin())};
-    if (spec.rows.columns.empty()) drawn.x = data.value(drawn, order);
-    if (!std::isnan(drawn.x)) data.rows.push_back(drawn);
+    if (spec.rows.columns.empty()) drawn.x = experiments::drawn_value(order, cells);
+    if (!std::isnan(drawn.x)) rows.push_back(drawn);
   }
-  std::stable_sort(data.rows.begin(), data.rows.end(), [](const FacetRow& a, const FacetRow& b) {
+  std::stable_sort(rows.begin(), rows.end(), [](const FacetRow& a, const FacetRow& b) {
     return std::tie(a.panel, a.series, a.mark, a.row, a.x) <
            std::tie(b.panel, b.series, b.mark, b.row, b.x);
   });
-  return data;
+  return rows;
 }
 
-std::string data_file(const FacetData& data) {
+std::string data_file(const Table& table, const std::vector<FacetRow>& rows) {
   // Not `to_csv`, which marks names that spreadsheets would compute: gnuplot compares the names.
-  std::string text = fmt::format("{}\n", fmt::join(encoded(data.table.header), ","));
-  for (const FacetRow& row : data.rows) {
-    text += fmt::format("{}\n", fmt::join(encoded(data.table.rows[row.index]), ","));
+  std::string text;
+  for (const Column& column : table.columns) {
+    text += fmt::format("{}{}", text.empty() ? "" : ",", percent_encoded(column.name));
+  }
+  text += '\n';
+  for (const FacetRow& row : rows) {
+    text += fmt::format("{}\n", fmt::join(encoded(row.cells.texts()), ","));
   }
   return text;
 }

@@ -11,28 +11,18 @@ namespace touchdown::render {
 
 /// A drawn row of a table, with its places among the groups of the figure.
 struct FacetRow {
-  std::size_t index = 0;  ///< in the table
+  TableRow cells;
   std::size_t panel = 0, series = 0, row = 0;
   std::size_t mark = 0;  ///< the first with conditions that it passes
   double x = 0.0;        ///< its place in the order of `x`; unused with `rows`
 };
 
-/// The rows of a table that a figure draws. Rows that a curve joins follow each other, by `x`.
-struct FacetData {
-  Table table;  ///< with all of its rows
-  std::vector<FacetRow> rows;
-
-  std::string text(const FacetRow& row, const std::string& column) const;
-  /// A row's value on an axis, as drawn; NaN without one.
-  double value(const FacetRow& row, const experiments::FigureAxis& axis) const;
-  /// Whether any row has a value on the axis.
-  bool has_values(const experiments::FigureAxis& axis) const;
-};
-
-FacetData facet_data(const experiments::FigureSpec& spec, const Table& table);
+/// The rows of a table that a figure draws. Rows that a curve joins follow each other, by `x`. They
+/// refer to the table.
+std::vector<FacetRow> facet_rows(const experiments::FigureSpec& spec, const Table& table);
 
 /// The rows as the data file of a script: CSV, with `percent_encoded` cells.
-std::string data_file(const FacetData& data);
+std::string data_file(const Table& table, const std::vector<FacetRow>& rows);
 
 /// The text with each character that gnuplot does not read back from a CSV cell as %XX, its byte in
 /// hexadecimal digits.

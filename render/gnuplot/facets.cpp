@@ -127,9 +127,9 @@ using experiments::FigureSpec;
 constexpr double letter_width = 6.6;  ///< of titles of series and rows, on average (px)
 
 /// The places of groups with drawn rows.
-std::vector<std::size_t> used(const FacetData& data, std::size_t FacetRow::*place) {
+std::vector<std::size_t> used(const std::vector<FacetRow>& rows, std::size_t FacetRow::*place) {
   std::set<std::size_t> places;
-  for (const FacetRow& row : data.rows) places.insert(row.*place);
+  for (const FacetRow& row : rows) places.insert(row.*place);
   return {places.begin(), places.end()};
 }
 
@@ -170,15 +170,19 @@ Range with_margin(Range range, const FigureAxis& axis) {
 /// One figure: the drawn groups, and the commands of its panels.
 class FacetFigure {
  public:
-  FacetFigure(const FigureSpec& spec, FacetData data, const std::filesystem::path& stem)
+  FacetFigure(const FigureSpec& spec, const Table& table, const std::filesystem::path& stem)
       : spec_(spec),
-        data_(std::move(data)),
+        table_(table),
+        data_(facet_rows(spec, table)),
         file_(gnuplot_file(stem.filename().string() + ".dat")),
         panels_(used(data_, &FacetRow::panel)),
         series_(used(data_, &FacetRow::series)),
         rows_(has_rows() ? used(data_, &FacetRow::row) : std::vector<std::size_t>()) {
     for (const FigureAxis& measure : spec.measures) {
-      if (data_.has_values(measure)) measures_.push_back(&measure);
+      const bool has_values = std::any_of(data_.begin(), data_.end(), [&](const FacetRow& row) {
+        return !std::isnan(experiments::drawn_value(measure, row.cells));
+      });
+      if (has_values) measures_.push_back(&measure);
     }
   }
 
@@ -195,7 +199,7 @@ class FacetFigure {
       commands += has_key ? frame.key(layout.key_left, layout.key_top - 6.0) : "unset key\n";
       commands += "plot " + plots_of(panel, has_key) + '\n' + FigureFrame::end_panel();
     }
-    return frame.draw(stem, commands, data_file(data_), spec_.alt);
+    return frame.draw(stem, commands, data_file(table_, data_), spec_.alt);
   }
 
  private:
@@ -246,8 +250,8 @@ class FacetFigure {
   /// The cells of an ordinal axis in one panel, by value.
   std::vector<std::string> steps_of(std::size_t panel) const {
     std::map<double, std::string> steps;
-    for (const FacetRow& row : data_.rows) {
-      if (row.panel == panel) steps.emplace(row.x, data_.text(row, spec_.x.column));
+    for (const FacetRow& row : data_) {
+      if (row.panel == panel) steps.emplace(row.x, row.cells.text(spec_.x.column));
     }
     std::vector<std::string> texts;
     for (const auto& [value, text] : steps) texts.push_back(text);
@@ -261,12 +265,12 @@ class FacetFigure {
       const bool is_drawable = axis.scale != AxisScale::log || value > 0.0;
       if (is_drawable) range.include(value);
     };
-    for (const FacetRow& row : data_.rows) {
+    for (const FacetRow& row : data_) {
       if (has_rows() && row.panel != panel) continue;
-      include(data_.value(row, axis));
+      include(experiments::drawn_value(axis, row.cells));
       if (axis.low.empty()) continue;
       for (const std::string& end : {axis.low, axis.high}) {
-        include(experiments::drawn_value(axis, data_.text(row, end)));
+        include(experiments::drawn_value(axis, row.cells, end));
       }
     }
     return with_margin(range, axis);
@@ -353,12 +357,10 @@ class FacetFigure {
     for (std::size_t i = 0; i < series_.size(); ++i) {
       const std::string style = series_style(spec_, series_[i]);
       for (std::size_t mark = 0; mark < spec_.marks.size(); ++mark) {
-        const bool is_drawn =
-            std::any_of(data_.rows.begin(), data_.rows.end(), [&](const FacetRow& row) {
-              return row.panel == panel && row.series == series_[i] &&
-                     experiments::passes(data_.table, data_.table.rows[row.index],
-                                         spec_.marks[mark].where);
-            });
+        const bool is_drawn = std::any_of(data_.begin(), data_.end(), [&](const FacetRow& row) {
+          return row.panel == panel && row.series == series_[i] &&
+                 experiments::passes(row.cells, spec_.marks[mark].where);
+        });
         if (!is_drawn) continue;
         const FacetPlot plot{.selections = selections(panel, series_[i], mark),
                              .aside = aside_of(i, panel, *measures_[place.measure]),
@@ -374,7 +376,8 @@ class FacetFigure {
   }
 
   const FigureSpec& spec_;
-  FacetData data_;
+  const Table& table_;
+  std::vector<FacetRow> data_;
   std::string file_;
   std::vector<std::size_t> panels_, series_, rows_;
   std::vector<const FigureAxis*> measures_;
@@ -384,7 +387,7 @@ class FacetFigure {
 
 std::optional<Figure> draw_facets(const experiments::FigureSpec& spec, const Table& table,
                                   const std::filesystem::path& stem) {
-  const FacetFigure figure(spec, facet_data(spec, table), stem);
+  const FacetFigure figure(spec, table, stem);
   if (figure.is_empty()) return {};
   return figure.draw(stem);
 }

@@ -117,8 +117,8 @@ void require_own_files(const std::filesystem::path& folder, const std::string& n
   }
 }
 
-}  // namespace
-
+/// The PDF without its creation time, so that the same figure always gives the same file. Errors:
+/// `Error` for text that is not a PDF; the message begins with the file's `name`.
 std::string dateless_pdf(const std::string& pdf, const std::string& name) {
   const std::unique_ptr<std::remove_pointer_t<qpdf_data>, Cleanup> document(qpdf_init());
   const auto require = [&](QPDF_ERROR_CODE code) {
@@ -136,6 +136,8 @@ std::string dateless_pdf(const std::string& pdf, const std::string& name) {
   const unsigned char* bytes = qpdf_get_buffer(document.get());
   return {bytes, bytes + qpdf_get_buffer_length(document.get())};
 }
+
+}  // namespace
 
 FigureText figure_text(const std::string& script) {
   FigureText text;

@@ -43,10 +43,6 @@ Figure draw_figure(const std::filesystem::path& stem, int width, int height,
 /// Ends a `set multiplot`.
 inline constexpr const char* end_multiplot = "unset multiplot\n";
 
-/// The PDF without its creation time, so that the same figure always gives the same file. Errors:
-/// `Error` for text that is not a PDF; the message begins with the file's `name`.
-std::string dateless_pdf(const std::string& pdf, const std::string& name);
-
 /// The texts in a figure's script; those that the script lacks are empty.
 FigureText figure_text(const std::string& script);
 

@@ -84,6 +84,16 @@ std::vector<char*> environment_in_utc() {
   return variables;
 }
 
+/// Whether a drawing of another program ends as its file type does: a PNG with its last chunk, an
+/// SVG with `</svg>`, a PDF with `%%EOF`.
+bool is_whole(const std::filesystem::path& drawing) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(drawing, ignored)) return false;
+  std::string content = read_file(drawing);
+  while (content.ends_with('\n')) content.pop_back();
+  return content.ends_with(file_endings.at(drawing.extension().string()));
+}
+
 }  // namespace
 
 void write_whole(const std::filesystem::path& path, std::string_view content,
@@ -94,14 +104,6 @@ void write_whole(const std::filesystem::path& path, std::string_view content,
   file.close();
   if (!file) fail(final_path, errno);
   flush(path, final_path);
-}
-
-bool is_whole(const std::filesystem::path& drawing) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(drawing, ignored)) return false;
-  std::string content = read_file(drawing);
-  while (content.ends_with('\n')) content.pop_back();
-  return content.ends_with(file_endings.at(drawing.extension().string()));
 }
 
 void require_whole(const std::filesystem::path& drawing, const std::filesystem::path& final_path) {

@@ -20,37 +20,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string longest_title(const std::string& script) {
-  std::string best;
-  for (const std::string word : {"set title '", "set multiplot", "set label"}) {
-    for (std::size_t at = script.find(word); at != std::string::npos;
-         at = script.find(word, at + 1)) {
-      const std::size_t line_end = script.find('\n', at);
-      const std::size_t open = script.find('\'', at);
-      const std::size_t close = script.find('\'', open + 1);
-      if (open == std::string::npos || close == std::string::npos || close > line_end) continue;
-      if (close - open - 1 > best.size()) best = script.substr(open + 1, close - open - 1);
-    }
-  }
-  while (best.ends_with('.')) best.pop_back();
-  return best.empty() ? best : best + ".";
-}
-
 /// Pictures beyond this would make the page slow to open (bytes).
 constexpr std::uintmax_t largest_picture = 2'000'000;
 
-/// The texts in the figure's script. Missing ones are replaced by the figure's name and the longest
-/// title that the script draws (`set title '…'`, `set label … '…'`).
+/// The texts in the figure's script. A missing title or description is the figure's name.
 FigureText text_of(const fs::path& figure) {
   std::string name = figure.stem().string();
   std::replace(name.begin(), name.end(), '_', ' ');
   const fs::path script = fs::path(figure).replace_extension(".gp");
   std::error_code ignored;
   if (!fs::is_regular_file(script, ignored)) return {name, {}, name};
-  const std::string commands = read_file(script);
-  FigureText text = figure_text(commands);
+  FigureText text = figure_text(read_file(script));
   if (text.title.empty()) text.title = name;
-  if (text.caption.empty()) text.caption = longest_title(commands);
   if (text.alt.empty()) {
     text.alt = text.caption.empty() ? text.title : text.title + ": " + text.caption;
   }
@@ -151,37 +132,6 @@ std::string figure_html(const fs::path& file, const std::vector<std::string>& si
 
 using Cells = std::vector<experiments::CellSummary>;
 
-/// A noise level that a map varies.
-struct NoiseAxis {
-  double noise::NoiseCell::*level;
-  const char *unit, *name;
-  std::vector<double> levels;
-};
-
-/// The maps over a grid of two noise levels: `figures/<name>_<engine>`.
-struct NoiseMaps {
-  std::string name;
-  NoiseAxis x, y;
-  std::optional<double> accelerometer = {};  ///< where it is no axis (m/s²)
-};
-
-/// The maps that `draw_heatmaps` draws of an experiment.
-std::vector<NoiseMaps> noise_maps(const experiments::Experiment& experiment) {
-  using noise::NoiseCell;
-  const noise::NoiseGridConfig& noise = experiment.noise;
-  const noise::KneeWheelGridConfig& joints = noise.knee_wheel;
-  std::vector<NoiseMaps> maps = {
-      {"error",
-       {&NoiseCell::accelerometer, "m/s²", "accelerometer noise", noise.accelerometer},
-       {&NoiseCell::torque, "N·m", "torque noise", noise.torque}}};
-  if (joints.knee.empty()) return maps;
-  maps.push_back({"knee_wheel",
-                  {&NoiseCell::wheel, "N·m", "wheel noise", joints.wheel},
-                  {&NoiseCell::knee, "N·m", "knee noise", joints.knee},
-                  joints.accelerometer});
-  return maps;
-}
-
 /// What a cell shows when the reader chooses it.
 std::string readout(const experiments::CellSummary& cell, const NoiseMaps& maps) {
   const auto level = [&](const NoiseAxis& axis) {
@@ -203,14 +153,8 @@ nlohmann::ordered_json readouts(const Cells& cells, const std::string& simulator
   nlohmann::ordered_json texts = nlohmann::ordered_json::array();
   for (const double y : maps.y.levels) {
     for (const double x : maps.x.levels) {
-      const auto cell =
-          std::find_if(cells.begin(), cells.end(), [&](const experiments::CellSummary& one) {
-            return one.condition.test_simulator == simulator &&
-                   one.condition.estimator == estimator && one.cell.*maps.x.level == x &&
-                   one.cell.*maps.y.level == y &&
-                   one.cell.accelerometer == maps.accelerometer.value_or(one.cell.accelerometer);
-          });
-      texts.push_back(cell == cells.end() ? "not part of this study" : readout(*cell, maps));
+      const auto* const cell = maps.cell(cells, simulator, estimator, x, y);
+      texts.push_back(cell == nullptr ? "not part of this study" : readout(*cell, maps));
     }
   }
   return texts;
@@ -245,8 +189,7 @@ struct MapOverlay {
 /// The maps that the page shows with readouts.
 std::vector<MapOverlay> map_overlays(const ReportSubject& subject) {
   std::vector<MapOverlay> overlays;
-  const std::vector<NoiseMaps> all = noise_maps(subject.experiment);
-  for (const NoiseMaps& maps : all) {
+  for (const NoiseMaps& maps : noise_maps(subject.experiment)) {
     for (const std::string& simulator : subject.experiment.simulators) {
       const fs::path drawing =
           subject.directory / "figures" / fmt::format("{}_{}.svg", maps.name, simulator);

@@ -1,12 +1,16 @@
-#include "render/report/films.hpp"
-
 #include <algorithm>
+#include <chrono>
 #include <system_error>
 
 #include "core/files.hpp"
+#include "core/progress.hpp"
 #include "experiments/run_directory/directory.hpp"
+#include "render/figures/figures.hpp"
 #include "render/film/painter.hpp"
 #include "render/film/video.hpp"
+#include "render/gnuplot/facets.hpp"
+#include "render/report/report.hpp"
+#include "render/stop.hpp"
 
 namespace touchdown::render {
 
@@ -94,6 +98,42 @@ void film_for_report(const std::vector<FilmedRun>& runs, const fs::path& run_dir
   Film film = small_film(runs, run_directory);
   film.least_view = single_view_size(full_size(runs.front()));
   paint(runs, {std::move(film)}, workers, "filming for the report", stop);
+}
+
+void draw_pictures(experiments::ExperimentResult& result, const std::vector<FilmedRun>& filmed,
+                   const std::vector<StudyPictures>& studies, bool with_films,
+                   const std::atomic<bool>* stop) {
+  const auto start = std::chrono::steady_clock::now();
+  {
+    Progress progress("drawing", "kinds of figures", 3);
+    if (result.cells.size() > 1) draw_heatmaps(result, stop);
+    progress.advance();
+    draw_densities(result, stop);
+    draw_evidence(result, stop);
+    draw_scores(result, stop);
+    progress.advance();
+    draw_drop_details(result, stop);
+    draw_phase_posteriors(result, stop);
+    for (const StudyPictures& study : studies) {
+      stop_if_asked(stop);
+      if (study.draw && study.is_requested(result.experiment)) study.draw(result);
+    }
+    for (const experiments::FigureSpec& figure : result.figures) {
+      stop_if_asked(stop);
+      draw_facets(figure, result.directory.read_table(figure.table),
+                  result.directory.file("figures", figure.name));
+    }
+    progress.advance();
+  }
+  for (const StudyPictures& study : studies) {
+    if (!with_films) break;
+    if (study.film && study.is_requested(result.experiment)) study.film(result, stop);
+  }
+  if (with_films) {
+    film_runs(filmed, result.directory.path(), result.experiment.workers, stop);
+  }
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  result.provenance.timings.emplace_back("draw", elapsed.count());
 }
 
 }  // namespace touchdown::render

@@ -12,11 +12,8 @@
 #include "core/files.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/run_directory/directory.hpp"
-#include "render/report/films.hpp"
 #include "render/report/html.hpp"
 #include "render/report/sections.hpp"
-#include "render/report/subject.hpp"
-#include "render/report/tables.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {
@@ -32,7 +29,7 @@ std::string text_of(const nlohmann::ordered_json& value) {
 }
 
 void add_rows(const nlohmann::ordered_json& manifest, const char* key, const std::string& prefix,
-              Table& table) {
+              TextTable& table) {
   if (!manifest.contains(key) || !manifest[key].is_object()) return;
   for (const auto& [name, value] : manifest[key].items()) {
     if (std::string(key) == "host" && name == "name") continue;
@@ -52,7 +49,7 @@ ReportSection reproduce_section(const ReportSubject& subject) {
     html += fmt::format("<p>The command of this run:</p>\n<pre><code>{}</code></pre>\n",
                         escaped(manifest["command"].get<std::string>()));
   }
-  Table table{{"quantity", "value"}, {}};
+  TextTable table{{"quantity", "value"}, {}};
   for (const char* key : {"id", "finished_at"}) {
     if (manifest.contains(key)) table.rows.push_back({key, text_of(manifest[key])});
   }
@@ -66,7 +63,7 @@ ReportSection reproduce_section(const ReportSubject& subject) {
   html += table_html({"Versions, seeds and computing times", "versions and seeds", table}, 1);
   if (manifest.contains("failed_runs") && manifest["failed_runs"].is_array() &&
       !manifest["failed_runs"].empty()) {
-    Table failed{{"recording", "outcome"}, {}};
+    TextTable failed{{"recording", "outcome"}, {}};
     for (const auto& run : manifest["failed_runs"]) {
       if (!run.is_object()) continue;  // the file may have been edited
       const auto text = [&](const char* key) {

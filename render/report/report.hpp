@@ -1,13 +1,60 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
+#include <functional>
+#include <string>
 #include <vector>
 
+#include "experiments/results/result.hpp"
 #include "render/report/filmed_run.hpp"
-#include "render/report/study_pictures.hpp"
+#include "render/report/html.hpp"
 #include "render/report/subject.hpp"
 
 namespace touchdown::render {
+
+/// What is drawn of a study besides the figures of its tables. A study without such pictures needs
+/// none of this; an empty function draws nothing. Each function is called for experiments that ask
+/// for the study.
+struct StudyPictures {
+  std::function<bool(const experiments::Experiment&)> is_requested;
+  /// Draws figures into the run directory.
+  std::function<void(const experiments::ExperimentResult&)> draw = {};
+  /// Films runs. Errors: as `render_video`; `Stopped`.
+  std::function<void(const experiments::ExperimentResult&, const std::atomic<bool>* stop)> film =
+      {};
+  /// The HTML of its films, for the report's section of films.
+  std::function<std::string(const ReportSubject&)> film_html = {};
+  /// Writes pages beside the report, and returns the report's section about them.
+  std::function<ReportSection(const ReportSubject&)> section = {};
+};
+
+/// Draws all figures and, if `with_films`, all films of an experiment's result, those of its
+/// studies included, into its run directory, and adds the elapsed time to the provenance. `stop`,
+/// which may be null, is looked at between figures and frames. Errors: `Stopped`; as `draw_figure`
+/// and `render_video`.
+void draw_pictures(experiments::ExperimentResult& result, const std::vector<FilmedRun>& filmed,
+                   const std::vector<StudyPictures>& studies, bool with_films,
+                   const std::atomic<bool>* stop);
+
+/// Only this much of a longer run is in the report's film (s), because the page contains it.
+inline constexpr double longest_report_film = 20.0;
+
+/// The report's small film of up to two runs beside each other, and a picture of it.
+struct ReportFilm {
+  std::filesystem::path video, picture;
+};
+ReportFilm report_film(const std::filesystem::path& run_directory);
+
+/// Writes a film of each run, and the report's, into the run directory's `videos`. Views are
+/// painted once for both. Errors: as `render_films`; `Stopped`.
+void film_runs(const std::vector<FilmedRun>& runs, const std::filesystem::path& run_directory,
+               int workers, const std::atomic<bool>* stop);
+
+/// Writes the report's film with the same bytes, unless the run directory has one that is newer
+/// than its recordings and models.
+void film_for_report(const std::vector<FilmedRun>& runs, const std::filesystem::path& run_directory,
+                     int workers, const std::atomic<bool>* stop);
 
 /// What a report shows of runs and films.
 struct ReportParts {

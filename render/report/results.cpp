@@ -11,7 +11,6 @@
 #include "experiments/results/captions.hpp"
 #include "render/figures/error_scale.hpp"
 #include "render/report/sections.hpp"
-#include "render/report/tables.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {
@@ -188,27 +187,8 @@ ReportSection results_section(const ReportSubject& subject) {
             "contact” is the constant answer{}.",
             cell.torque, cell.accelerometer, experiments::setup_caption(experiment)),
         fmt::format("accuracies at {} N·m and {} m/s²", cell.torque, cell.accelerometer),
-        {{"estimator"}, {}}};
-    for (const std::string& engine : engines_of(experiment)) {
-      table.table.header.insert(table.table.header.end(), {engine, "false takeoffs/min"});
-    }
-    for (const std::string& estimator : scored_estimators(scores)) {
-      std::vector<std::string> line = {experiments::estimator_title(estimator)};
-      for (const std::string& simulator : experiment.simulators) {
-        const auto score =
-            std::find_if(scores.begin(), scores.end(), [&](const experiments::CellSummary& s) {
-              return s.condition.test_simulator == simulator &&
-                     s.condition.estimator == estimator && s.cell == cell;
-            });
-        if (score == scores.end()) {
-          line.insert(line.end(), {"–", "–"});
-          continue;
-        }
-        line.push_back(with_interval(score->success));
-        line.push_back(experiments::false_takeoffs_text(subject.summary.scores, *score));
-      }
-      table.table.rows.push_back(std::move(line));
-    }
+        experiments::accuracy_table(experiment, scores, subject.summary.scores, cell,
+                                    engines_of(experiment))};
     section.html += table_html(table, 1);
   }
   return section;

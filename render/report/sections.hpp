@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "experiments/results/text_tables.hpp"
 #include "render/film/request.hpp"
 #include "render/report/html.hpp"
 
@@ -23,6 +24,13 @@ ReportSection results_section(const ReportSubject& subject);
 
 /// The paper's tables at the highlighted noise settings, with the paper's numbers beside ours.
 ReportSection paper_section(const ReportSubject& subject);
+
+/// The table as HTML, with its caption. The first `text_columns` name the row.
+std::string table_html(const experiments::CaptionedTable& table, std::size_t text_columns);
+
+/// Every CSV table of the run directory in readable form: columns `x`, `x_low`, `x_high` are
+/// merged.
+ReportSection more_tables_section(const ReportSubject& subject);
 
 /// The drawn maps of the error rate over noise levels; a cell that the reader points at shows its
 /// numbers.

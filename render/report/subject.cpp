@@ -4,7 +4,6 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/rows.hpp"
 #include "experiments/results/json_table.hpp"
 #include "experiments/studies/experiment_file.hpp"
 
@@ -31,10 +30,6 @@ ReportSubject read_subject(const std::filesystem::path& run_directory) {
   subject.config_text = read_file(run_directory / "config.yaml");
   subject.summary = experiments::read_summary(run_directory);
   return subject;
-}
-
-std::vector<std::string> scored_estimators(const std::vector<experiments::CellSummary>& scores) {
-  return unique(scores, [](const auto& score) { return score.condition.estimator; });
 }
 
 }  // namespace touchdown::render

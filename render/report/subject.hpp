@@ -23,7 +23,4 @@ struct ReportSubject {
 /// is broken.
 ReportSubject read_subject(const std::filesystem::path& run_directory);
 
-/// The names of the estimators in the scores, in their order.
-std::vector<std::string> scored_estimators(const std::vector<experiments::CellSummary>& scores);
-
 }  // namespace touchdown::render

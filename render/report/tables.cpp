@@ -1,9 +1,5 @@
-#include "render/report/tables.hpp"
-
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
-#include <limits>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -12,6 +8,7 @@
 
 #include "core/files.hpp"
 #include "experiments/results/captions.hpp"
+#include "render/report/sections.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {
@@ -33,13 +30,14 @@ bool is_number(const std::string& cell) {
   return !cell.empty() && cell.find_first_not_of("0123456789.+-eE") == std::string::npos;
 }
 
-std::string readable_cell(const std::string& name, const std::string& cell) {
+std::string readable_cell(const std::string& name, const TableRow& row) {
+  const std::string cell = row.text(name);
   if (cell == "nan") return "–";
   if (name.ends_with("simulator")) return simulators::simulator_title(cell);
   if (name == "estimator" || name == "first" || name == "second")
     return experiments::estimator_title(cell);
   if (is_number(cell) && cell.find('.') != std::string::npos) {
-    return fmt::format("{:.4g}", number(cell));
+    return fmt::format("{:.4g}", row.number(name));
   }
   return cell;
 }
@@ -67,35 +65,24 @@ std::string readable_name(std::string name) {
   return with_accuracy(std::move(name)) + unit;
 }
 
-/// The column of an interval's end: "latency_ms", "_low" → "latency_low_ms".
-std::string interval_column(const std::string& name, const std::string& end) {
-  if (name.ends_with("_ms")) return name.substr(0, name.size() - 3) + end + "_ms";
-  return name + end;
-}
-
 /// The table with columns `x`, `x_low`, `x_high` merged, and with readable names.
-Table readable(const Table& table) {
-  const std::vector<std::string>& names = table.header;
-  const auto column = [&](const std::string& name) {
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-  };
-  std::set<std::string> ends;
-  for (const std::string& name : names) {
-    ends.insert({interval_column(name, "_low"), interval_column(name, "_high")});
+TextTable readable(const Table& table) {
+  std::set<std::string> names, ends;
+  for (const Column& column : table.columns) {
+    names.insert(column.name);
+    for (const char* end : {"_low", "_high"}) ends.insert(bound_name(column.name, end));
   }
-  Table result{{}, std::vector<std::vector<std::string>>(table.rows.size())};
-  for (std::size_t c = 0; c < names.size(); ++c) {
-    if (ends.contains(names[c])) continue;
-    result.header.push_back(readable_name(names[c]));
-    const std::size_t low = column(interval_column(names[c], "_low"));
-    const std::size_t high = column(interval_column(names[c], "_high"));
-    const bool has_interval = low < names.size() && high < names.size();
+  TextTable result{{}, std::vector<std::vector<std::string>>(table.rows.size())};
+  for (const auto& [name, role, type, as] : table.columns) {
+    if (ends.contains(name)) continue;
+    result.header.push_back(readable_name(name));
+    const bool has_interval =
+        names.contains(bound_name(name, "_low")) && names.contains(bound_name(name, "_high"));
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
-      const std::vector<std::string>& row = table.rows[r];
+      const TableRow row(table, r);
       result.rows[r].push_back(
-          has_interval ? with_interval({number(row[c]), number(row[low]), number(row[high])},
-                                       names[c].ends_with("_ms") ? 1 : 3)
-                       : readable_cell(names[c], row[c]));
+          has_interval ? with_interval(row.interval(name), name.ends_with("_ms") ? 1 : 3)
+                       : readable_cell(name, row));
     }
   }
   return result;
@@ -111,14 +98,8 @@ std::string title_of(const fs::path& file) {
 
 }  // namespace
 
-double number(const std::string& cell) {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  return value;
-}
-
 std::string table_html(const experiments::CaptionedTable& captioned, std::size_t text_columns) {
-  const Table& table = captioned.table;
+  const TextTable& table = captioned.table;
   const std::size_t reference_column = static_cast<std::size_t>(
       std::find_if(table.header.begin(), table.header.end(),
                    [](const std::string& name) { return name.starts_with("paper"); }) -
@@ -159,7 +140,7 @@ ReportSection more_tables_section(const ReportSubject& subject) {
   }
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) {
-    Table table = from_csv(read_file(file));
+    Table table = table_of(from_csv(read_file(file)));
     const std::size_t rows = table.rows.size();
     if (rows == 0) continue;
     std::string caption = fmt::format("tables/{}, {} rows", file.filename().string(), rows);
@@ -167,7 +148,7 @@ ReportSection more_tables_section(const ReportSubject& subject) {
       table.rows.resize(most_rows);
       caption += fmt::format(", the first {} of them", most_rows);
     }
-    const Table shown = readable(table);
+    const TextTable shown = readable(table);
     std::size_t text_columns = 1;
     while (text_columns < shown.header.size() && !is_number(shown.rows[0][text_columns]) &&
            shown.rows[0][text_columns].find_first_of("0123456789") == std::string::npos) {

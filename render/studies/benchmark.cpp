@@ -2,89 +2,43 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "core/table.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/request.hpp"
 #include "experiments/studies/benchmark.hpp"
 #include "render/film/video.hpp"
 #include "render/report/filmed_run.hpp"
-#include "render/report/tables.hpp"
 #include "render/studies/registry.hpp"
 #include "scenarios/engine.hpp"
 
 namespace touchdown::render {
 
-namespace {
+std::string setting_of(const TableRow& row) {
+  return fmt::format("{}, {} sensors", row.text("robot"), row.text("sensors"));
+}
 
-/// The rows of a table, with access to their cells by column name.
-class Rows {
- public:
-  explicit Rows(const std::filesystem::path& file) {
-    if (is_there(file)) table_ = from_csv(read_file(file));
-  }
+std::string noise_of(const TableRow& row) {
+  return fmt::format("{} N·m, {} m/s²", row.text("torque_noise_nm"),
+                     row.text("accelerometer_noise_mps2"));
+}
 
-  template <typename Each>
-  void for_each(const Each& each) {
-    for (row_ = 0; row_ < table_.rows.size(); ++row_) each();
+BenchmarkTables benchmark_tables(const std::filesystem::path& run_directory) {
+  const auto table = [&](const char* name) {
+    const std::filesystem::path file = run_directory / "tables" / name;
+    return is_there(file) ? table_of(from_csv(read_file(file))) : Table();
+  };
+  BenchmarkTables tables{table("benchmark.csv"), table("benchmark_standings.csv"),
+                         table("benchmark_differences.csv")};
+  const Table all = std::exchange(tables.scenes, {tables.scenes.columns, {}});
+  for (std::size_t i = 0; i < all.rows.size(); ++i) {
+    if (TableRow(all, i).text("fitted_on") == "own") tables.scenes.rows.push_back(all.rows[i]);
   }
-
-  /// The cell of the current row.
-  std::string text(const std::string& column) const {
-    return cell(table_, table_.rows[row_], column);
-  }
-  double value(const std::string& column) const { return number(text(column)); }
-  Interval interval(const std::string& column) const {
-    return {value(column), value(column + "_low"), value(column + "_high")};
-  }
-  std::string setting() const {
-    return fmt::format("{}, {} sensors", text("robot"), text("sensors"));
-  }
-  std::string noise() const {
-    return fmt::format("{} N·m, {} m/s²", text("torque_noise_nm"),
-                       text("accelerometer_noise_mps2"));
-  }
-
- private:
-  Table table_;
-  std::size_t row_ = 0;
-};
-
-}  // namespace
-
-BenchmarkScores benchmark_scores(const std::filesystem::path& run_directory) {
-  const std::filesystem::path tables = run_directory / "tables";
-  BenchmarkScores scores;
-  Rows rows(tables / "benchmark.csv");
-  rows.for_each([&] {
-    if (rows.text("fitted_on") != "own") return;
-    scores.scenes.push_back(
-        {rows.text("simulator"), rows.setting(), rows.noise(), rows.text("scene"),
-         rows.text("estimator"), rows.text("split") == "unseen", rows.interval("balanced_accuracy"),
-         rows.value("no_contact_precision"), rows.value("no_contact_recall"),
-         rows.value("flight_f1"), rows.value("extra_switches_per_minute"),
-         rows.value("false_takeoffs_per_minute"), rows.value("takeoff_latency_median_ms")});
-  });
-  Rows standings(tables / "benchmark_standings.csv");
-  standings.for_each([&] {
-    scores.standings.push_back(
-        {standings.setting(), standings.text("robot"), standings.text("sensors"), standings.noise(),
-         standings.text("estimator"), standings.interval("mean_balanced_accuracy"),
-         standings.value("worst_balanced_accuracy"), standings.text("worst_scene"),
-         standings.text("worst_simulator"), standings.text("is_not_significantly_worse") == "1",
-         standings.value("excess_log_loss_bits")});
-  });
-  Rows pairs(tables / "benchmark_differences.csv");
-  pairs.for_each([&] {
-    scores.pairs.push_back({pairs.setting(), pairs.noise(), pairs.text("scene"),
-                            pairs.text("first"), pairs.text("second"),
-                            pairs.interval("difference")});
-  });
-  return scores;
+  return tables;
 }
 
 WorstSegment worst_segment(const std::vector<std::vector<int>>& wrong, std::size_t length) {
@@ -107,12 +61,13 @@ constexpr double shown = 2.0;  ///< length of a film (s)
 
 /// The runs of a standing's worst scene.
 std::vector<experiments::PlannedRun> worst_runs(const experiments::ExperimentResult& result,
-                                                const Standing& standing) {
+                                                const TableRow& standing) {
   std::vector<experiments::PlannedRun> runs;
   for (const experiments::Rollout& run : result.runs) {
     const experiments::PlannedRun& plan = run.plan;
     if (plan.role == experiments::RunRole::test && !run.failed() && plan.group == 0 &&
-        plan.simulator == standing.worst_simulator && plan.scenario.name == standing.worst_scene) {
+        plan.simulator == standing.text("worst_simulator") &&
+        plan.scenario.name == standing.text("worst_scene")) {
       runs.push_back(plan);
     }
   }
@@ -133,14 +88,15 @@ std::vector<int> wrong_decisions(const FilmedRun& run, const scoring::ScoringCon
   return wrong;
 }
 
-void film_worst_segment(const experiments::ExperimentResult& result, const Standing& standing,
+void film_worst_segment(const experiments::ExperimentResult& result, const TableRow& standing,
                         const noise::SensorProfile& profile, const std::atomic<bool>* stop) {
   const experiments::Experiment& experiment = result.experiment;
   const std::vector<experiments::PlannedRun> plans = worst_runs(result, standing);
   if (plans.empty()) return;
-  const std::vector<std::string> estimators = {standing.estimator};
-  const experiments::FittedModels models =
-      read_models(result.directory.path(), experiment, standing.worst_simulator, estimators);
+  const std::string estimator = standing.text("estimator");
+  const std::vector<std::string> estimators = {estimator};
+  const experiments::FittedModels models = read_models(
+      result.directory.path(), experiment, standing.text("worst_simulator"), estimators);
   std::vector<FilmedRun> runs;
   std::vector<std::vector<int>> wrong;
   for (const experiments::PlannedRun& plan : plans) {
@@ -162,10 +118,9 @@ void film_worst_segment(const experiments::ExperimentResult& result, const Stand
   options.speed = 0.5;
   options.workers = experiment.workers;
   options.labels = run.labels;
-  options.progress = film_progress(fmt::format("filming {}", standing.estimator), stop);
-  render_video(
-      {run.source()}, options,
-      result.directory.own_file("videos", fmt::format("worst_{}.mp4", standing.estimator)));
+  options.progress = film_progress(fmt::format("filming {}", estimator), stop);
+  render_video({run.source()}, options,
+               result.directory.own_file("videos", fmt::format("worst_{}.mp4", estimator)));
 }
 
 /// Films, for every estimator, the two seconds with the most wrong decisions in the scene and
@@ -176,13 +131,15 @@ void film_worst_segments(const experiments::ExperimentResult& result,
   const experiments::Experiment& experiment = result.experiment;
   const noise::SensorProfile profile = experiments::profile_of(
       experiments::read_sensors(experiment, result.directory.path()), experiment.sensors);
-  const BenchmarkScores scores = benchmark_scores(result.directory.path());
-  if (scores.standings.empty()) return;
-  const Standing& first = scores.standings.front();  // the experiment's own robot comes first
-  for (const Standing& standing : scores.standings) {
-    if (standing.setting != first.setting || standing.noise != first.noise) continue;
+  const BenchmarkTables tables = benchmark_tables(result.directory.path());
+  const std::vector<TableRow> standings = tables.standings.all();
+  for (const TableRow& standing : standings) {
+    const TableRow& first = standings.front();  // the experiment's own robot comes first
+    if (setting_of(standing) != setting_of(first) || noise_of(standing) != noise_of(first))
+      continue;
     const auto& names = experiment.estimators;
-    const bool is_ours = std::find(names.begin(), names.end(), standing.estimator) != names.end();
+    const bool is_ours =
+        std::find(names.begin(), names.end(), standing.text("estimator")) != names.end();
     if (is_ours) film_worst_segment(result, standing, profile, stop);
   }
 }

@@ -6,69 +6,35 @@
 #include <string>
 #include <vector>
 
-#include "core/interval.hpp"
+#include "core/table.hpp"
 #include "render/gnuplot/figure.hpp"
-#include "render/report/study_pictures.hpp"
-#include "render/report/subject.hpp"
+#include "render/report/report.hpp"
 
 namespace touchdown::render {
 
-/// One row of a run directory's `benchmark.csv`: an in-domain score in one scene.
-struct SceneScore {
-  std::string simulator;
-  std::string setting;  ///< "upkie, harsh sensors"
-  std::string noise;    ///< "1 N·m, 5 m/s²"
-  std::string scene;
-  std::string estimator;
-  bool is_unseen = false;  ///< no estimator was fitted to scenes like it
-  Interval accuracy;
-  double no_contact_precision = 0.0;
-  double no_contact_recall = 0.0;
-  double flight_f1 = 0.0;
-  double extra_switches_per_minute = 0.0;
-  double false_takeoffs_per_minute = 0.0;
-  double takeoff_latency_median_ms = 0.0;
-};
-
-/// One row of `benchmark_standings.csv`.
-struct Standing {
-  std::string setting;
-  std::string robot;
-  std::string sensors;
-  std::string noise;
-  std::string estimator;
-  Interval mean;
-  double worst = 0.0;
-  std::string worst_scene;
-  std::string worst_simulator;
-  bool is_not_significantly_worse = false;
-  double excess_log_loss = 0.0;  ///< above the reference upper bound's (bits per wheel and step)
-};
-
-/// One row of `benchmark_differences.csv`. Without a scene, it is the difference of the means over
-/// all scenes.
-struct PairedBand {
-  std::string setting;
-  std::string noise;
-  std::string scene;
-  std::string first;
-  std::string second;
-  Interval difference;
-};
-
-/// A benchmark's results, read from its tables.
-struct BenchmarkScores {
-  std::vector<SceneScore> scenes;
-  std::vector<Standing> standings;
-  std::vector<PairedBand> pairs;
+/// A benchmark's results: tables of its run directory.
+struct BenchmarkTables {
+  Table scenes;     ///< `benchmark.csv`: in-domain scores alone
+  Table standings;  ///< `benchmark_standings.csv`
+  /// `benchmark_differences.csv`. Rows without a scene have differences of the means over all
+  /// scenes.
+  Table pairs;
 };
 
 /// Empty where the run directory has no such tables. Errors: `InputError` for unreadable ones.
-BenchmarkScores benchmark_scores(const std::filesystem::path& run_directory);
+BenchmarkTables benchmark_tables(const std::filesystem::path& run_directory);
+
+/// The robot and the sensors of a row, "upkie, harsh sensors", and its noise, "1 N·m, 5 m/s²".
+std::string setting_of(const TableRow& row);
+std::string noise_of(const TableRow& row);
+inline std::string estimator_of(const TableRow& row) { return row.text("estimator"); }
+inline double mean_of(const TableRow& standing) {
+  return standing.number("mean_balanced_accuracy");
+}
 
 /// The path, without its extension, of the figure of one robot with its sensors.
 std::filesystem::path standings_stem(const std::filesystem::path& run_directory,
-                                     const Standing& standing);
+                                     const TableRow& standing);
 
 /// Draws the ranking of the estimators on one robot with its sensors, a row of panels for every
 /// noise setting. The left panel has means over all scenes and engines with their intervals, the
@@ -76,7 +42,7 @@ std::filesystem::path standings_stem(const std::filesystem::path& run_directory,
 /// critical differences; here the simultaneous bands of paired differences decide. The right panel
 /// has the worst scene of each. `level` is the confidence level of the intervals. Files and errors
 /// as `draw_figure`.
-Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& setting,
+Figure draw_standings_figure(const BenchmarkTables& tables, const std::string& setting,
                              double level, const std::filesystem::path& stem);
 
 /// Draws a figure for every robot with its sensors in the run directory's tables.

@@ -36,13 +36,14 @@ std::string accuracy_text(const Interval& accuracy) {
 }
 
 /// The text that a cell shows when the user points at it.
-std::string tooltip(const SceneScore& score) {
+std::string tooltip(const TableRow& score) {
   return fmt::format(
       "{}; flight F1 {}; {} extra switches per minute; {} false takeoffs per minute; median "
       "takeoff latency {} ms",
-      accuracy_text(score.accuracy), short_number(score.flight_f1),
-      short_number(score.extra_switches_per_minute), short_number(score.false_takeoffs_per_minute),
-      short_number(score.takeoff_latency_median_ms));
+      accuracy_text(score.interval("balanced_accuracy")), short_number(score.number("flight_f1")),
+      short_number(score.number("extra_switches_per_minute")),
+      short_number(score.number("false_takeoffs_per_minute")),
+      short_number(score.number("takeoff_latency_median_ms")));
 }
 
 /// The shade of a cell, from 0: the darkest and worst.
@@ -91,22 +92,25 @@ std::string accuracy_table(const std::string& caption, const std::vector<std::st
   return html + "</tbody></table></div>\n";
 }
 
-std::string name_of(const SceneScore& score) {
-  return score.is_unseen ? score.scene + " *" : score.scene;
+double accuracy_of(const TableRow& score) { return score.number("balanced_accuracy"); }
+
+/// No estimator was fitted to scenes like one with a star.
+std::string name_of(const TableRow& score) {
+  return score.text("scene") + (score.text("split") == "unseen" ? " *" : "");
 }
 
-std::string scene_table(const std::vector<SceneScore>& scores, const std::string& caption) {
-  const auto estimators = unique(scores, [](const SceneScore& s) { return s.estimator; });
+std::string scene_table(const std::vector<TableRow>& scores, const std::string& caption) {
+  const auto estimators = unique(scores, estimator_of);
   const auto columns = unique(scores, name_of);
   std::vector<std::vector<AccuracyCell>> cells(estimators.size());
   for (std::size_t row = 0; row < estimators.size(); ++row) {
     for (const std::string& column : columns) {
-      const auto found = std::find_if(scores.begin(), scores.end(), [&](const SceneScore& score) {
-        return score.estimator == estimators[row] && name_of(score) == column;
+      const auto found = std::find_if(scores.begin(), scores.end(), [&](const TableRow& score) {
+        return estimator_of(score) == estimators[row] && name_of(score) == column;
       });
       cells[row].push_back(found == scores.end()
                                ? AccuracyCell{}
-                               : AccuracyCell{found->accuracy.estimate, tooltip(*found)});
+                               : AccuracyCell{accuracy_of(*found), tooltip(*found)});
     }
   }
   return accuracy_table(caption, columns, estimators, cells);
@@ -114,24 +118,25 @@ std::string scene_table(const std::vector<SceneScore>& scores, const std::string
 
 /// Mean balanced accuracy over all scenes and engines: a table for every noise setting, with a row
 /// per estimator and a column per robot with its sensors.
-std::string matrix_html(const BenchmarkScores& scores) {
-  const auto estimators = unique(scores.standings, [](const Standing& p) { return p.estimator; });
-  const auto settings = unique(scores.standings, [](const Standing& p) { return p.setting; });
+std::string matrix_html(const std::vector<TableRow>& standings) {
+  const auto estimators = unique(standings, estimator_of);
+  const auto settings = unique(standings, setting_of);
   std::string html;
-  for (const std::string& noise :
-       unique(scores.standings, [](const Standing& p) { return p.noise; })) {
+  for (const std::string& noise : unique(standings, noise_of)) {
     std::vector<std::vector<AccuracyCell>> cells(estimators.size(),
                                                  std::vector<AccuracyCell>(settings.size()));
-    for (const Standing& standing : scores.standings) {
-      if (standing.noise != noise) continue;
+    for (const TableRow& standing : standings) {
+      if (noise_of(standing) != noise) continue;
       const auto index = [](const std::vector<std::string>& all, const std::string& one) {
         return static_cast<std::size_t>(std::find(all.begin(), all.end(), one) - all.begin());
       };
-      cells[index(estimators, standing.estimator)][index(settings, standing.setting)] = {
-          standing.mean.estimate,
-          fmt::format("mean {}; worst scene: {} in {}, {}", accuracy_text(standing.mean),
-                      accuracy_text(standing.worst), standing.worst_scene,
-                      simulators::simulator_title(standing.worst_simulator))};
+      cells[index(estimators, estimator_of(standing))][index(settings, setting_of(standing))] = {
+          mean_of(standing),
+          fmt::format("mean {}; worst scene: {} in {}, {}",
+                      accuracy_text(standing.interval("mean_balanced_accuracy")),
+                      accuracy_text(standing.number("worst_balanced_accuracy")),
+                      standing.text("worst_scene"),
+                      simulators::simulator_title(standing.text("worst_simulator")))};
     }
     html += accuracy_table(
         fmt::format("Mean balanced accuracy over all scenes and engines, by robot and sensors, {}",
@@ -144,16 +149,15 @@ std::string matrix_html(const BenchmarkScores& scores) {
 /// Balanced accuracy by scene for one robot with its sensors: a table for every engine and noise
 /// setting, with a row per estimator and a column per scene. A star marks scenes that no estimator
 /// was fitted to.
-std::string scenes_html(const BenchmarkScores& scores, const std::string& setting,
+std::string scenes_html(const std::vector<TableRow>& scores, const std::string& setting,
                         const std::vector<std::string>& simulators) {
   std::string html;
-  for (const std::string& noise : unique(scores.scenes, [](const auto& s) { return s.noise; })) {
+  for (const std::string& noise : unique(scores, noise_of)) {
     for (const std::string& simulator : simulators) {
-      std::vector<SceneScore> alike;
-      std::copy_if(scores.scenes.begin(), scores.scenes.end(), std::back_inserter(alike),
-                   [&](const SceneScore& s) {
-                     return s.setting == setting && s.noise == noise && s.simulator == simulator;
-                   });
+      const std::vector<TableRow> alike = where(scores, [&](const TableRow& score) {
+        return setting_of(score) == setting && noise_of(score) == noise &&
+               score.text("simulator") == simulator;
+      });
       if (alike.empty()) continue;
       html +=
           scene_table(alike, fmt::format("Balanced accuracy by scene: {}, {}, {}",
@@ -167,69 +171,65 @@ constexpr std::size_t most_failures = 4;  ///< scenes on a card
 constexpr double failure = 0.95;          ///< a card lists scenes of lower balanced accuracy
 
 std::string summary_of(const std::string& estimator) {
-  for (const experiments::EstimatorEntry& entry : experiments::estimator_entries()) {
-    if (entry.name == estimator) return entry.summary;
-  }
-  return "Submitted as beliefs";
+  const auto* const entry = experiments::find_estimator(estimator);
+  return entry == nullptr ? "Submitted as beliefs" : entry->summary;
 }
 
 /// The errors in a scene, of both kinds: missed flight and false flight.
-std::string errors_of(const SceneScore& score) {
-  const double missed = 1.0 - score.no_contact_recall;
-  const double is_contact = 1.0 - score.no_contact_precision;
+std::string errors_of(const TableRow& score) {
+  const double missed = 1.0 - score.number("no_contact_recall");
+  const double is_contact = 1.0 - score.number("no_contact_precision");
   if (std::isnan(missed)) {
     return fmt::format("the scene has no flight, and it reports {:.3g} false takeoffs per minute",
-                       score.false_takeoffs_per_minute);
+                       score.number("false_takeoffs_per_minute"));
   }
   std::string text = fmt::format("misses {:.0f} % of the time in the air", 100.0 * missed);
   if (std::isnan(is_contact)) return text + " and never reports flight";
   return text + fmt::format("; {:.0f} % of the flight it reports is contact", 100.0 * is_contact);
 }
 
-std::string standing_text(const Standing& standing) {
-  return fmt::format("{:.3f} ({}, {})", standing.mean.estimate, standing.setting, standing.noise);
+std::string standing_text(const TableRow& standing) {
+  return fmt::format("{:.3f} ({}, {})", mean_of(standing), setting_of(standing),
+                     noise_of(standing));
 }
 
-std::string card(const BenchmarkScores& scores, const std::string& estimator,
+std::string card(const BenchmarkTables& tables, const std::string& estimator,
                  const fs::path& run_directory) {
-  const Standing* best = nullptr;
-  const Standing* worst = nullptr;
+  const auto is_its_own = [&](const TableRow& row) { return estimator_of(row) == estimator; };
+  const std::vector<TableRow> standings = where(tables.standings.all(), is_its_own);
+  const TableRow* best = &standings.front();
+  const TableRow* worst = best;
   std::size_t not_worse = 0;
-  std::size_t settings = 0;
   std::string excess;
-  for (const Standing& standing : scores.standings) {
-    if (standing.estimator != estimator) continue;
-    ++settings;
-    if (excess.empty() && !std::isnan(standing.excess_log_loss) &&
-        !experiments::is_upper_bound(estimator)) {
+  for (const TableRow& standing : standings) {
+    const double excess_log_loss = standing.number("excess_log_loss_bits");
+    if (excess.empty() && !std::isnan(excess_log_loss) && !experiments::is_upper_bound(estimator)) {
       excess = fmt::format(
           " Its log loss exceeds that of the best reference upper bound by {:.3f} bits per wheel "
           "and step ({}, {}).",
-          standing.excess_log_loss, standing.setting, standing.noise);
+          excess_log_loss, setting_of(standing), noise_of(standing));
     }
-    not_worse += standing.is_not_significantly_worse ? 1U : 0U;
-    if (best == nullptr || standing.mean.estimate > best->mean.estimate) best = &standing;
-    if (worst == nullptr || standing.mean.estimate < worst->mean.estimate) worst = &standing;
+    not_worse += standing.text("is_not_significantly_worse") == "1" ? 1U : 0U;
+    if (mean_of(standing) > mean_of(*best)) best = &standing;
+    if (mean_of(standing) < mean_of(*worst)) worst = &standing;
   }
-  std::vector<const SceneScore*> failures;
-  for (const SceneScore& score : scores.scenes) {
-    if (score.estimator == estimator && score.accuracy.estimate < failure) {
-      failures.push_back(&score);
-    }
-  }
-  std::stable_sort(failures.begin(), failures.end(), [](const auto* one, const auto* other) {
-    return one->accuracy.estimate < other->accuracy.estimate;
+  std::vector<TableRow> failures = where(tables.scenes.all(), [&](const TableRow& score) {
+    return is_its_own(score) && accuracy_of(score) < failure;
+  });
+  std::stable_sort(failures.begin(), failures.end(), [](const auto& one, const auto& other) {
+    return accuracy_of(one) < accuracy_of(other);
   });
   std::string items;
   std::vector<std::string> listed;
-  for (const SceneScore* score : failures) {
+  for (const TableRow& score : failures) {
+    const std::string scene = score.text("scene");
     if (listed.size() == most_failures) break;
-    if (std::find(listed.begin(), listed.end(), score->scene) != listed.end()) continue;
-    listed.push_back(score->scene);
-    items += fmt::format("<li><b>{}</b> {:.3f}: {} ({}, {}, {})</li>\n", escaped(score->scene),
-                         score->accuracy.estimate, errors_of(*score),
-                         escaped(simulators::simulator_title(score->simulator)),
-                         escaped(score->setting), escaped(score->noise));
+    if (std::find(listed.begin(), listed.end(), scene) != listed.end()) continue;
+    listed.push_back(scene);
+    items += fmt::format("<li><b>{}</b> {:.3f}: {} ({}, {}, {})</li>\n", escaped(scene),
+                         accuracy_of(score), errors_of(score),
+                         escaped(simulators::simulator_title(score.text("simulator"))),
+                         escaped(setting_of(score)), escaped(noise_of(score)));
   }
   const fs::path film = run_directory / "videos" / fmt::format("worst_{}.mp4", estimator);
   const std::string film_html =
@@ -245,7 +245,8 @@ std::string card(const BenchmarkScores& scores, const std::string& estimator,
       "<article class=\"card\">\n<h3>{}</h3>\n<p>{}. Not significantly worse than the best in {} "
       "of {} settings. Mean balanced accuracy: {} to {}.{}</p>\n{}{}</article>\n",
       escaped(experiments::estimator_title(estimator)), escaped(summary_of(estimator)), not_worse,
-      settings, escaped(standing_text(*worst)), escaped(standing_text(*best)), escaped(excess),
+      standings.size(), escaped(standing_text(*worst)), escaped(standing_text(*best)),
+      escaped(excess),
       items.empty() ? fmt::format("<p>At least {:.2f} in every scene.</p>\n", failure)
                     : "<ul>\n" + items + "</ul>\n",
       film_html);
@@ -253,19 +254,19 @@ std::string card(const BenchmarkScores& scores, const std::string& estimator,
 
 /// A card for each estimator: a summary, its best and worst mean, and the scenes in which it fails,
 /// with its errors there. A card shows `videos/worst_<estimator>.mp4` if the run directory has it.
-std::string cards_html(const BenchmarkScores& scores, const fs::path& run_directory) {
+std::string cards_html(const BenchmarkTables& tables, const fs::path& run_directory) {
   std::string html = "<div class=\"cards\">\n";
-  for (const std::string& estimator :
-       unique(scores.standings, [](const Standing& standing) { return standing.estimator; })) {
+  for (const std::string& estimator : unique(tables.standings.all(), estimator_of)) {
     if (estimator == experiments::always_contact_name) continue;
-    html += card(scores, estimator, run_directory);
+    html += card(tables, estimator, run_directory);
   }
   return html + "</div>\n";
 }
 
-std::string header_of(const ReportSubject& subject, const BenchmarkScores& scores) {
-  const auto fact = [](const char* name, const auto& rows, const auto& of) {
-    return fact_html(name, std::to_string(unique(rows, of).size()));
+std::string header_of(const ReportSubject& subject, const BenchmarkTables& tables) {
+  const auto fact = [](const char* name, const Table& table, const char* column) {
+    const auto values = unique(table.all(), [&](const TableRow& row) { return row.text(column); });
+    return fact_html(name, std::to_string(values.size()));
   };
   return fmt::format(
              "<p class=\"kicker\">Contact estimation on a wheeled biped</p>\n<h1>{}: which "
@@ -274,11 +275,11 @@ std::string header_of(const ReportSubject& subject, const BenchmarkScores& score
              "is the recall of that one. A constant answer scores 0.5 where both occur.</p>\n<dl "
              "class=\"facts\">\n",
              escaped(subject.experiment.name)) +
-         fact("estimators", scores.standings, [](const Standing& s) { return s.estimator; }) +
-         fact("scenes", scores.scenes, [](const SceneScore& s) { return s.scene; }) +
-         fact("robots", scores.standings, [](const Standing& s) { return s.robot; }) +
-         fact("sensor profiles", scores.standings, [](const Standing& s) { return s.sensors; }) +
-         fact("noise settings", scores.standings, [](const Standing& s) { return s.noise; }) +
+         fact("estimators", tables.standings, "estimator") +
+         fact("scenes", tables.scenes, "scene") + fact("robots", tables.standings, "robot") +
+         fact("sensor profiles", tables.standings, "sensors") +
+         fact_html("noise settings",
+                   std::to_string(unique(tables.standings.all(), noise_of).size())) +
          fact_html("physics engines", std::to_string(subject.experiment.simulators.size())) +
          fmt::format(
              "</dl>\n<p class=\"note\">{} {} runs per scene and engine. All numbers of "
@@ -292,7 +293,7 @@ std::string header_of(const ReportSubject& subject, const BenchmarkScores& score
 }
 
 /// The figure of one robot with its sensors; empty when it was not drawn.
-std::string figure_html(const fs::path& run_directory, const Standing& standing) {
+std::string figure_html(const fs::path& run_directory, const TableRow& standing) {
   const fs::path stem = standings_stem(run_directory, standing);
   const fs::path svg = stem.string() + ".svg";
   const fs::path script = stem.string() + ".gp";
@@ -307,31 +308,32 @@ std::string figure_html(const fs::path& run_directory, const Standing& standing)
 }  // namespace
 
 fs::path write_benchmark_page(const ReportSubject& subject) {
-  const BenchmarkScores scores = benchmark_scores(subject.directory);
+  const BenchmarkTables tables = benchmark_tables(subject.directory);
+  const std::vector<TableRow> all = tables.standings.all();
   std::string standings;
   std::string scenes =
       "<p>Cells show balanced accuracy: the best of each column is bold, and darker cells are "
       "worse. A star marks scenes that are unlike all training scenes. Click a heading to sort; "
       "point at a cell for more numbers.</p>\n";
   std::string last;
-  for (const Standing& standing : scores.standings) {
-    if (standing.setting == last) continue;
+  for (const TableRow& standing : all) {
+    if (setting_of(standing) == last) continue;
     const char* open = last.empty() ? " open" : "";
-    last = standing.setting;
+    last = setting_of(standing);
     const auto folded = [&](const std::string& html) {
       return html.empty() ? html
                           : fmt::format("<details{}><summary>{}</summary>\n{}</details>\n", open,
                                         escaped(last), html);
     };
     standings += folded(figure_html(subject.directory, standing));
-    scenes += folded(scenes_html(scores, last, subject.experiment.simulators));
+    scenes += folded(scenes_html(tables.scenes.all(), last, subject.experiment.simulators));
   }
   fs::path path = experiments::record_file(subject.directory, "benchmark.html");
-  write_page(subject, path, header_of(subject, scores),
+  write_page(subject, path, header_of(subject, tables),
              {{"standings", "Ranking", standings},
-              {"matrix", "Robots and sensors", matrix_html(scores)},
+              {"matrix", "Robots and sensors", matrix_html(all)},
               {"scenes", "Scene by scene", scenes},
-              {"cards", "Failures of each estimator", cards_html(scores, subject.directory)}});
+              {"cards", "Failures of each estimator", cards_html(tables, subject.directory)}});
   return path;
 }
 

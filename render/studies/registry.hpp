@@ -1,8 +1,14 @@
 #pragma once
 
+#include <filesystem>
+#include <string>
 #include <vector>
 
-#include "render/report/study_pictures.hpp"
+#include "core/table.hpp"
+#include "logs/recording.hpp"
+#include "render/gnuplot/figure.hpp"
+#include "render/report/report.hpp"
+#include "scoring/labels.hpp"
 
 namespace touchdown::render {
 
@@ -21,5 +27,28 @@ StudyPictures cross_simulator_pictures();
 
 /// The torques beside the real robot's.
 StudyPictures moments_pictures();
+
+/// The drop of a run that is drawn, and the definition of flights.
+struct DropOverlay {
+  int drop = 0;                      ///< of each run, from 0; a drop is a flight of both wheels
+  scoring::LabelConfig labels = {};  ///< what counts as contact
+  double minimum_flight = 0.05;      ///< shorter flights are no drops (s)
+  std::string title;
+  std::string caption;  ///< the runs, and what counts as contact
+};
+
+/// Draws one drop as simulated in both engines, aligned at takeoff: height of the base, normal
+/// force, knee and wheel torque of the left leg, vertical acceleration. Files as `draw_figure`.
+/// Errors: `InputError` when a run has no such drop; `Error` as `draw_figure`.
+Figure draw_drop_overlay(const logs::Recording& first, const logs::Recording& second,
+                         const DropOverlay& what, const std::filesystem::path& stem);
+
+/// Draws densities of the simulated |torque| in each engine, with a panel for each joint in each
+/// contact state. Above each panel are the means ± standard deviations of the engines and of the
+/// real robot, which has no density. `moments` and `densities` are a run's tables of that name
+/// (docs/explanation/realism.md); an engine without samples has no curve. Files and errors as
+/// `draw_figure`.
+Figure draw_moments_figure(const Table& moments, const Table& densities,
+                           const std::filesystem::path& stem);
 
 }  // namespace touchdown::render

@@ -22,8 +22,8 @@ constexpr double worst_width = 230.0, words_width = 170.0, gap_y = 84.0;
 
 /// One noise setting.
 struct Panel {
-  std::vector<Standing> standings;
-  std::vector<Standing> upper_bounds = {};  ///< without ranks
+  std::vector<TableRow> standings;
+  std::vector<TableRow> upper_bounds = {};  ///< without ranks
 };
 
 /// The ranks of neighbours that do not differ significantly.
@@ -31,25 +31,34 @@ struct TiedRanks {
   std::size_t first, last;
 };
 
-bool differ_significantly(const BenchmarkScores& scores, const Standing& one,
-                          const Standing& other) {
-  return std::any_of(scores.pairs.begin(), scores.pairs.end(), [&](const PairedBand& pair) {
-    const bool is_this_pair = pair.scene.empty() && pair.setting == one.setting &&
-                              pair.noise == one.noise &&
-                              ((pair.first == one.estimator && pair.second == other.estimator) ||
-                               (pair.second == one.estimator && pair.first == other.estimator));
-    return is_this_pair && (pair.difference.low > 0.0 || pair.difference.high < 0.0);
+std::string title_of(const TableRow& standing) {
+  return experiments::estimator_title(estimator_of(standing));
+}
+
+double worst_of(const TableRow& standing) { return standing.number("worst_balanced_accuracy"); }
+
+bool differ_significantly(const BenchmarkTables& tables, const TableRow& one,
+                          const TableRow& other) {
+  const std::vector<TableRow> pairs = tables.pairs.all();
+  return std::any_of(pairs.begin(), pairs.end(), [&](const TableRow& pair) {
+    const std::string first = pair.text("first"), second = pair.text("second");
+    const bool is_this_pair = pair.text("scene").empty() && setting_of(pair) == setting_of(one) &&
+                              noise_of(pair) == noise_of(one) &&
+                              ((first == estimator_of(one) && second == estimator_of(other)) ||
+                               (second == estimator_of(one) && first == estimator_of(other)));
+    const Interval difference = pair.interval("difference");
+    return is_this_pair && (difference.low > 0.0 || difference.high < 0.0);
   });
 }
 
 /// The maximal groups of two or more neighbours of which no two differ significantly.
-std::vector<TiedRanks> ties(const BenchmarkScores& scores, const std::vector<Standing>& standings) {
+std::vector<TiedRanks> ties(const BenchmarkTables& tables, const std::vector<TableRow>& standings) {
   std::vector<TiedRanks> all;
   for (std::size_t first = 0; first < standings.size(); ++first) {
     std::size_t last = first;
     const auto joins = [&](std::size_t next) {
       for (std::size_t i = first; i < next; ++i) {
-        if (differ_significantly(scores, standings[i], standings[next])) return false;
+        if (differ_significantly(tables, standings[i], standings[next])) return false;
       }
       return true;
     };
@@ -62,21 +71,22 @@ std::vector<TiedRanks> ties(const BenchmarkScores& scores, const std::vector<Sta
 
 /// Blocks (gnuplot's `index`): for every noise setting the standings (mean, low, high, height,
 /// worst, its label) and the bars (position, lower end, upper end).
-std::string data_of(const std::vector<Panel>& panels, const BenchmarkScores& scores) {
+std::string data_of(const std::vector<Panel>& panels, const BenchmarkTables& tables) {
   std::string text = "#mean\tlow\thigh\theight\tworst\twhere\n";
   const auto out = std::back_inserter(text);
   for (const Panel& panel : panels) {
-    const std::vector<Standing>& standings = panel.standings;
+    const std::vector<TableRow>& standings = panel.standings;
     const std::size_t count = standings.size();
     for (std::size_t i = 0; i < count; ++i) {
-      const Standing& standing = standings[i];
-      fmt::format_to(out, "{}\t{}\t{}\t{}\t{}\t\"{:.3f} {}, {}\"\n", number(standing.mean.estimate),
-                     number(standing.mean.low), number(standing.mean.high), count - 1 - i,
-                     number(standing.worst), standing.worst, standing.worst_scene,
-                     simulators::simulator_title(standing.worst_simulator));
+      const TableRow& standing = standings[i];
+      const Interval mean = standing.interval("mean_balanced_accuracy");
+      fmt::format_to(out, "{}\t{}\t{}\t{}\t{}\t\"{:.3f} {}, {}\"\n", number(mean.estimate),
+                     number(mean.low), number(mean.high), count - 1 - i, number(worst_of(standing)),
+                     worst_of(standing), standing.text("worst_scene"),
+                     simulators::simulator_title(standing.text("worst_simulator")));
     }
     text += "\n\n";
-    const std::vector<TiedRanks> all = ties(scores, standings);
+    const std::vector<TiedRanks> all = ties(tables, standings);
     if (all.empty()) text += "NaN\tNaN\tNaN\n";
     for (std::size_t i = 0; i < all.size(); ++i) {
       fmt::format_to(out, "{}\t{}\t{}\n", i, static_cast<double>(count - 1 - all[i].last) - 0.3,
@@ -97,11 +107,11 @@ constexpr std::array<BoundLine, 2> bound_lines = {{{2, "dashed"}, {3, "dotted"}}
 const BoundLine& line_of(std::size_t bound) { return bound_lines[bound % bound_lines.size()]; }
 
 /// A sentence about the lines of the reference upper bounds; empty without any.
-std::string legend_of(const std::vector<Standing>& upper_bounds) {
+std::string legend_of(const std::vector<TableRow>& upper_bounds) {
   std::string text;
   for (std::size_t i = 0; i < upper_bounds.size(); ++i) {
     text += fmt::format("{}{}, {}", i > 0 ? "; " : " Reference upper bounds: ", line_of(i).text,
-                        experiments::estimator_title(upper_bounds[i].estimator));
+                        title_of(upper_bounds[i]));
   }
   return text.empty() ? text : text + ".";
 }
@@ -109,15 +119,14 @@ std::string legend_of(const std::vector<Standing>& upper_bounds) {
 std::string described(const std::vector<Panel>& panels) {
   std::string text = "Mean balanced accuracy, the best first.";
   for (const Panel& panel : panels) {
-    fmt::format_to(std::back_inserter(text), " {}:", panel.standings.front().noise);
-    for (const Standing& bound : panel.upper_bounds) {
+    fmt::format_to(std::back_inserter(text), " {}:", noise_of(panel.standings.front()));
+    for (const TableRow& bound : panel.upper_bounds) {
       fmt::format_to(std::back_inserter(text), " reference upper bound, {}, {:.3f};",
-                     experiments::estimator_title(bound.estimator), bound.mean.estimate);
+                     title_of(bound), mean_of(bound));
     }
-    for (const Standing& standing : panel.standings) {
-      fmt::format_to(std::back_inserter(text), " {} {:.3f} (worst {:.3f}, {});",
-                     experiments::estimator_title(standing.estimator), standing.mean.estimate,
-                     standing.worst, standing.worst_scene);
+    for (const TableRow& standing : panel.standings) {
+      fmt::format_to(std::back_inserter(text), " {} {:.3f} (worst {:.3f}, {});", title_of(standing),
+                     mean_of(standing), worst_of(standing), standing.text("worst_scene"));
     }
   }
   return text;
@@ -126,27 +135,27 @@ std::string described(const std::vector<Panel>& panels) {
 }  // namespace
 
 std::filesystem::path standings_stem(const std::filesystem::path& run_directory,
-                                     const Standing& standing) {
+                                     const TableRow& standing) {
   return run_directory / "figures" /
-         fmt::format("benchmark_{}_{}", standing.robot, standing.sensors);
+         fmt::format("benchmark_{}_{}", standing.text("robot"), standing.text("sensors"));
 }
 
-Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& setting,
+Figure draw_standings_figure(const BenchmarkTables& tables, const std::string& setting,
                              double level, const std::filesystem::path& stem) {
   std::vector<Panel> panels;
   std::string noise;
   double lowest = 0.99;  // an axis from 1 to 1 cannot be drawn
-  for (const Standing& standing : scores.standings) {
-    if (standing.setting != setting) continue;
-    if (panels.empty() || noise != standing.noise) panels.emplace_back();
-    noise = standing.noise;
-    if (experiments::is_upper_bound(standing.estimator)) {
+  for (const TableRow& standing : tables.standings.all()) {
+    if (setting_of(standing) != setting) continue;
+    if (panels.empty() || noise != noise_of(standing)) panels.emplace_back();
+    noise = noise_of(standing);
+    if (experiments::is_upper_bound(estimator_of(standing))) {
       panels.back().upper_bounds.push_back(standing);
       continue;
     }
     panels.back().standings.push_back(standing);
-    lowest = std::fmin(lowest,
-                       std::isnan(standing.mean.low) ? standing.mean.estimate : standing.mean.low);
+    const double low = standing.interval("mean_balanced_accuracy").low;
+    lowest = std::fmin(lowest, std::isnan(low) ? mean_of(standing) : low);
   }
   const double height = row_height * static_cast<double>(panels.front().standings.size());
   const FigureFrame frame(
@@ -162,11 +171,10 @@ Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& s
   const std::string file = gnuplot_file(stem.filename().string() + ".dat");
   std::string commands = "unset key\nset grid noytics\n";
   for (std::size_t p = 0; p < panels.size(); ++p) {
-    const std::vector<Standing>& standings = panels[p].standings;
+    const std::vector<TableRow>& standings = panels[p].standings;
     std::string estimators;
     for (std::size_t i = 0; i < standings.size(); ++i) {
-      estimators += fmt::format("{}{} {}", i > 0 ? ", " : "",
-                                gnuplot_text(experiments::estimator_title(standings[i].estimator)),
+      estimators += fmt::format("{}{} {}", i > 0 ? ", " : "", gnuplot_text(title_of(standings[i])),
                                 standings.size() - 1 - i);
     }
     const double top = 24.0 + static_cast<double>(p) * (height + gap_y);
@@ -174,7 +182,7 @@ Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& s
     for (std::size_t i = 0; i < panels[p].upper_bounds.size(); ++i) {
       commands += fmt::format(
           "set arrow {0} from {1},graph 0 to {1},graph 1 nohead dt {2} lw 1.4 lc rgb '#22262b'\n",
-          i + 1, number(panels[p].upper_bounds[i].mean.estimate), line_of(i).dash_type);
+          i + 1, number(mean_of(panels[p].upper_bounds[i])), line_of(i).dash_type);
     }
     commands += fmt::format(
         "set border 1\nset title {0} offset 0,-0.6\nset yrange [-0.6:{1}]\nset xrange [{2:.2f}:1]\n"
@@ -182,7 +190,7 @@ Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& s
         "set xlabel 'mean balanced accuracy'\n"
         "plot {4} index {5} using 1:4 with points lt 1 pt 7 ps 0.9, \\\n"
         "     '' index {5} using 1:4:2:3 with xerrorbars lt 1 lw 1.6 dt 1 pt 7 ps 0.9\n",
-        gnuplot_text("noise: " + standings.front().noise),
+        gnuplot_text("noise: " + noise_of(standings.front())),
         static_cast<double>(standings.size()) - 0.4, std::floor(20.0 * lowest) / 20.0, estimators,
         file, 2 * p);
     commands += "unset arrow\n";
@@ -202,17 +210,17 @@ Figure draw_standings_figure(const BenchmarkScores& scores, const std::string& s
         file, 2 * p);
     commands += FigureFrame::end_panel();
   }
-  return frame.draw(stem, commands, data_of(panels, scores), described(panels));
+  return frame.draw(stem, commands, data_of(panels, tables), described(panels));
 }
 
 void draw_standings_figures(const std::filesystem::path& run_directory, double level) {
-  const BenchmarkScores scores = benchmark_scores(run_directory);
+  const BenchmarkTables tables = benchmark_tables(run_directory);
   std::string last;
-  for (const Standing& standing : scores.standings) {
+  for (const TableRow& standing : tables.standings.all()) {
     const std::string stem = standings_stem(run_directory, standing).string();
     if (stem == last) continue;
     last = stem;
-    draw_standings_figure(scores, standing.setting, level, stem);
+    draw_standings_figure(tables, setting_of(standing), level, stem);
   }
 }
 

@@ -59,7 +59,7 @@ TEST_F(Mcap, HoldsSignalsAndBeliefsOfEveryStep) {
   EXPECT_EQ(folder_.text("with.mcap"), folder_.text("again.mcap"));
 
   const std::vector<Message> messages = read("with.mcap");
-  const Table beliefs = from_csv(folder_.text("beliefs.csv"));
+  const TextTable beliefs = from_csv(folder_.text("beliefs.csv"));
   ASSERT_EQ(messages.size(), 3000U);
   ASSERT_EQ(beliefs.rows.size(), 1500U);
   EXPECT_GT(std::filesystem::file_size(folder_ / "with.mcap"), 2U << 20U);

@@ -46,7 +46,7 @@ video: {enabled: false}
 
 /// The rows of a benchmark's table of one estimator, without its name.
 std::vector<std::vector<std::string>> rows_of(const fs::path& run, const std::string& estimator) {
-  const Table table = from_csv(read_file(run / "tables/benchmark.csv"));
+  const TextTable table = from_csv(read_file(run / "tables/benchmark.csv"));
   std::vector<std::vector<std::string>> rows;
   for (std::vector<std::string> row : table.rows) {
     if (row.at(5) != estimator) continue;
@@ -238,7 +238,7 @@ TEST_F(Submission, ExportsAreTheSameBytesFromARunAndFromItsExperimentOnAnyThread
   EXPECT_THAT(different_files(folder_ / "signals", folder_ / "one_thread"), IsEmpty());
   const std::string checked = "(cd signals && sha256sum --check --strict --quiet SHA256SUMS) &&";
   EXPECT_EQ(folder_.run("list", checked).exit_code, 0);
-  const Table index = from_csv(folder_.text("signals/index.csv"));
+  const TextTable index = from_csv(folder_.text("signals/index.csv"));
   EXPECT_THAT(index.header, ElementsAre("file", "robot", "sensors", "simulator", "role", "scene",
                                         "run", "noise", "seed", "torque_noise_nm",
                                         "accelerometer_noise_mps2", "steps", "control_period_s"));

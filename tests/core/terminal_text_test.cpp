@@ -33,7 +33,7 @@ TEST(TerminalText, KeepsOtherText) {
 }
 
 TEST(TerminalText, IsInEveryCellOfATable) {
-  const std::string text = to_text({{"na\nme", "n"}, {{"\x1b[2J", "1"}, {"b\r", "2"}}});
+  const std::string text = to_text(TextTable{{"na\nme", "n"}, {{"\x1b[2J", "1"}, {"b\r", "2"}}});
   EXPECT_EQ(text.find('\x1b'), std::string::npos);
   EXPECT_EQ(text.find('\r'), std::string::npos);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4);

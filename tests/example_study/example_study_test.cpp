@@ -11,7 +11,7 @@
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_experiment.hpp"
 #include "experiments/studies/experiment_file.hpp"
-#include "render/report/pictures.hpp"
+#include "render/report/report.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/experiments/studies/study_test.hpp"
 #include "tests/scratch_folder.hpp"
@@ -76,16 +76,16 @@ TEST(ExampleStudy, MeasuresTheSharesOfFlightsThatItsMetricDefines) {
     const ExperimentResult result = run_in(folder, experiment);
     const Table table = result.directory.read_table("prompt_takeoffs.csv");
     ASSERT_EQ(table.rows.size(), 3U);  // two estimators and always contact
-    for (const std::vector<std::string>& row : table.rows) {
-      const std::vector<int> found = delays(result, cell(table, row, "estimator"));
+    for (const TableRow& row : table.all()) {
+      const std::vector<int> found = delays(result, row.text("estimator"));
       ASSERT_GE(found.size(), 6U);
       const auto prompt = std::count_if(found.begin(), found.end(), [&](int delay) {
         return delay >= 0 && delay <= std::lround(1000.0 * within);
       });
-      EXPECT_NEAR(std::stod(cell(table, row, "prompt_share")),
+      EXPECT_NEAR(row.number("prompt_share"),
                   static_cast<double>(prompt) / static_cast<double>(found.size()), 1e-4)
-          << cell(table, row, "estimator") << " within " << within;
-      EXPECT_EQ(cell(table, row, "runs"), "3");
+          << row.text("estimator") << " within " << within;
+      EXPECT_EQ(row.text("runs"), "3");
     }
     EXPECT_THAT(result.studies.back(), HasSubstr("Flights detected soon after takeoff"));
   }

@@ -31,7 +31,7 @@ std::string script_of(const std::vector<std::string>& shown, const ScratchFolder
   for (const std::string& estimator : shown) {
     for (const char* at : {"1", "2"}) text += estimator + "," + at + ",0.75,0.35,0.97\n";
   }
-  const Table table = from_csv(text);
+  const Table table = table_of(from_csv(text));
   experiments::FigureSpec spec{.name = name, .table = name + ".csv"};
   spec.series = experiments::groups_in(table, "estimator", experiments::estimator_title);
   spec.colour_order = estimators;

@@ -67,7 +67,7 @@ TEST_F(TunedExperiment, ChoosesIndependentlyOfTestRuns) {
   EXPECT_NE(text("one", "tables/benchmark.csv"), text("other_seed", "tables/benchmark.csv"));
 
   // The table gives the chosen values, which films use.
-  const Table table = from_csv(chosen);
+  const TextTable table = from_csv(chosen);
   EXPECT_EQ(table.rows.size(), 2U * 6);
   const TunedHyperparameters read = read_chosen(folder_ / "one");
   for (const char* estimator : {"force_kinematics", "support_force"}) {
@@ -99,7 +99,7 @@ TEST_F(TunedExperiment, SharesChoicesWithOtherSensorsUnlessTunedEverywhere) {
   const std::string harsh =
       "benchmark.sensors=[" + std::string(TOUCHDOWN_SOURCE_DIR) + "/noise/profiles/harsh.yaml]";
   const auto fits_in = [&](const std::string& name) {
-    const Table table = from_csv(text(name, "tables/tuning.csv"));
+    const TextTable table = from_csv(text(name, "tables/tuning.csv"));
     std::set<std::string> fits;
     for (const std::vector<std::string>& row : table.rows) fits.insert(cell(table, row, "fit"));
     return fits.size();

@@ -10,13 +10,13 @@ namespace {
 
 using ::testing::ElementsAre;
 
-const Table table = from_csv(
-    "engine,source,height,share\n"
-    "m,truth,0.5,1\n"
-    "m,phase,0.5,0.75\n"
-    "m,truth,0.7,nan\n"
-    "m,phase,0.7,0.5\n"
-    "b,truth,0.5,0.125\n");
+const Table table =
+    table_of(from_csv("engine,source,height,share\n"
+                      "m,truth,0.5,1\n"
+                      "m,phase,0.5,0.75\n"
+                      "m,truth,0.7,nan\n"
+                      "m,phase,0.7,0.5\n"
+                      "b,truth,0.5,0.125\n"));
 
 std::string upper(const std::string& name) { return name == "m" ? "M" : "B"; }
 
@@ -35,19 +35,18 @@ TEST(FigureGroups, AreThoseOfTheRowsThatPassTheFilter) {
   ASSERT_EQ(groups.groups.size(), 2U);
   EXPECT_EQ(groups.groups[0].title, "mtruth");
   EXPECT_EQ(groups.groups[1].title, "mphase");
-  EXPECT_EQ(group_of(groups, table, table.rows[1]), 1U);
-  EXPECT_FALSE(group_of(groups, table, table.rows[4]).has_value());
+  EXPECT_EQ(group_of(groups, TableRow(table, 1)), 1U);
+  EXPECT_FALSE(group_of(groups, TableRow(table, 4)).has_value());
 }
 
-TEST(FigureGroups, WithoutColumnsHoldAllRows) { EXPECT_EQ(group_of({}, table, table.rows[4]), 0U); }
+TEST(FigureGroups, WithoutColumnsHoldAllRows) { EXPECT_EQ(group_of({}, TableRow(table, 4)), 0U); }
 
 TEST(FigureAxis, TransformsValuesAndRaisesThemToItsFloor) {
   const FigureAxis error{
       .column = "share", .title = "error", .factor = -100.0, .offset = 100.0, .floor = 10.0};
-  EXPECT_EQ(drawn_value(error, "0.75"), 25.0);
-  EXPECT_EQ(drawn_value(error, "1"), 10.0);
-  EXPECT_TRUE(std::isnan(drawn_value(error, "nan")));
-  EXPECT_TRUE(std::isnan(drawn_value(error, "")));
+  EXPECT_EQ(drawn_value(error, TableRow(table, 1)), 25.0);
+  EXPECT_EQ(drawn_value(error, TableRow(table, 0)), 10.0);
+  EXPECT_TRUE(std::isnan(drawn_value(error, TableRow(table, 2))));
 }
 
 TEST(FigureText, ListsTheValuesOfEachPanelAndSeries) {

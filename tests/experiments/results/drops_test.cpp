@@ -169,12 +169,6 @@ TEST(DropDetail, TorquesAreTheLeftLegsWithAndWithoutTheStudysNoise) {
   }
 }
 
-TEST(DropDetail, HasSpectraWithoutAnEstimatorThatUsesThem) {
-  const DropDetail detail = Study({"phase"}).detail(synthetic_run(3));
-  EXPECT_EQ(detail.transition_of, "robust");
-  EXPECT_EQ(detail.switch_power, 50.0);
-}
-
 TEST(DropDetail, EndsWithTheRun) {
   RunSignals run = synthetic_run(3, 2700);  // ends in its third flight
   const DropDetail detail = Study({"robust"}).detail(run);
@@ -350,14 +344,6 @@ TEST(DropPosterior, ShowsAChosenTime) {
   study.config.choice.at = 4.0;
   EXPECT_THAT([&] { study.posterior(run); },
               ThrowsMessage<InputError>(HasSubstr("posterior.at: run 3 in mujoco ends after 4 s")));
-}
-
-TEST(DropPosterior, NamesTheExistingDropsIfTheChosenOneIsMissing) {
-  PosteriorStudy study;
-  study.config.choice.drop = 4;
-  EXPECT_THAT([&] { study.posterior(); },
-              ThrowsMessage<InputError>(
-                  HasSubstr("posterior.drop: run 3 in mujoco has 4 drops of both wheels")));
 }
 
 }  // namespace

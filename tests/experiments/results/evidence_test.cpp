@@ -22,23 +22,23 @@ TEST(EvidenceTable, HasEveryCurveOverTheRangeOfItsRows) {
   model.seen[3] = {-0.1F, 2.0F};
   const Table table = evidence_table({{"mujoco", {{"evidence_curves", fitted_model_of(model)}}}});
   std::size_t rows = 0;
-  for (const auto& row : table.rows) {
-    if (cell(table, row, "channel") != "load" || cell(table, row, "scale_ms") != "8") continue;
+  for (const TableRow& row : table.all()) {
+    if (row.text("channel") != "load" || row.text("scale_ms") != "8") continue;
     ++rows;
-    EXPECT_EQ(cell(table, row, "unit"), "N");
-    const double load = std::stod(cell(table, row, "value"));
+    EXPECT_EQ(row.text("unit"), "N");
+    const double load = row.number("value");
     EXPECT_GE(load, -0.513);
     EXPECT_LE(load, 20.001);
     DecisionInputs inputs{};
     inputs[3] = static_cast<float>(load / 5.0 / (1.0 + std::abs(load) / 20.0));
     EvidenceModel alone;
     alone.curve[3] = model.curve[3];
-    EXPECT_NEAR(std::stod(cell(table, row, "evidence_nats")),
-                static_cast<double>(evidence_logit(alone, inputs)), 1e-4);
+    EXPECT_NEAR(row.number("evidence_nats"), static_cast<double>(evidence_logit(alone, inputs)),
+                1e-4);
   }
   EXPECT_EQ(rows, 10U);  // 0, 0.25, … 2 and the lower end
-  EXPECT_EQ(cell(table, table.rows.back(), "channel"), "acceleration_noise");
-  EXPECT_NEAR(std::stod(cell(table, table.rows.back(), "value")), std::exp(2.5), 1e-3);
+  EXPECT_EQ(table.all().back().text("channel"), "acceleration_noise");
+  EXPECT_NEAR(table.all().back().number("value"), std::exp(2.5), 1e-3);
 }
 
 TEST(EvidenceTable, NamesTheSetOfCurves) {
@@ -49,8 +49,8 @@ TEST(EvidenceTable, NamesTheSetOfCurves) {
     const Table table =
         evidence_table({{"bullet", {{"evidence_curves_quiet", fitted_model_of(sets)}}}});
     std::map<std::string, std::set<std::string>> channels;
-    for (const auto& row : table.rows) {
-      channels[cell(table, row, "targets")].insert(cell(table, row, "channel"));
+    for (const TableRow& row : table.all()) {
+      channels[row.text("targets")].insert(row.text("channel"));
     }
     const bool has_with = !sets.usual.servo_curve.empty();
     EXPECT_EQ(channels.contains("with"), has_with);

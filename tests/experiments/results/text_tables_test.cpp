@@ -37,10 +37,10 @@ TEST(Latex, EscapesMarkupAndUsesBooktabs) {
 }
 
 TEST(JsonTable, HasNumbersAsNumbersAndNothingForNan) {
-  const auto json =
-      json_of(Table{{"name", "value", "other"}, {{"a", "0.25", "nan"}, {"1e", "3", ""}}});
+  const Table table{{{"name"}, {"value"}, {"other"}}, {{"a", 0.25, NAN}, {"1", 3, ""}}};
+  const auto json = json_of(table);
   EXPECT_EQ(json.dump(),
-            R"([{"name":"a","value":0.25,"other":null},{"name":"1e","value":3.0,"other":""}])");
+            R"([{"name":"a","value":0.25,"other":null},{"name":"1","value":3.0,"other":""}])");
 }
 
 }  // namespace

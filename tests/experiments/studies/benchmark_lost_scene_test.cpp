@@ -42,25 +42,25 @@ TEST_P(LostScene, IsARowWithoutScoresAndNoPartOfTheMean) {
   int lost = 0;
   double sum = 0.0;
   int scored = 0;
-  for (const std::vector<std::string>& row : table.rows) {
-    const bool is_lost = cell(table, row, "scene") == "lost";
-    EXPECT_EQ(cell(table, row, "failed"), is_lost ? "2" : "0");
-    EXPECT_EQ(cell(table, row, "runs"), "2");
-    EXPECT_EQ(cell(table, row, "balanced_accuracy") == "nan", is_lost);
-    EXPECT_EQ(cell(table, row, "success") == "nan", is_lost);
+  for (const TableRow& row : table.all()) {
+    const bool is_lost = row.text("scene") == "lost";
+    EXPECT_EQ(row.text("failed"), is_lost ? "2" : "0");
+    EXPECT_EQ(row.text("runs"), "2");
+    EXPECT_EQ(row.text("balanced_accuracy") == "nan", is_lost);
+    EXPECT_EQ(row.text("success") == "nan", is_lost);
     lost += is_lost ? 1 : 0;
-    if (is_lost || cell(table, row, "estimator") != "always_contact") continue;
-    sum += std::stod(cell(table, row, "balanced_accuracy"));
+    if (is_lost || row.text("estimator") != "always_contact") continue;
+    sum += row.number("balanced_accuracy");
     ++scored;
   }
   EXPECT_EQ(lost, 2 * 2) << "engines and estimators";
   const Table standings = result.directory.read_table("benchmark_standings.csv");
   ASSERT_EQ(standings.rows.size(), 2U);
-  for (const std::vector<std::string>& row : standings.rows) {
-    EXPECT_EQ(cell(standings, row, "scored_scenes"), "2");
-    EXPECT_EQ(cell(standings, row, "planned_scenes"), "4");
-    if (cell(standings, row, "estimator") != "always_contact") continue;
-    EXPECT_NEAR(std::stod(cell(standings, row, "mean_balanced_accuracy")), sum / scored, 1e-6);
+  for (const TableRow& row : standings.all()) {
+    EXPECT_EQ(row.text("scored_scenes"), "2");
+    EXPECT_EQ(row.text("planned_scenes"), "4");
+    if (row.text("estimator") != "always_contact") continue;
+    EXPECT_NEAR(row.number("mean_balanced_accuracy"), sum / scored, 1e-6);
   }
   EXPECT_THAT(result.studies, Contains(HasSubstr("2 of 4: the others have no scored run")));
   EXPECT_THAT(result.studies,

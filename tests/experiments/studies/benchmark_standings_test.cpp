@@ -238,19 +238,5 @@ TEST(UnseenTable, HasTheMeansOfUnseenScenesOfTheFirstRobot) {
   EXPECT_EQ(unseen_markdown(unseen, experiment_with("robust, hmm", "robust")), header + robust);
 }
 
-TEST(UnseenTable, HasADashForAnEstimatorThatWasNotScored) {
-  const auto unseen =
-      standings_of_unseen({scored_row("kerb", "unseen", "robust", 0.75, 3)}, few_resamples);
-  EXPECT_THAT(unseen_markdown(unseen, experiment_with("robust, phase", "phase")),
-              HasSubstr("| `phase` | – | – |\n"));
-}
-
-TEST(UnseenTable, IsEmptyWithoutUnseenScenes) {
-  const auto unseen =
-      standings_of_unseen({scored_row("stairs", "test", "robust", 0.9, 3)}, few_resamples);
-  EXPECT_TRUE(unseen.empty());
-  EXPECT_EQ(unseen_markdown(unseen, experiment_with("robust", "")), "");
-}
-
 }  // namespace
 }  // namespace touchdown::experiments

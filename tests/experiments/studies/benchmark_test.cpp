@@ -48,7 +48,7 @@ class Benchmark : public ::testing::Test {
                                       "{robots: [models/upkie_actuated.yaml], sensors: "
                                       "[noise/profiles/harsh.yaml]}"),
                        options));
-    table = from_csv(read_file(*folder / "run/tables/benchmark.csv"));
+    table = table_of(from_csv(read_file(*folder / "run/tables/benchmark.csv")));
   }
   static void TearDownTestSuite() {
     delete result;
@@ -64,7 +64,7 @@ ExperimentResult* Benchmark::result = nullptr;
 Table Benchmark::table;
 
 TEST_F(Benchmark, HasARowForEverySceneRobotSensorsNoiseAndEstimator) {
-  EXPECT_THAT(table.header,
+  EXPECT_THAT(texts_of(table).header,
               IsSupersetOf({"simulator", "robot", "sensors", "scene", "split", "estimator",
                             "balanced_accuracy", "balanced_accuracy_low", "balanced_accuracy_high",
                             "no_contact_precision", "no_contact_recall", "flight_f1",
@@ -74,12 +74,12 @@ TEST_F(Benchmark, HasARowForEverySceneRobotSensorsNoiseAndEstimator) {
   // contact.
   ASSERT_EQ(table.rows.size(), 2U * 2 * 2 * 2 * 2);
   std::set<std::string> settings;
-  for (const std::vector<std::string>& row : table.rows) {
-    settings.insert(cell(table, row, "robot") + " " + cell(table, row, "sensors"));
-    const bool is_fitted = cell(table, row, "scene") == "small_step";
-    EXPECT_EQ(cell(table, row, "split"), is_fitted ? "test" : "unseen");
-    EXPECT_EQ(cell(table, row, "runs"), "2");
-    EXPECT_EQ(cell(table, row, "failed"), "0");
+  for (const TableRow& row : table.all()) {
+    settings.insert(row.text("robot") + " " + row.text("sensors"));
+    const bool is_fitted = row.text("scene") == "small_step";
+    EXPECT_EQ(row.text("split"), is_fitted ? "test" : "unseen");
+    EXPECT_EQ(row.text("runs"), "2");
+    EXPECT_EQ(row.text("failed"), "0");
   }
   EXPECT_EQ(settings, (std::set<std::string>{"upkie ideal", "upkie harsh", "upkie_actuated ideal",
                                              "upkie_actuated harsh"}));
@@ -87,15 +87,15 @@ TEST_F(Benchmark, HasARowForEverySceneRobotSensorsNoiseAndEstimator) {
 
 TEST_F(Benchmark, HasScoresForEveryScene) {
   // There are no takeoffs on level ground, so that accuracy is that of contact alone.
-  for (const std::vector<std::string>& row : table.rows) {
-    const bool stands = cell(table, row, "scene") == "stand";
-    EXPECT_EQ(cell(table, row, "takeoffs") == "0", stands);
+  for (const TableRow& row : table.all()) {
+    const bool stands = row.text("scene") == "stand";
+    EXPECT_EQ(row.text("takeoffs") == "0", stands);
     if (stands) {
-      EXPECT_EQ(cell(table, row, "balanced_accuracy"), cell(table, row, "success"));
+      EXPECT_EQ(row.text("balanced_accuracy"), row.text("success"));
     }
-    if (cell(table, row, "estimator") != "always_contact") continue;
-    EXPECT_EQ(cell(table, row, "balanced_accuracy"), stands ? "1.000000" : "0.500000");
-    EXPECT_EQ(cell(table, row, "extra_switches_per_minute"), "0.000000");
+    if (row.text("estimator") != "always_contact") continue;
+    EXPECT_EQ(row.text("balanced_accuracy"), stands ? "1.000000" : "0.500000");
+    EXPECT_EQ(row.text("extra_switches_per_minute"), "0.000000");
   }
 }
 
@@ -110,12 +110,6 @@ TEST_F(Benchmark, FitsToEveryRobotAndItsSensors) {
   EXPECT_NE(density("_upkie_harsh"), density("_upkie_actuated_harsh"));
 }
 
-TEST_F(Benchmark, IsTheRunsOwnTable) {
-  EXPECT_THAT(own_files(*folder / "run"),
-              Contains(std::filesystem::path("tables") / "benchmark.csv"));
-  EXPECT_THAT(result->studies, Contains(HasSubstr("upkie_actuated, sensors harsh")));
-}
-
 TEST(ABenchmark, ScoresTransfersBesideInDomainFits) {
   const ScratchFolder folder;
   Experiment experiment =
@@ -125,8 +119,8 @@ TEST(ABenchmark, ScoresTransfersBesideInDomainFits) {
   const ExperimentResult result = run_in(folder, experiment);
   const Table all = result.directory.read_table("benchmark.csv");
   std::map<std::string, int> fits;
-  for (const std::vector<std::string>& row : all.rows) {
-    if (cell(all, row, "estimator") == "measurement_only") ++fits[cell(all, row, "fitted_on")];
+  for (const TableRow& row : all.all()) {
+    if (row.text("estimator") == "measurement_only") ++fits[row.text("fitted_on")];
   }
   // Two engines, two robots and two scenes; each from its own, from the other robot and engine.
   EXPECT_EQ(fits, (std::map<std::string, int>{{"own", 8},
@@ -139,9 +133,9 @@ TEST(ABenchmark, ScoresTransfersBesideInDomainFits) {
   // A density overlaps fully with itself, and less with another robot's.
   const Table overlap = result.directory.read_table("density_overlap.csv");
   ASSERT_EQ(overlap.rows.size(), 2U * 2 * 2);
-  for (const std::vector<std::string>& row : overlap.rows) {
-    const double contact = std::stod(cell(overlap, row, "contact_overlap"));
-    if (cell(overlap, row, "robot") == cell(overlap, row, "other_robot")) {
+  for (const TableRow& row : overlap.all()) {
+    const double contact = row.number("contact_overlap");
+    if (row.text("robot") == row.text("other_robot")) {
       EXPECT_NEAR(contact, 1.0, 1e-6);
     } else {
       EXPECT_LT(contact, 0.97);
@@ -164,7 +158,7 @@ TEST(ABenchmark, ResamplesFitsAndRunsTogether) {
   int wider = 0;
   for (std::size_t row = 0; row < own.rows.size(); ++row) {
     const auto of = [&](const Table& table, const char* column) {
-      return cell(table, table.rows.at(row), column);
+      return TableRow(table, row).text(column);
     };
     const bool is_fitted = of(own, "estimator") == "measurement_only";
     const bool is_own = of(own, "robot") == "upkie";

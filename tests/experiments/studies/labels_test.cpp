@@ -58,7 +58,7 @@ class LabelSensitivity : public ::testing::Test {
 
 TEST_F(LabelSensitivity, CountsTheSameDecisionsAgainstEveryDefinitionOfTheTruth) {
   const ExperimentResult result = run();
-  const Table table = from_csv(read_file(result.directory.file("tables", "labels.csv")));
+  const TextTable table = from_csv(read_file(result.directory.file("tables", "labels.csv")));
   ASSERT_EQ(table.header[4], "success");
   std::map<std::string, double> success;  // by estimator, threshold, debounce
   for (const auto& row : table.rows) {

@@ -39,7 +39,7 @@ struct LearningCurve : ::testing::Test {
     return run_in(folder, experiment, name);
   }
 
-  Table table(const std::string& name = "run") const {
+  TextTable table(const std::string& name = "run") const {
     return from_csv(read_file(folder / (name + "/tables/learning_curve.csv")));
   }
 
@@ -47,7 +47,7 @@ struct LearningCurve : ::testing::Test {
 };
 
 /// The cells of a column.
-std::vector<std::string> column(const Table& table, const std::string& name) {
+std::vector<std::string> column(const TextTable& table, const std::string& name) {
   std::vector<std::string> cells;
   for (const auto& row : table.rows) cells.push_back(cell(table, row, name));
   return cells;
@@ -68,7 +68,7 @@ TEST_F(LearningCurve, OfAllRunsHasTheScoresOfTheExperimentsOwnFits) {
   const ExperimentResult result =
       run(experiment("estimators: [robust, free_fall, force_kinematics, phase]\n"
                      "learning_curve: {sizes: [4]}\n"));
-  const Table all = table();
+  const TextTable all = table();
   // Three of the four are fitted; two noise settings.
   EXPECT_EQ(column(all, "estimator"),
             (std::vector<std::string>{"robust", "robust", "force_kinematics", "force_kinematics",
@@ -95,7 +95,7 @@ TEST_F(LearningCurve, OfAllSegmentsHasTheScoresOfAnEstimatorThatIsFittedToThem) 
       run(experiment("estimators: [robust, phase]\nlearning_curve: {sizes: [1, 3]}\n",
                      "{scenarios: [" + scene + "], segments: [{scenario: " + scene +
                          ", runs: 3, after: 0.4, length: 2.5}]}"));
-  const Table sizes = table();
+  const TextTable sizes = table();
   ASSERT_EQ(sizes.rows.size(), 8U);
   EXPECT_EQ(cell(sizes, sizes.rows[6], "estimator"), "phase");
   EXPECT_EQ(cell(sizes, sizes.rows[6], "size"), "3");
@@ -130,7 +130,7 @@ TEST_F(LearningCurve, DrawsOtherTrainingSetsOfTheSameSize) {
   run(experiment("estimators: [force_kinematics]\nlearning_curve: {sizes: [1], draws: 4}\n"),
       "four");
   run(experiment("estimators: [force_kinematics]\nlearning_curve: {sizes: [1]}\n"), "one");
-  const Table four = table("four"), one = table("one");
+  const TextTable four = table("four"), one = table("one");
   ASSERT_EQ(four.rows.size(), 2U);
   EXPECT_EQ(cell(four, four.rows[0], "draws"), "4");
   EXPECT_NE(column(four, "balanced_accuracy"), column(one, "balanced_accuracy"));

@@ -174,7 +174,7 @@ TEST(Moments, AreTablesOfAnExperimentWithTheKey) {
   const auto table = [&](const char* name) {
     return from_csv(read_file(folder / "run/tables" / name));
   };
-  const Table moments = table("moments.csv");
+  const TextTable moments = table("moments.csv");
   EXPECT_THAT(moments.header, ::testing::ElementsAre("simulator", "joint", "contact", "mean_nm",
                                                      "sd_nm", "robot_mean_nm", "robot_sd_nm"));
   ASSERT_EQ(moments.rows.size(), 8U);
@@ -182,11 +182,11 @@ TEST(Moments, AreTablesOfAnExperimentWithTheKey) {
   EXPECT_EQ(moments.rows[0][5], "0.358000");
   const double contact = std::stod(moments.rows[0][3]);
   EXPECT_GT(contact, 3.0 * std::stod(moments.rows[2][3]));  // bent knees carry more than they hang
-  const Table distributions = table("torque_distributions.csv");
+  const TextTable distributions = table("torque_distributions.csv");
   ASSERT_EQ(distributions.rows.size(), 8U);
   EXPECT_GE(std::stod(distributions.rows[0][7]), contact);
   // Each density is a density: it sums to 1 over its cells, the first of which is half as wide.
-  const Table densities = table("torque_densities.csv");
+  const TextTable densities = table("torque_densities.csv");
   std::map<std::string, double> sums;
   for (const std::vector<std::string>& row : densities.rows) {
     const double width = cell(densities, row, "torque_nm") == "0.000000" ? 0.005 : 0.01;

@@ -36,14 +36,14 @@ TEST(OperatingPoints, ScoreOtherThresholdsThanTheEstimators) {
   // Engines, estimators, noise settings; its own decision and two times two pairs: none of 0.1.
   ASSERT_EQ(table.rows.size(), 2U * 2U * 2U * 5U);
   std::map<std::string, std::vector<std::string>> own, at_its_own_threshold;
-  for (const std::vector<std::string>& row : table.rows) {
-    const std::string key = row[0] + row[2] + row[4];
-    EXPECT_EQ(cell(table, row, "scenario"), "small_step");
-    if (cell(table, row, "estimator") != "robust") continue;
-    const std::vector<std::string> numbers(row.begin() + 7, row.end());
-    if (cell(table, row, "leave_below").empty()) own[key] = numbers;
-    const bool is_its_own =
-        cell(table, row, "leave_below") == "0.8" && cell(table, row, "return_above") == "0.8";
+  for (const TableRow& row : table.all()) {
+    const std::vector<std::string> cells = row.texts();
+    const std::string key = cells[0] + cells[2] + cells[4];
+    EXPECT_EQ(row.text("scenario"), "small_step");
+    if (row.text("estimator") != "robust") continue;
+    const std::vector<std::string> numbers(cells.begin() + 7, cells.end());
+    if (row.text("leave_below").empty()) own[key] = numbers;
+    const bool is_its_own = row.text("leave_below") == "0.8" && row.text("return_above") == "0.8";
     if (is_its_own) at_its_own_threshold[key] = numbers;
   }
   EXPECT_EQ(own.size(), 4U);
@@ -61,53 +61,47 @@ TEST(OperatingPoints, ScenesHaveEqualWeightsAndTheFrontIsNotDominated) {
   const ExperimentResult result = run_in(folder, experiment);
   const Table rows = result.directory.read_table("operating_points_by_scene.csv");
   const Table means = result.directory.read_table("operating_points.csv");
-  const auto point_of = [](const Table& table, const std::vector<std::string>& row) {
+  const auto point_of = [](const TableRow& row) {
     std::string point;
     for (const char* column : {"torque_noise_nm", "estimator", "leave_below", "return_above"}) {
-      point += cell(table, row, column) + " ";
+      point += row.text(column) + " ";
     }
     return point;
   };
-  const auto value = [](const Table& table, const auto& row, const char* column) {
-    return std::stod(cell(table, row, column));
-  };
   ASSERT_EQ(means.rows.size(), 2U * 2U * 5U);
   ASSERT_EQ(rows.rows.size(), 4 * means.rows.size());  // two scenes in two engines
-  for (const std::vector<std::string>& mean : means.rows) {
+  for (const TableRow& mean : means.all()) {
     double accuracy = 0.0, switches = 0.0, extra = 0.0, flights = 0.0;
     std::vector<double> errors;  // nan where nothing takes off
-    for (const std::vector<std::string>& row : rows.rows) {
-      if (point_of(rows, row) != point_of(means, mean)) continue;
-      accuracy += value(rows, row, "balanced_accuracy") / 4.0;
-      switches += value(rows, row, "extra_switches_per_minute") / 4.0;
-      extra += value(rows, row, "extra_switches");
-      flights += value(rows, row, "flights");
-      const double error = value(rows, row, "takeoff_error_ms");
+    for (const TableRow& row : rows.all()) {
+      if (point_of(row) != point_of(mean)) continue;
+      accuracy += row.number("balanced_accuracy") / 4.0;
+      switches += row.number("extra_switches_per_minute") / 4.0;
+      extra += row.number("extra_switches");
+      flights += row.number("flights");
+      const double error = row.number("takeoff_error_ms");
       if (!std::isnan(error)) errors.push_back(error);
     }
-    EXPECT_NEAR(value(means, mean, "balanced_accuracy"), accuracy, 1e-6);
-    EXPECT_NEAR(value(means, mean, "extra_switches_per_minute"), switches, 1e-6);
-    EXPECT_NEAR(value(means, mean, "extra_switches_per_flight"), extra / flights, 1e-6);
+    EXPECT_NEAR(mean.number("balanced_accuracy"), accuracy, 1e-6);
+    EXPECT_NEAR(mean.number("extra_switches_per_minute"), switches, 1e-6);
+    EXPECT_NEAR(mean.number("extra_switches_per_flight"), extra / flights, 1e-6);
     ASSERT_LE(errors.size(), 2U);
     if (errors.size() == 2) {
-      EXPECT_NEAR(value(means, mean, "takeoff_error_ms"), 0.5 * (errors[0] + errors[1]), 1e-6);
+      EXPECT_NEAR(mean.number("takeoff_error_ms"), 0.5 * (errors[0] + errors[1]), 1e-6);
     }
     bool is_dominated = false;
-    for (const std::vector<std::string>& other : means.rows) {
-      const bool is_rival =
-          cell(means, other, "estimator") == cell(means, mean, "estimator") &&
-          cell(means, other, "torque_noise_nm") == cell(means, mean, "torque_noise_nm") &&
-          !cell(means, other, "leave_below").empty();
-      const double gain =
-          value(means, other, "balanced_accuracy") - value(means, mean, "balanced_accuracy");
-      const double fewer = value(means, mean, "extra_switches_per_minute") -
-                           value(means, other, "extra_switches_per_minute");
+    for (const TableRow& other : means.all()) {
+      const bool is_rival = other.text("estimator") == mean.text("estimator") &&
+                            other.text("torque_noise_nm") == mean.text("torque_noise_nm") &&
+                            !other.text("leave_below").empty();
+      const double gain = other.number("balanced_accuracy") - mean.number("balanced_accuracy");
+      const double fewer =
+          mean.number("extra_switches_per_minute") - other.number("extra_switches_per_minute");
       is_dominated =
           is_dominated || (is_rival && gain >= 0.0 && fewer >= 0.0 && gain + fewer > 0.0);
     }
-    const bool is_own = cell(means, mean, "leave_below").empty();
-    EXPECT_EQ(cell(means, mean, "on_front"), !is_own && !is_dominated ? "1" : "0")
-        << point_of(means, mean);
+    const bool is_own = mean.text("leave_below").empty();
+    EXPECT_EQ(mean.text("on_front"), !is_own && !is_dominated ? "1" : "0") << point_of(mean);
   }
   ASSERT_EQ(result.figures.size(), 1U);
   const FigureSpec& figure = result.figures.front();
@@ -118,12 +112,6 @@ TEST(OperatingPoints, ScenesHaveEqualWeightsAndTheFrontIsNotDominated) {
   EXPECT_EQ(figure.colour_order, experiment.estimators);
   EXPECT_THAT(figure.caption, HasSubstr("normal force > 1 N"));
   EXPECT_THAT(figure.alt, HasSubstr("Bayes filter (robust) by its own decision"));
-}
-
-TEST(OperatingPoints, AreTheSameInShards) {
-  const ScratchFolder folder;
-  expect_same_in_shards(folder, with_operating_points(folder, points_section), 2,
-                        {"tables/operating_points.csv", "tables/operating_points_by_scene.csv"});
 }
 
 }  // namespace

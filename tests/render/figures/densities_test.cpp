@@ -55,16 +55,6 @@ TEST(GridWindow, HoldsBothDensitiesAndIgnoresOneThatVanishes) {
   EXPECT_EQ(axes_of(grids).knee_high, 4.0);
 }
 
-TEST(ContactProbability, IsOneHalfWithoutDensity) {
-  LikelihoodGrids grids = model();
-  grids.contact[0] = grids.no_contact[0] = 0.0;
-  grids.contact[1] = 3.0;
-  grids.no_contact[1] = 1.0;
-  const std::vector<double> probability = contact_probability(grids);
-  EXPECT_EQ(probability[0], 0.5);
-  EXPECT_EQ(probability[1], 0.75);
-}
-
 TEST(DensityFigure, HasItsTextsAndDrawsModelsWithTorquesOutsideTheAxes) {
   const ScratchFolder folder;
   LikelihoodGrids elsewhere = model();

@@ -1,5 +1,3 @@
-#include "render/figures/drop_overlay.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -9,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "render/studies/registry.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {

@@ -75,8 +75,6 @@ TEST_F(FigureFiles, HeatmapCrossesTheMarkedCellsOnly) {
   const std::string data = read_file(folder_ / "heatmap.dat");
   EXPECT_THAT(data, HasSubstr("1.5\t0.5\n2.5\t1.5\n\n1.5\t1.5\n2.5\t0.5\n"));
   EXPECT_EQ(data.find("1.5\t0.5\n"), data.rfind("1.5\t0.5\n"));
-  heatmap.panels[1].marked = {{true}};
-  EXPECT_THROW(draw_heatmap(heatmap, folder_ / "heatmap"), InputError);
 }
 
 /// An unknown cell must stay white, and must not move the cells after it.
@@ -109,15 +107,6 @@ TEST_F(FigureFiles, TextsCannotBreakOutOfTheScript) {
   const Figure figure = draw_heatmap(heatmap, folder_ / "heatmap");
   EXPECT_FALSE(std::filesystem::exists(secret));
   EXPECT_THAT(read_file(figure.svg), HasSubstr("{x}_y^z @a"));
-}
-
-TEST_F(FigureFiles, ScriptsContainTheTexts) {
-  draw_heatmap(error_heatmap(), folder_ / "heatmap");
-  const FigureText text = figure_text(read_file(folder_ / "heatmap.gp"));
-  EXPECT_EQ(text.title, "Error rate");
-  EXPECT_EQ(text.caption, "2 runs");
-  EXPECT_THAT(text.alt, HasSubstr("MuJoCo: 1.00 % in the lower left cell"));
-  EXPECT_EQ(figure_text("plot x\n# Title: not at the beginning\n").title, "");
 }
 
 TEST_F(FigureFiles, DescriptionsCannotBreakOutOfTheirComments) {
@@ -186,14 +175,6 @@ TEST_F(FigureFiles, UnwritableFoldersAreNamed) {
   std::ofstream(folder_ / "file") << "in the way";
   EXPECT_THAT([&] { draw_heatmap(error_heatmap(), folder_ / "file/heatmap"); },
               ThrowsMessage<Error>(HasSubstr("cannot be written")));
-}
-
-TEST_F(FigureFiles, HeatmapsOfTheWrongSizeAreRefused) {
-  Heatmap heatmap = error_heatmap();
-  heatmap.panels[1].value[0].pop_back();
-  EXPECT_THAT([&] { draw_heatmap(heatmap, folder_ / "heatmap"); },
-              ThrowsMessage<InputError>(AllOf(HasSubstr("Bullet"), HasSubstr("2 rows of 3"))));
-  EXPECT_THROW(draw_heatmap(Heatmap{}, folder_ / "heatmap"), InputError);
 }
 
 TEST_F(FigureFiles, ConstantAndUnknownHeatmapsCanBeDrawn) {

@@ -1,9 +1,8 @@
-#include "render/figures/moments_figure.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
+#include "render/studies/registry.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {
@@ -13,16 +12,16 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 Table moments() {
-  return from_csv(
-      "simulator,joint,contact,mean_nm,sd_nm,robot_mean_nm,robot_sd_nm\n"
-      "mujoco,knee,1,0.34,0.25,0.358,0.229\nmujoco,wheel,1,0.11,0.06,0.109,0.062\n"
-      "mujoco,knee,0,0.09,0.06,0.083,0.067\nmujoco,wheel,0,nan,nan,0.012,0.010\n"
-      "bullet,knee,1,0.33,0.24,0.358,0.229\nbullet,wheel,1,0.12,0.07,0.109,0.062\n"
-      "bullet,knee,0,0.08,0.05,0.083,0.067\nbullet,wheel,0,0.011,0.009,0.012,0.010\n");
+  return table_of(
+      from_csv("simulator,joint,contact,mean_nm,sd_nm,robot_mean_nm,robot_sd_nm\n"
+               "mujoco,knee,1,0.34,0.25,0.358,0.229\nmujoco,wheel,1,0.11,0.06,0.109,0.062\n"
+               "mujoco,knee,0,0.09,0.06,0.083,0.067\nmujoco,wheel,0,nan,nan,0.012,0.010\n"
+               "bullet,knee,1,0.33,0.24,0.358,0.229\nbullet,wheel,1,0.12,0.07,0.109,0.062\n"
+               "bullet,knee,0,0.08,0.05,0.083,0.067\nbullet,wheel,0,0.011,0.009,0.012,0.010\n"));
 }
 
 Table densities() {
-  Table table{{"simulator", "joint", "contact", "torque_nm", "density_per_nm"}, {}};
+  TextTable table{{"simulator", "joint", "contact", "torque_nm", "density_per_nm"}, {}};
   for (const char* engine : {"mujoco", "bullet"}) {
     for (const char* joint : {"knee", "wheel"}) {
       for (const char* contact : {"0", "1"}) {
@@ -34,7 +33,7 @@ Table densities() {
       }
     }
   }
-  return table;
+  return table_of(table);
 }
 
 TEST(MomentsFigure, ShowsEveryEngineBesideTheRealRobot) {

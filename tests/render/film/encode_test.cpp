@@ -166,14 +166,6 @@ TEST_F(Picture, MayBeAPartOfALargerOne) {
   EXPECT_LE(largest_difference(part, scratch_.path() / "part.jpg"), 8.0);
 }
 
-TEST_F(Picture, WithoutPixelsIsRefusedByName) {
-  for (const char* name : {"empty.png", "empty.jpg"}) {
-    EXPECT_THAT([&] { write_picture(cv::Mat(0, 0, CV_8UC3), scratch_.path() / name); },
-                ThrowsMessage<Error>(HasSubstr(name)));
-    EXPECT_FALSE(std::filesystem::exists(scratch_.path() / name));
-  }
-}
-
 TEST_F(Picture, InAFileInsteadOfAFolderIsRefusedByName) {
   const std::filesystem::path file = scratch_.write("file", "");
   EXPECT_THAT([&] { write_picture(gradient(4, 4), file / "a.png"); },

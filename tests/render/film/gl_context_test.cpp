@@ -134,11 +134,5 @@ TEST_F(OffScreen, OtherNamesAreRefused) {
               ThrowsMessage<InputError>("TOUCHDOWN_GL=vulkan: expected osmesa or egl"));
 }
 
-TEST_F(OffScreen, PicturesWithoutAPixelAreRefused) {
-  if (!is_installed("libOSMesa.so.8")) GTEST_SKIP() << "no OSMesa (package libosmesa6)";
-  EXPECT_THAT([] { GlContext(0, 8); },
-              ThrowsMessage<Error>(HasSubstr("cannot draw 0x8 pixels off screen")));
-}
-
 }  // namespace
 }  // namespace touchdown::render

@@ -145,17 +145,5 @@ TEST_F(Golden, MissingLinesAreNoticed) {
       compared("latency", draw_latency_figure(without_a_histogram, stem("histogram")))));
 }
 
-/// Text that another library version shifts by half a pixel must pass.
-TEST_F(Golden, HalfAPixelIsForgiven) {
-  const cv::Mat picture =
-      cv::imread(draw_reliability_figure(reliability(), stem("reliability")).png.string());
-  const cv::Mat shift = (cv::Mat_<double>(2, 3) << 1, 0, 0.4, 0, 1, 0.3);
-  cv::Mat moved;
-  cv::warpAffine(picture, moved, shift, picture.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-  const PictureDifference apart = difference(moved, picture);
-  EXPECT_TRUE(same_picture(apart)) << "mean " << apart.mean << ", worst tile " << apart.worst_tile
-                                   << ", similarity " << apart.similarity;
-}
-
 }  // namespace
 }  // namespace touchdown::render

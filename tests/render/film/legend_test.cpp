@@ -67,18 +67,6 @@ TEST(Legend, NamesTheSameCurveOnce) {
   }
 }
 
-/// Rows in which all names fit stay as high as each other.
-TEST(Legend, ShortLegendsLeaveRowsAlike) {
-  const auto left_edge = [](std::size_t curves) {
-    const cv::Mat image =
-        names_of({row_of("a", curves), row_of("b", 0), row_of("c", 0)}, 1280, 220);
-    return image.col(400).clone();  // through the plots, with their grids
-  };
-  const cv::Mat none = left_edge(0);
-  EXPECT_EQ(cv::norm(none, left_edge(1), cv::NORM_INF), 0.0);
-  EXPECT_GT(cv::norm(none, left_edge(8), cv::NORM_INF), 0.0);
-}
-
 /// A strip of many tiles shows what one of a single tile shows, whole and while it grows.
 TEST(StripTiles, ShowTheSamePlots) {
   std::vector<StripRow> rows = {row_of("a", 3), row_of("b", 1)};

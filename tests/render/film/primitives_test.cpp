@@ -108,13 +108,5 @@ TEST(Primitives, MeshesKeepTheirPlace) {
   EXPECT_EQ(mesh_triangles(*model, primitives[0].mesh).size() % 3, 0U);
 }
 
-TEST(Primitives, TheTerrainIsBodyZero) {
-  const auto robot = models::compile_robot_model(
-      upkie_mjcf, {.pieces = {models::Flat{3.0}, models::StairFlight{}}});
-  EXPECT_EQ(body_name(*robot.mj, 0), "world");
-  EXPECT_FALSE(primitives_of(*robot.mj, 0).empty());
-  EXPECT_EQ(body_name(*robot.mj, robot.base_body), "torso");
-}
-
 }  // namespace
 }  // namespace touchdown::render

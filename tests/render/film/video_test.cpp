@@ -186,14 +186,6 @@ TEST_F(Video, FourRunsStandInRowsOfTwo) {
   EXPECT_GT(cv::norm(quarter(0, 0), quarter(1, 0), cv::NORM_INF), 50.0);
 }
 
-TEST_F(Video, MoreThanFourRunsAreRefused) {
-  const VideoSource source{robot_, run_, beliefs_};
-  EXPECT_THAT(([&] {
-                render_video({source, source, source, source, source}, small_, folder_ / "x.mp4");
-              }),
-              ThrowsMessage<InputError>(HasSubstr("at most 4")));
-}
-
 TEST_F(Video, ARobotsLogWithoutGroundTruthCanBeFilmed) {
   logs::Recording log = run_;
   log.truth.clear();

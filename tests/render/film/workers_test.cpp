@@ -42,10 +42,6 @@ TEST(FrameWorkers, DeliverEveryFrameInOrder) {
   }
 }
 
-TEST(FrameWorkers, NothingToPaintIsNoError) {
-  paint_in_order(0, 100, 4, number_painter, [](int, const std::uint8_t*) { FAIL(); });
-}
-
 TEST(FrameWorkers, RepeatAWorkersError) {
   const auto prepare = []() -> PaintFrame { throw Error("no paint left"); };
   EXPECT_THAT([&] { paint_in_order(5, 10, 2, prepare, [](int, const std::uint8_t*) {}); },

@@ -76,12 +76,12 @@ TEST_F(Report, EscapesMarkupInFiles) {
   experiments::write_summary(success, folder_.path());
   folder_.write("tables/other.csv", "a,\"b <i>\"\n<img src=x>,\"1,5\"\n");
   folder_.write("figures/f.png", "not a picture");
-  folder_.write("figures/f.gp", "set title '<img onerror=1>'\n");
+  folder_.write("figures/f.gp", "# Caption: <img onerror=1>\n");
   const std::string html = page();
   EXPECT_THAT(html,
               AllOf(HasSubstr("&lt;b&gt;bold&lt;/b&gt; &amp; &quot;quoted&quot;"),
                     HasSubstr("&lt;script&gt;alert(1)"), HasSubstr("run &lt;x&gt; &amp;&amp; y"),
-                    HasSubstr("alt=\"f: &lt;img onerror=1&gt;.\"")));
+                    HasSubstr("alt=\"f: &lt;img onerror=1&gt;\"")));
   for (const char* markup : {"<b>bold", "<script>alert", "<img src=x", "<img onerror", "<i>"}) {
     EXPECT_THAT(html, Not(HasSubstr(markup)));
   }

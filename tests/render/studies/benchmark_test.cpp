@@ -106,10 +106,10 @@ TEST_F(BenchmarkPage, ListsTheScenesAndErrorsOfEachFailure) {
 
 /// A single run per scene gives no intervals.
 TEST_F(BenchmarkPage, DrawsMeansWithoutIntervalsToo) {
-  BenchmarkScores scores = benchmark_scores(folder_.path());
+  BenchmarkTables tables = benchmark_tables(folder_.path());
   const auto points = [&](const char* name) {
     const Figure figure =
-        draw_standings_figure(scores, scores.standings.front().setting, 0.95, folder_ / name);
+        draw_standings_figure(tables, "upkie, harsh sensors", 0.95, folder_ / name);
     const std::string svg = read_file(figure.svg);
     std::set<std::string> places;  // of dots: two dots at one position count once
     for (std::size_t at = svg.find("#gpPt6"); at != std::string::npos;
@@ -120,7 +120,7 @@ TEST_F(BenchmarkPage, DrawsMeansWithoutIntervalsToo) {
     return places.size();
   };
   EXPECT_EQ(points("with"), 2U * 4U);  // the mean and the worst scene of four
-  for (Standing& standing : scores.standings) standing.mean.low = standing.mean.high = NAN;
+  for (std::vector<Cell>& cells : tables.standings.rows) cells[6] = cells[7] = NAN;
   EXPECT_EQ(points("without"), 2U * 4U);
 }
 
