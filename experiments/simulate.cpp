@@ -63,10 +63,10 @@ FitRunCheck::FitRunCheck(const Experiment& experiment, const Plan& plan,
   });
   for (const std::string& name : experiment.estimators) {
     const EstimatorEntry& entry = estimator_entry(experiment, name);
-    const bool has_other_runs = has_segments && entry.learns_from_segments;
+    const bool has_other_runs = has_segments && entry.fitting.learns_from_segments;
     if (entry.fits() && !has_other_runs) whole_run_estimators_.push_back(name);
-    if (entry.phase) phase_estimators_.push_back(name);
-    if (entry.config) measurement_estimators_.push_back(name);
+    if (entry.fitting.phases) phase_estimators_.push_back(name);
+    if (entry.fitting.torques) measurement_estimators_.push_back(name);
   }
   for (const std::size_t index : needed) {
     const PlannedRun& run = plan.runs[index];

@@ -75,7 +75,7 @@ TEST_F(Fit, OfLabelledLogsEqualsTheFitOfExperiments) {
     const std::vector<const experiments::RunSignals*> signals = {&runs[0], &runs[1]};
     expect_same(*load_model(folder_ / "m.npz").grid,
                 touchdown::experiments::fit(
-                    signals, experiments::estimator_entry(name).config->measurement, {}));
+                    signals, experiments::estimator_entry(name).fitting.torques.value(), {}));
   }
 }
 
@@ -164,8 +164,7 @@ TEST_F(Fit, OfParametersEqualsTheFitOfExperiments) {
     EXPECT_THAT(fit("a.mpack -o m.npz --estimator " + name), HasSubstr("2.700 s of 1 log"));
     const experiments::EstimatorEntry& entry = experiments::estimator_entry(name);
     const Model written = load_model(folder_ / "m.npz");
-    EXPECT_EQ(parameters_of(written.arrays),
-              parameters_of(entry.fit(entry, {.whole = {&run}}).arrays));
+    EXPECT_EQ(parameters_of(written.arrays), parameters_of(entry.fit({.whole = {&run}}).arrays));
     EXPECT_EQ(estimator_of(written), name);
     EXPECT_THAT(text_of_array(written.arrays.at("provenance"), "provenance"),
                 HasSubstr("seed:run: 5:0\n"));

@@ -34,7 +34,7 @@ TEST(FittedModel, GivesTheSameBeliefsAfterReadingItsFile) {
     logs::save_model(fitted, folder / "m.npz");
     const Model read = load_model(folder / "m.npz");
     const auto p_contact_of = [&](const Model& model) {
-      return predict(*entry.make(entry, {.model = &model}), run, noise, {})[0].p_contact;
+      return predict(*entry.make({.model = &model}), run, noise, {})[0].p_contact;
     };
     const std::vector<double> expected = p_contact_of(fitted);
     const std::vector<double> found = p_contact_of(read);
@@ -57,7 +57,7 @@ TEST(FittedModel, IsNeverFittedToReservedSeeds) {
     }
     // A direct call of the entry's fit is refused, too.
     const EstimatorEntry& entry = any_estimator_entry(name);
-    EXPECT_THROW(entry.fit(entry, {.whole = {&reserved}}), InputError) << name;
+    EXPECT_THROW(entry.fit({.whole = {&reserved}}), InputError) << name;
   }
 }
 
