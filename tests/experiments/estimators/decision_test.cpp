@@ -3,29 +3,10 @@
 #include "core/error.hpp"
 #include "experiments/estimators/entries.hpp"
 #include "experiments/signals/run_signals.hpp"
-#include "logs/model_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
-#include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {
 namespace {
-
-TEST(DecisionNetworkEntry, KeepsItsWeightsToTheBitInAFile) {
-  const ScratchFolder folder;
-  const EstimatorEntry entry = decision_network_entry();
-  const RunSignals run = synthetic_run(1'000'000, 1500);
-  const Model fitted = entry.fit({.whole = {&run}});
-  logs::save_model(fitted, folder / "m.npz");
-  const Model read = load_model(folder / "m.npz");
-  EXPECT_EQ(read.arrays, fitted.arrays);
-  EXPECT_EQ(estimator_of(read), "decision_network");
-  const RunSignals other = synthetic_run(3, 1500);
-  const auto p_contact_of = [&](const Model& model) {
-    return predict(*entry.make({.model = &model}), other, noise_run(other, {}), {})[1]
-        .p_contact;
-  };
-  EXPECT_EQ(p_contact_of(read), p_contact_of(fitted));
-}
 
 TEST(DecisionNetworkEntry, LearnsFromSegmentsToo) {
   const EstimatorEntry entry = decision_network_entry();
@@ -36,13 +17,6 @@ TEST(DecisionNetworkEntry, LearnsFromSegmentsToo) {
   const Model fitted = entry.fit({.whole = {&standing}, .segments = {&segment}});
   EXPECT_NE(text_of_array(fitted.arrays.at("provenance"), "provenance").find("segment"),
             std::string::npos);
-}
-
-TEST(DecisionNetworkEntry, StopsOnRequest) {
-  struct Asked {};
-  const EstimatorEntry entry = decision_network_entry();
-  const RunSignals run = synthetic_run(1'000'000, 1500);
-  EXPECT_THROW(entry.fit({.whole = {&run}, .before_density = [] { throw Asked(); }}), Asked);
 }
 
 TEST(DecisionNetworkEntry, RefusesModelsWithoutALayerOrWithOtherFeatures) {

@@ -6,45 +6,16 @@
 #include "estimator/models/parameters.hpp"
 #include "experiments/estimators/entries.hpp"
 #include "experiments/signals/run_signals.hpp"
-#include "logs/model_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
-#include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {
 namespace {
-
-TEST(EvidenceEntries, KeepTheirCurvesToTheBitInAFile) {
-  const ScratchFolder folder;
-  const RunSignals run = synthetic_run(1'000'000, 1500);
-  const RunSignals other = synthetic_run(3, 1500);
-  for (const EstimatorEntry& entry : {evidence_curves_entry(), quiet_evidence_curves_entry()}) {
-    const Model fitted = entry.fit({.whole = {&run}});
-    logs::save_model(fitted, folder / "m.npz");
-    const Model read = load_model(folder / "m.npz");
-    EXPECT_EQ(read.arrays, fitted.arrays);
-    EXPECT_EQ(estimator_of(read), entry.name);
-    EXPECT_EQ(evidence_in(read), evidence_in(fitted));
-    const auto p_contact_of = [&](const Model& model) {
-      return predict(*entry.make({.model = &model}), other, noise_run(other, {}), {})[1]
-          .p_contact;
-    };
-    EXPECT_EQ(p_contact_of(read), p_contact_of(fitted));
-  }
-}
-
-TEST(EvidenceEntries, StopOnRequest) {
-  struct Asked {};
-  const EstimatorEntry entry = evidence_curves_entry();
-  const RunSignals run = synthetic_run(1'000'000, 1500);
-  EXPECT_THROW(entry.fit({.whole = {&run}, .before_density = [] { throw Asked(); }}), Asked);
-}
 
 TEST(EvidenceEntries, AreFittedWithTheChosenSmoothness) {
   const RunSignals run = synthetic_run(1'000'000, 1500);
   const EstimatorEntry entry = evidence_curves_entry();
   const EstimatorEntry other = with_hyperparameters(entry, {{"smoothness", 1e-3}});
-  EXPECT_NE(evidence_in(entry.fit({.whole = {&run}})),
-            evidence_in(other.fit({.whole = {&run}})));
+  EXPECT_NE(evidence_in(entry.fit({.whole = {&run}})), evidence_in(other.fit({.whole = {&run}})));
 }
 
 TEST(EvidenceEntries, RefuseIncompleteModelsAndOtherFeatures) {
