@@ -68,7 +68,7 @@ std::optional<ExperimentResult> run_stages(ExperimentContext& context, Computed&
 }
 
 /// The whole experiment.
-ExperimentResult whole(ExperimentContext context, MissingRun missing) {
+ExperimentResult whole(ExperimentContext& context, MissingRun missing) {
   Computed done(context.plan, context.plan.all_tasks(), missing);
   return *run_stages(context, done);
 }
@@ -103,8 +103,9 @@ ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& 
   Plan plan = whole_plan(request);  // a request that is refused makes no directory
   RunDirectory directory = open_run_directory(request, Access::alone, options);
   remove_partial_files(directory.path());
-  return whole(start(std::move(request), std::move(plan), std::move(directory), options),
-               MissingRun::simulate);
+  ExperimentContext context =
+      start(std::move(request), std::move(plan), std::move(directory), options);
+  return whole(context, MissingRun::simulate);
 }
 
 ShardReport run_shard(const Experiment& experiment, const Shard& shard, const RunOptions& options) {
@@ -139,7 +140,7 @@ ExperimentResult merge_run(const std::filesystem::path& path, const RunOptions& 
   directory.keep(*lock);
   ExperimentContext context = start(std::move(request), std::move(directory), options);
   require_all_shards(context);
-  return whole(std::move(context), MissingRun::refuse);
+  return whole(context, MissingRun::refuse);
 }
 
 }  // namespace touchdown::experiments
