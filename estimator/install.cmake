@@ -21,9 +21,9 @@ set(public
 # The headers of types that these hold by value. They are not for programs and may change.
 set(detail
   bayes/noisy_measurement bayes/recursion
-  decision/feature_extractor decision/leg_features decision/logit_decision decision/repetition force/axle_motion
-  force/wheel_loads neural/forward numerics/axis numerics/exponential numerics/noise_estimate
-  numerics/sliding_dft numerics/summary phase/prepared_model)
+  decision/feature_extractor decision/logit_decision force/wheel_loads neural/forward numerics/axis
+  numerics/exponential numerics/noise_estimate
+  numerics/sliding_dft phase/prepared_model)
 set(include_dir ${CMAKE_INSTALL_INCLUDEDIR}/touchdown)
 target_include_directories(touchdown_estimator PUBLIC
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>

@@ -2,7 +2,9 @@
 #include <atomic>
 #include <map>
 
+#include "core/error.hpp"
 #include "core/program.hpp"
+#include "experiments/results/result_files.hpp"
 #include "experiments/stages.hpp"
 
 namespace touchdown::experiments {
@@ -11,24 +13,23 @@ namespace {
 
 /// Simulates the streamed test runs of these tasks, and evaluates each at once. Returns the number
 /// of tasks that were not saved.
-std::size_t evaluate_streamed(const ExperimentContext& context, const NeededRuns& needed,
-                              const std::vector<std::size_t>& tasks, MissingRun missing,
-                              Computed& done) {
+std::size_t evaluate_streamed(const ExperimentContext& context,
+                              const std::vector<std::size_t>& tasks, Computed& done) {
   const Plan& plan = context.plan;
   const Experiment& experiment = context.request.experiment;
   std::map<std::size_t, std::vector<const Task*>> tasks_of;
   std::set<std::size_t> tests;
   for (const std::size_t t : tasks) {
     const std::size_t index = plan.tasks[t].run;
-    if (!needed.streamed.contains(index)) continue;
+    if (!done.streamed.contains(index)) continue;
     tasks_of[index].push_back(&plan.tasks[t]);
     tests.insert(index);
     done.runs.emplace(index, Rollout{plan.runs[index], {}, {}});
   }
   std::atomic<std::size_t> computed = 0;
   if (tests.empty()) return computed;
-  for_each_rollout(experiment, plan, tests, context.directory, missing, context.should_continue,
-                   [&](std::size_t index, Rollout run) {
+  for_each_rollout(experiment, plan, tests, context.directory, done.missing,
+                   context.should_continue, [&](std::size_t index, Rollout run) {
                      NoiseFreeScores noise_free;
                      for (const Task* task : tasks_of.at(index)) {
                        computed += evaluate_and_save(plan, *task, run, experiment, done.models,
@@ -44,13 +45,54 @@ std::size_t evaluate_streamed(const ExperimentContext& context, const NeededRuns
   return computed;
 }
 
-}  // namespace
-
-void evaluate(const ExperimentContext& context, const NeededRuns& needed,
-              const std::vector<std::size_t>& tasks, MissingRun missing, Computed& done) {
+/// Evaluates these tasks unless they are saved.
+void evaluate_tasks(const ExperimentContext& context, const std::vector<std::size_t>& tasks,
+                    Computed& done) {
   done.tasks += evaluate(context.plan, tasks, done.runs, context.request.experiment, done.models,
                          context.directory.store(), context.should_continue);
-  done.tasks += evaluate_streamed(context, needed, tasks, missing, done);
+  done.tasks += evaluate_streamed(context, tasks, done);
+}
+
+/// Writes and frees the phase models, which are large, of fits that neither tasks nor pictures need
+/// any more.
+void release_phase_models(const ExperimentContext& context, Computed& done) {
+  const Plan& plan = context.plan;
+  if (!plan.model_tasks.empty()) return;
+  const std::vector<std::string>& engines = context.request.experiment.simulators;
+  for (auto& [key, by_estimator] : done.models) {
+    const bool is_own = std::find(engines.begin(), engines.end(), key) != engines.end();
+    const bool is_pictured = is_own && plan.kept_signals != KeptSignals::none;
+    if (is_pictured || done.pending.needs(key)) continue;
+    for (auto& [estimator, model] : by_estimator) {
+      if (!model.phase) continue;
+      if (!done.is_shard) write_model_of(key, estimator, model, context.directory);
+      model.phase.reset();
+      model.arrays.clear();
+    }
+  }
+  release_free_memory();
+}
+
+}  // namespace
+
+void evaluate_ready(ExperimentContext& context, Computed& done) {
+  if (done.streamed.empty()) return;
+  const StageTimer timer(context, "evaluate");
+  evaluate_tasks(context, done.pending.take_ready(done.models), done);
+  release_phase_models(context, done);
+}
+
+void evaluate_rest(ExperimentContext& context, Computed& done) {
+  if (!context.should_continue()) throw Stopped();
+  const StageTimer timer(context, "evaluate");
+  evaluate_tasks(context, done.pending.take_all(), done);
+}
+
+void run_model_tasks(ExperimentContext& context, const Computed& done) {
+  if (!has_model_tasks(context.plan, done.share)) return;
+  const StageTimer timer(context, "model_tasks");
+  run_model_tasks(context.plan, done.share, done.models, context.directory.store(), done.missing,
+                  context.should_continue);
 }
 
 PendingTasks::PendingTasks(const Plan& plan, const TaskRange& tasks) {

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <filesystem>
 #include <string>
 
@@ -44,22 +42,6 @@ ExperimentContext start(RunRequest request, RunDirectory directory, const RunOpt
 /// The same with a plan that was made before the directory.
 ExperimentContext start(RunRequest request, Plan plan, RunDirectory directory,
                         const RunOptions& options);
-
-/// Runs a part of a step and adds its duration to that of the step.
-template <typename Step>
-void timed(ExperimentContext& context, const char* name, const Step& step) {
-  const auto start = std::chrono::steady_clock::now();
-  step();
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  auto& timings = context.provenance.timings;
-  const auto same = std::find_if(timings.begin(), timings.end(),
-                                 [&](const auto& timing) { return timing.first == name; });
-  if (same == timings.end()) {
-    timings.emplace_back(name, elapsed.count());
-  } else {
-    same->second += elapsed.count();
-  }
-}
 
 /// A message for the user who stopped the experiment: how much of it is saved.
 std::string what_is_saved(const ExperimentContext& context);

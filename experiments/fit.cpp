@@ -8,7 +8,6 @@
 #include "experiments/config/experiment.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/training_data.hpp"
-#include "experiments/results/result_files.hpp"
 #include "experiments/stages.hpp"
 
 namespace touchdown::experiments {
@@ -25,59 +24,58 @@ bool is_tested(const std::string& fit, const Rollouts& runs, const Plan& plan) {
   });
 }
 
-/// Simulates the streamed runs of one fit on one engine.
-Rollouts simulate_fit(const ExperimentContext& context, const NeededRuns& needed,
-                      const std::string& engine, const std::string& fit, MissingRun missing) {
+/// Simulates the streamed runs of one fit.
+Rollouts simulate_fit(const ExperimentContext& context, const NeededFit& fit,
+                      const Computed& done) {
   std::set<std::size_t> wanted;
-  for (const std::size_t index : needed.streamed) {
+  for (const std::size_t index : done.streamed) {
     const PlannedRun& run = context.plan.runs[index];
-    if (run.role == RunRole::fit && run.fit == fit && run.simulator == engine) wanted.insert(index);
+    const bool is_wanted =
+        run.role == RunRole::fit && run.fit == fit.name && run.simulator == fit.engine;
+    if (is_wanted) wanted.insert(index);
   }
-  return wanted.empty() ? Rollouts() : hold_rollouts(context, wanted, missing);
+  return wanted.empty() ? Rollouts() : hold_rollouts(context, wanted, done.missing);
 }
 
 }  // namespace
 
-NeededFits needed_fits(const ExperimentContext& context, const NeededRuns& needed_runs,
-                       const Rollouts& runs) {
+std::vector<NeededFit> needed_fits(const ExperimentContext& context, const Computed& done) {
   const Plan& plan = context.plan;
-  const std::set<std::size_t>& streamed = needed_runs.streamed;
-  const bool has_later_tests = std::any_of(streamed.begin(), streamed.end(), [&](std::size_t run) {
-    return plan.runs[run].role == RunRole::test;
-  });
-  NeededFits needed;
-  if (!has_later_tests && !is_any_scored(runs)) return needed;
+  const bool has_later_tests =
+      std::any_of(done.streamed.begin(), done.streamed.end(),
+                  [&](std::size_t run) { return plan.runs[run].role == RunRole::test; });
+  if (!has_later_tests && !is_any_scored(done.runs)) return {};
+  std::set<std::size_t> all = done.streamed;
+  all.insert(done.held.begin(), done.held.end());
   std::set<std::string> engines;
-  std::set<std::size_t> all = streamed;
-  for (const auto& [index, run] : runs) all.insert(index);
-  needed.names = {""};  // the experiment's own fit: others use its tuning
+  std::vector<std::string> names = {""};  // the experiment's own fit: others use its tuning
   for (const std::size_t index : all) {
     const PlannedRun& run = plan.runs[index];
     engines.insert(run.simulator);
     const bool is_new =
-        run.role == RunRole::fit &&
-        std::find(needed.names.begin(), needed.names.end(), run.fit) == needed.names.end();
-    if (is_new) needed.names.push_back(run.fit);
+        run.role == RunRole::fit && std::find(names.begin(), names.end(), run.fit) == names.end();
+    if (is_new) names.push_back(run.fit);
   }
+  std::vector<NeededFit> needed;
   for (const std::string& engine : context.request.experiment.simulators) {
-    // A shard may have runs of one engine only.
-    if (engines.contains(engine)) needed.engines.push_back(engine);
+    if (!engines.contains(engine)) continue;  // a shard may have runs of one engine only
+    for (const std::string& name : names) needed.push_back({engine, name});
   }
   return needed;
 }
 
-void tune_and_fit(const ExperimentContext& context, const NeededRuns& needed,
-                  const std::string& engine, const std::string& fit, MissingRun missing,
-                  Computed& done) {
+void tune_and_fit(ExperimentContext& context, const NeededFit& needed, Computed& done) {
+  const StageTimer timer(context, "fit");
+  const auto& [engine, fit] = needed;
   Experiment experiment = context.request.experiment;
   experiment.simulators = {engine};
-  Rollouts streamed = simulate_fit(context, needed, engine, fit, missing);
+  Rollouts streamed = simulate_fit(context, needed, done);
   const Rollouts& runs = streamed.empty() ? done.runs : streamed;
   RunPointers whole;
   for (const auto& [index, run] : runs) {
     const PlannedRun& plan = run.plan;
-    const bool is_wanted =
-        plan.role == RunRole::fit && plan.fit == fit && plan.group == 0 && plan.simulator == engine;
+    const bool is_wanted = plan.role == RunRole::fit && plan.fit == needed.name &&
+                           plan.group == 0 && plan.simulator == needed.engine;
     if (is_wanted && !run.failed()) whole.push_back(&run.signals);
   }
   const RunPointers segments =
@@ -119,11 +117,16 @@ void tune_and_fit(const ExperimentContext& context, const NeededRuns& needed,
   release_free_memory();
 }
 
-void fit_training_sets(const ExperimentContext& context, const NeededFits& fits, Computed& done) {
+void fit_training_sets(ExperimentContext& context, const std::vector<NeededFit>& fits,
+                       Computed& done) {
   const Plan& plan = context.plan;
-  if (plan.training_sets.empty()) return;
+  if (plan.training_sets.empty() || fits.empty()) return;
+  const StageTimer timer(context, "fit");
   Experiment experiment = context.request.experiment;
-  experiment.simulators = fits.engines;
+  std::erase_if(experiment.simulators, [&](const std::string& engine) {
+    return std::none_of(fits.begin(), fits.end(),
+                        [&](const NeededFit& fit) { return fit.engine == engine; });
+  });
   const TunedHyperparameters chosen = chosen_in(done.trials);
   const TrainingPieces pieces = training_pieces(done.runs, experiment);
   experiment.scoring.skip = pieces.skip;
@@ -143,26 +146,6 @@ void fit_training_sets(const ExperimentContext& context, const NeededFits& fits,
       }
     }
   }
-}
-
-void release_phase_models(const ExperimentContext& context, const PendingTasks& pending,
-                          const TaskRange& tasks, FittedModels& models) {
-  const Plan& plan = context.plan;
-  if (!plan.model_tasks.empty()) return;
-  const std::vector<std::string>& engines = context.request.experiment.simulators;
-  const bool is_shard = tasks.size() < plan.tasks.size();
-  for (auto& [key, by_estimator] : models) {
-    const bool is_own = std::find(engines.begin(), engines.end(), key) != engines.end();
-    const bool is_pictured = is_own && plan.kept_signals != KeptSignals::none;
-    if (is_pictured || pending.needs(key)) continue;
-    for (auto& [estimator, model] : by_estimator) {
-      if (!model.phase) continue;
-      if (!is_shard) write_model_of(key, estimator, model, context.directory);
-      model.phase.reset();
-      model.arrays.clear();
-    }
-  }
-  release_free_memory();
 }
 
 }  // namespace touchdown::experiments

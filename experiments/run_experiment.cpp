@@ -1,7 +1,6 @@
 #include "experiments/run_experiment.hpp"
 
 #include <chrono>
-#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -9,19 +8,10 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/fingerprint.hpp"
-#include "core/program.hpp"
-#include "experiments/evaluation/tuning_table.hpp"
 #include "experiments/needs.hpp"
-#include "experiments/results/long_table.hpp"
-#include "experiments/results/result_files.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "experiments/run_directory/test_seed_log.hpp"
-#include "experiments/signals/reserved_seeds.hpp"
 #include "experiments/stages.hpp"
 #include "experiments/studies/experiment_file.hpp"
-#include "experiments/studies/registry.hpp"
 
 namespace touchdown::experiments {
 
@@ -52,120 +42,35 @@ RunDirectory open_run_directory(const RunRequest& request, Access access,
   return directory;
 }
 
-/// Errors: `Error` with the reasons if no test run can be scored.
-void require_scored_run(const Rollouts& runs) {
-  if (is_any_scored(runs)) return;
-  std::map<std::string, std::string> endings;
-  for (const auto& [index, run] : runs) {
-    if (run.plan.role == RunRole::test) endings[run.plan.file] = run.report.ending;
+/// An experiment on one page. Each stage reads what is saved and computes the rest, so that a
+/// resumed run, a shard and a merge are the same calls. A shard ends when its tasks are evaluated,
+/// without a result. Pictures are drawn from the result (render/report/pictures.hpp). Errors:
+/// `Stopped`, with what is saved; `Error` with the reasons if no test run can be scored.
+std::optional<ExperimentResult> run_stages(ExperimentContext& context, Computed& done) try {
+  simulate(context, done);
+  const std::vector<NeededFit> fits = needed_fits(context, done);
+  for (const NeededFit& fit : fits) {
+    tune_and_fit(context, fit, done);
+    evaluate_ready(context, done);
   }
-  throw Error("no test run stayed upright: there is nothing to score: " + failures_text(endings));
-}
+  fit_training_sets(context, fits, done);
+  evaluate_rest(context, done);
+  run_model_tasks(context, done);
+  if (done.is_shard) return std::nullopt;
 
-/// Scores with intervals, and the studies. Errors: `Stopped`.
-ExperimentResult score(ExperimentContext& context, Computed& done) {
-  const Experiment& experiment = context.request.experiment;
-  const Plan& plan = context.plan;
-  ExperimentResult result{
-      experiment, context.request.id, context.directory, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-  result.models = std::move(done.models);
-  result.cells = plan.groups.front().counted;
-  const auto add = [&](const StudyResult& found) {
-    const auto append = [](auto& all, const auto& more) {
-      all.insert(all.end(), more.begin(), more.end());
-    };
-    append(result.studies, found.texts);
-    append(result.failed_demands, found.failed_demands);
-    append(result.figures, found.figures);
-  };
-  timed(context, "score", [&] {
-    const CollectedCounts counts = collect(plan, plan.runs_in(0), context.directory.store());
-    const scoring::BootstrapConfig& bootstrap = experiment.intervals.bootstrap;
-    result.summaries = summarise(own(counts.counted), result.cells, bootstrap);
-    const std::vector<ConditionScores> scored = own(counts.scored);
-    result.scores = summarise(scored, experiment.highlights, bootstrap);
-    result.differences = differences(scored, experiment.highlights, bootstrap);
-    if (experiment.tuning) {
-      add(summarize_tuning(done.trials, experiment, context.directory));
-    }
-    const Evaluation evaluation{context.request,           plan,   done.runs,
-                                context.directory.store(), counts, result.models};
-    for (const Study* study : requested_studies(experiment)) {
-      add(study->summarize(evaluation, context.directory));
-    }
-  });
-  return result;
-}
-
-/// Logs that a reserved seed was used, and adds a text about it.
-void log_reserved_seed(ExperimentResult& result) {
-  const std::uint64_t seed = result.experiment.seed;
-  if (!is_reserved(seed)) return;
-  const std::filesystem::path log = test_seed_log();
-  const int others = log_evaluation(log, {seed, result.id, build_commit()});
-  result.studies.push_back(fmt::format(
-      "Seed {} is reserved for numbers that are reported once: other configurations or builds "
-      "scored its runs {} times before ({})\n",
-      seed, others, log.string()));
-}
-
-/// An experiment on one page, in two halves. The first: simulate → tune → fit → evaluate → model
-/// tasks. Each stage reads what is saved and computes the rest, so that a resumed run, a shard and
-/// a merge are the same calls. Without streamed runs all tasks are evaluated after the last fit;
-/// with them, tasks are evaluated as soon as their fits are there, so that memory need not hold all
-/// models. Errors: `Stopped`, with what is saved.
-Computed compute(ExperimentContext& context, const TaskRange& tasks, MissingRun missing) try {
-  const NeededRuns needed = needed_runs(context, tasks);
-  Computed done;
-  timed(context, "simulate", [&] { done.runs = hold_rollouts(context, needed.held, missing); });
-  PendingTasks pending(context.plan, tasks);
-  const NeededFits fits = needed_fits(context, needed, done.runs);
-  for (const std::string& engine : fits.engines) {
-    for (const std::string& fit : fits.names) {
-      timed(context, "fit", [&] { tune_and_fit(context, needed, engine, fit, missing, done); });
-      if (needed.streamed.empty()) continue;
-      const std::vector<std::size_t> ready = pending.take_ready(done.models);
-      timed(context, "evaluate", [&] { evaluate(context, needed, ready, missing, done); });
-      release_phase_models(context, pending, tasks, done.models);
-    }
-  }
-  if (!fits.engines.empty()) {
-    timed(context, "fit", [&] { fit_training_sets(context, fits, done); });
-    if (!context.should_continue()) throw Stopped();
-  }
-  const std::vector<std::size_t> left = pending.take_all();
-  timed(context, "evaluate", [&] { evaluate(context, needed, left, missing, done); });
-  if (has_model_tasks(context.plan, tasks)) {
-    timed(context, "model_tasks", [&] {
-      run_model_tasks(context.plan, tasks, done.models, context.directory.store(), missing,
-                      context.should_continue);
-    });
-  }
-  return done;
-} catch (const Stopped&) {
-  throw Stopped(what_is_saved(context));
-}
-
-/// The second half of an experiment: score → studies → tables and models; pictures are drawn from
-/// the result (render/pictures/pictures.hpp). It evaluates no estimator. Errors: `Stopped`, with
-/// what is saved; `Error` with the reasons if no test run can be scored.
-ExperimentResult summarize(ExperimentContext& context, Computed done) try {
   require_scored_run(done.runs);
   ExperimentResult result = score(context, done);
   log_reserved_seed(result);
-  for (auto& [index, run] : done.runs) {
-    if (run.plan.group == 0) result.runs.push_back(std::move(run));
-  }
-  release_free_memory();  // of the studies' tables
-  result.provenance = context.provenance;
-  write_result_files(result);
-  write_results(context.request, context.directory);
-  remove_shard_marks(context.directory.path());
-  remove_partial_files(context.directory.path());
-  write_manifest(result);
+  write_result(context, done, result);
   return result;
 } catch (const Stopped&) {
   throw Stopped(what_is_saved(context));
+}
+
+/// The whole experiment.
+ExperimentResult whole(ExperimentContext& context, MissingRun missing) {
+  Computed done(context.plan, context.plan.all_tasks(), missing);
+  return *run_stages(context, done);
 }
 
 }  // namespace
@@ -200,7 +105,7 @@ ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& 
   remove_partial_files(directory.path());
   ExperimentContext context =
       start(std::move(request), std::move(plan), std::move(directory), options);
-  return summarize(context, compute(context, context.plan.all_tasks(), MissingRun::simulate));
+  return whole(context, MissingRun::simulate);
 }
 
 ShardReport run_shard(const Experiment& experiment, const Shard& shard, const RunOptions& options) {
@@ -215,7 +120,9 @@ ShardReport run_shard(const Experiment& experiment, const Shard& shard, const Ru
   const TaskRange tasks{shard.begin(all), shard.end(all)};
   ShardReport report{context.directory, tasks.size(), 0, {}};
   if (tasks.size() == 0) return report;
-  const Computed done = compute(context, tasks, MissingRun::simulate);
+  Computed done(context.plan, tasks, MissingRun::simulate);
+  done.is_shard = true;
+  (void)run_stages(context, done);
   report.computed = done.tasks;
   for (const auto& [index, run] : done.runs) {
     if (run.failed()) report.failed_runs.push_back(run);
@@ -233,7 +140,7 @@ ExperimentResult merge_run(const std::filesystem::path& path, const RunOptions& 
   directory.keep(*lock);
   ExperimentContext context = start(std::move(request), std::move(directory), options);
   require_all_shards(context);
-  return summarize(context, compute(context, context.plan.all_tasks(), MissingRun::refuse));
+  return whole(context, MissingRun::refuse);
 }
 
 }  // namespace touchdown::experiments

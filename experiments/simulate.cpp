@@ -4,25 +4,38 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/program.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/plan/training_data.hpp"
 #include "experiments/stages.hpp"
 
 namespace touchdown::experiments {
 
-NeededRuns needed_runs(const ExperimentContext& context, const TaskRange& tasks) {
-  const Plan& plan = context.plan;
-  std::set<std::size_t> all = runs_for(plan, tasks);
-  if (has_model_tasks(plan, tasks)) {
+Computed::Computed(const Plan& plan, const TaskRange& of_plan, MissingRun if_missing)
+    : share(of_plan), missing(if_missing), pending(plan, of_plan) {
+  std::set<std::size_t> needed = runs_for(plan, share);
+  if (has_model_tasks(plan, share)) {
     for (std::size_t i = 0; i < plan.runs.size(); ++i) {
-      if (plan.runs[i].role == RunRole::fit && plan.runs[i].fit.empty()) all.insert(i);
+      if (plan.runs[i].role == RunRole::fit && plan.runs[i].fit.empty()) needed.insert(i);
     }
   }
-  NeededRuns needed;
-  for (const std::size_t index : all) {
-    (is_streamed(plan.runs[index], plan) ? needed.streamed : needed.held).insert(index);
+  for (const std::size_t index : needed) {
+    (is_streamed(plan.runs[index], plan) ? streamed : held).insert(index);
   }
-  return needed;
+}
+
+StageTimer::~StageTimer() {
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+  auto& timings = context_.provenance.timings;
+  auto same = std::find_if(timings.begin(), timings.end(),
+                           [&](const auto& timing) { return timing.first == stage_; });
+  if (same == timings.end()) same = timings.insert(same, {stage_, 0.0});
+  same->second += elapsed.count();
+}
+
+void simulate(ExperimentContext& context, Computed& done) {
+  const StageTimer timer(context, "simulate");
+  done.runs = hold_rollouts(context, done.held, done.missing);
 }
 
 void drop_signals(Rollout& run) {
@@ -63,10 +76,10 @@ FitRunCheck::FitRunCheck(const Experiment& experiment, const Plan& plan,
   });
   for (const std::string& name : experiment.estimators) {
     const EstimatorEntry& entry = estimator_entry(experiment, name);
-    const bool has_other_runs = has_segments && entry.learns_from_segments;
+    const bool has_other_runs = has_segments && entry.fitting.learns_from_segments;
     if (entry.fits() && !has_other_runs) whole_run_estimators_.push_back(name);
-    if (entry.phase) phase_estimators_.push_back(name);
-    if (entry.config) measurement_estimators_.push_back(name);
+    if (entry.fitting.phases) phase_estimators_.push_back(name);
+    if (entry.fitting.torques) measurement_estimators_.push_back(name);
   }
   for (const std::size_t index : needed) {
     const PlannedRun& run = plan.runs[index];

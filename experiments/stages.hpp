@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <map>
 #include <mutex>
@@ -16,30 +17,74 @@
 namespace touchdown::experiments {
 
 /// The stages of an experiment; experiments/run_experiment.cpp puts them in order. The sources are
-/// experiments/simulate.cpp, fit.cpp and evaluate.cpp.
+/// experiments/simulate.cpp, fit.cpp, evaluate.cpp and summarize.cpp. Each stage reads what is
+/// saved and computes the rest, so that a resumed run, a shard and a merge are the same calls.
+/// Errors of all stages: `Stopped`.
 
-/// The runs that a share of the tasks needs, as indices in the plan.
-struct NeededRuns {
-  std::set<std::size_t> held;      ///< simulated first; their signals stay in memory
-  std::set<std::size_t> streamed;  ///< simulated when they are needed, then dropped
+/// The tasks that are not evaluated yet, and the fits that they need. Fits are made one after the
+/// other. Tasks can be evaluated as soon as their fits are there; tasks that share a simulation
+/// only together, or it would run twice.
+class PendingTasks {
+ public:
+  PendingTasks(const Plan& plan, const TaskRange& tasks);
+
+  /// Removes and returns the tasks with all their fits among `models`, as indices in the plan.
+  std::vector<std::size_t> take_ready(const FittedModels& models);
+  /// Removes and returns all tasks that are left.
+  std::vector<std::size_t> take_all();
+
+  /// Whether a task that is left needs the fit with this key.
+  [[nodiscard]] bool needs(const std::string& model_key) const;
+
+ private:
+  struct Simulation {
+    std::vector<std::size_t> tasks;
+    std::set<std::string> fits;  ///< keys
+  };
+  std::vector<Simulation> simulations_;
 };
 
-/// What the stages have computed so far.
+/// A share of an experiment's tasks, and what the stages have computed for it so far.
 struct Computed {
-  Rollouts runs;
-  FittedModels models;
-  std::vector<Trial> trials;  ///< of tuning, by fit, then engine
-  std::size_t tasks = 0;      ///< tasks that were not saved already
+  Computed(const Plan& plan, const TaskRange& of_plan, MissingRun if_missing);
+
+  TaskRange share;
+  MissingRun missing;  ///< what to do with simulations and results that are not saved
+  /// The runs that the share needs, as indices in the plan. Those that are held are simulated
+  /// first, and their signals stay in memory. Those that are streamed are simulated when they are
+  /// needed, and only their reports stay.
+  std::set<std::size_t> held = {};
+  std::set<std::size_t> streamed = {};
+  PendingTasks pending;
+  bool is_shard = false;  ///< whether other processes compute the other tasks
+
+  Rollouts runs = {};
+  FittedModels models = {};
+  std::vector<Trial> trials = {};  ///< of tuning, by fit, then engine
+  std::size_t tasks = 0;           ///< tasks that were not saved already
+};
+
+/// Adds the time from its creation to its destruction to the stage of this name.
+class StageTimer {
+ public:
+  StageTimer(ExperimentContext& context, const char* stage) : context_(context), stage_(stage) {}
+  ~StageTimer();
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
+
+ private:
+  ExperimentContext& context_;
+  const char* stage_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 // Simulation
 
-/// The test runs of these tasks and the runs of their fits; also the fitted runs of the
-/// experiment's own models if this share has model tasks.
-NeededRuns needed_runs(const ExperimentContext& context, const TaskRange& tasks);
+/// Simulates the runs that are held, or reads their recordings. Errors: those of `FitRunCheck`.
+void simulate(ExperimentContext& context, Computed& done);
 
-/// Simulates runs, or reads their recordings, and holds their signals. Those for training segments
-/// hold only their segments. Errors: those of `FitRunCheck`; `Stopped`.
+/// Simulates runs and holds their signals. Those for training segments hold only their segments.
+/// Errors: those of `FitRunCheck`.
 Rollouts hold_rollouts(const ExperimentContext& context, const std::set<std::size_t>& wanted,
                        MissingRun missing);
 
@@ -89,59 +134,50 @@ class FitRunCheck {
 
 // Tuning and fits
 
-/// The engines and the names of the fits that the evaluation of these runs needs, both in the order
-/// of the plan; none if no run can be scored.
-struct NeededFits {
-  std::vector<std::string> engines;
-  std::vector<std::string> names;
+/// One fit on one engine; `name` is empty for the experiment's own fit.
+struct NeededFit {
+  std::string engine;
+  std::string name;
 };
-NeededFits needed_fits(const ExperimentContext& context, const NeededRuns& needed,
-                       const Rollouts& runs);
 
-/// Tunes hyperparameters, and makes one fit on one engine, with its refits. A fit without a tuning
-/// of its own uses the choices of the experiment's own fit. Streamed fitted runs are simulated for
-/// it, and only their reports remain.
-void tune_and_fit(const ExperimentContext& context, const NeededRuns& needed,
-                  const std::string& engine, const std::string& fit, MissingRun missing,
-                  Computed& done);
+/// The fits that the evaluation of the share needs, in the order of the plan; none if no run can be
+/// scored.
+std::vector<NeededFit> needed_fits(const ExperimentContext& context, const Computed& done);
+
+/// Tunes hyperparameters, and makes one fit with its refits. A fit without a tuning of its own uses
+/// the choices of the experiment's own fit. Streamed fitted runs are simulated for it.
+void tune_and_fit(ExperimentContext& context, const NeededFit& fit, Computed& done);
 
 /// The fits to the plan's training sets, each with its refits. Errors: `InputError`, with the size
-/// of the set, when one does not suffice for a fit; `Stopped`.
-void fit_training_sets(const ExperimentContext& context, const NeededFits& fits, Computed& done);
+/// of the set, when one does not suffice for a fit.
+void fit_training_sets(ExperimentContext& context, const std::vector<NeededFit>& fits,
+                       Computed& done);
 
 // Evaluation
 
-/// The tasks that are not evaluated yet, and the fits that they need. Fits are made one after the
-/// other. Tasks can be evaluated as soon as their fits are there; tasks that share a simulation
-/// only together, or it would run twice.
-class PendingTasks {
- public:
-  PendingTasks(const Plan& plan, const TaskRange& tasks);
+/// If runs are streamed, evaluates the tasks with fits that are all there, and frees models that no
+/// other task needs, so that memory need not hold all models. Otherwise it leaves all tasks to
+/// `evaluate_rest`, which evaluates more of them in parallel.
+void evaluate_ready(ExperimentContext& context, Computed& done);
 
-  /// Removes and returns the tasks with all their fits among `models`, as indices in the plan.
-  std::vector<std::size_t> take_ready(const FittedModels& models);
-  /// Removes and returns all tasks that are left.
-  std::vector<std::size_t> take_all();
+/// Evaluates the tasks that are left.
+void evaluate_rest(ExperimentContext& context, Computed& done);
 
-  /// Whether a task that is left needs the fit with this key.
-  [[nodiscard]] bool needs(const std::string& model_key) const;
+/// Computes the share's model tasks (`Plan::model_tasks`).
+void run_model_tasks(ExperimentContext& context, const Computed& done);
 
- private:
-  struct Simulation {
-    std::vector<std::size_t> tasks;
-    std::set<std::string> fits;  ///< keys
-  };
-  std::vector<Simulation> simulations_;
-};
+// Results
 
-/// Evaluates these tasks unless they are saved. Streamed test runs are simulated for it, and only
-/// their reports remain.
-void evaluate(const ExperimentContext& context, const NeededRuns& needed,
-              const std::vector<std::size_t>& tasks, MissingRun missing, Computed& done);
+/// Errors: `Error` with the reasons if no test run can be scored.
+void require_scored_run(const Rollouts& runs);
 
-/// Writes and frees the phase models, which are large, of fits that neither tasks nor pictures need
-/// any more.
-void release_phase_models(const ExperimentContext& context, const PendingTasks& pending,
-                          const TaskRange& tasks, FittedModels& models);
+/// Scores with intervals, and the studies.
+ExperimentResult score(ExperimentContext& context, Computed& done);
+
+/// Logs that a reserved seed was used, and adds a text about it.
+void log_reserved_seed(ExperimentResult& result);
+
+/// Writes tables, models and the manifest, which make the run directory complete.
+void write_result(const ExperimentContext& context, Computed& done, ExperimentResult& result);
 
 }  // namespace touchdown::experiments

@@ -89,14 +89,14 @@ bool shapes_densities(const FitFlags& flags) {
 /// Applies the flags for densities to the estimator. Errors: `InputError` for an estimator without
 /// them.
 void shape_densities(experiments::EstimatorEntry& entry, const FitFlags& flags) {
-  if (!entry.config) {
+  if (!entry.fitting.torques) {
     if (!shapes_densities(flags)) return;
     throw InputError(
         fmt::format("fit: --grid, --bandwidth, --bandwidth-floor, --knee-range and "
                     "--wheel-range are not for {}",
                     fmt::format("'{}'", entry.name)));
   }
-  MeasurementFitConfig& fit = entry.config->measurement.fit;
+  MeasurementFitConfig& fit = entry.fitting.torques->fit;
   if (!flags.grid.empty()) {
     fit.knee_count = flags.grid[0];
     fit.wheel_count = flags.grid[1];
@@ -200,10 +200,11 @@ void fit(const FitFlags& flags, const CliSession& session) {
   experiments::EstimatorEntry entry = experiments::estimator_entry(estimator_of(flags));
   const std::vector<experiments::FitLog> logs = logs_of(flags);
   if (!entry.fits()) {
-    throw InputError(fmt::format(
-        "--estimator: '{}' is not fitted{}: expected {}", entry.name,
-        entry.trained_by.empty() ? "" : fmt::format(" ({} trains it)", entry.trained_by),
-        fitted_estimators()));
+    throw InputError(fmt::format("--estimator: '{}' is not fitted{}: expected {}", entry.name,
+                                 entry.fitting.trained_by.empty()
+                                     ? ""
+                                     : fmt::format(" ({} trains it)", entry.fitting.trained_by),
+                                 fitted_estimators()));
   }
   shape_densities(entry, flags);
   experiments::LogFitConfig config = flags.config;
@@ -227,7 +228,7 @@ void fit(const FitFlags& flags, const CliSession& session) {
   }
   print("{}: {}, {:.3f} s of {} {}\n", flags.output, entry.title, report.seconds, logs.size(),
         logs.size() == 1 ? "log" : "logs");
-  show_samples(report, entry.config.has_value());
+  show_samples(report, entry.fitting.torques.has_value());
   print("{:<12} touchdown estimate LOG --model {} --estimator {}\n", "next", flags.output,
         entry.name);
 }

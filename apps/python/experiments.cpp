@@ -87,8 +87,8 @@ experiments::EstimatorEntry entry_of(const py::dict& described) {
   entry.summary = described["summary"].cast<std::string>();
   entry.revision = described["revision"].cast<std::string>();
   entry.sensors = sensors_of(described["sensors"].cast<std::vector<std::string>>(), entry.name);
-  entry.whole_run = [make = shared(described["make"]),
-                     name = entry.name](const experiments::EstimatorSetup& setup) {
+  entry.making.whole_run = [make = shared(described["make"]),
+                            name = entry.name](const experiments::EstimatorSetup& setup) {
     const py::gil_scoped_acquire locked;
     return whole_run_of((*make)(), name, setup.sample_rate);
   };

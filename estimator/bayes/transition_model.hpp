@@ -4,7 +4,6 @@
 
 #include "estimator/numerics/exponential.hpp"
 #include "estimator/numerics/sliding_dft.hpp"
-#include "estimator/numerics/summary.hpp"
 
 namespace touchdown {
 

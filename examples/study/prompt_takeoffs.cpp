@@ -17,7 +17,7 @@ static void describe(Fields& fields, PromptTakeoffs& config, const Experiment& /
 /// The share of both wheels' flights that are predicted at most `within` after takeoff.
 static Share prompt_flights(const MeasuredPrediction& made, double within) {
   const RunSignals& run = made.run.signals;
-  const double period = 1e-6 * static_cast<double>(run.info.control_period_us);
+  const double period = run.period();
   Share share;
   for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
     for (const scoring::Flight& flight : scoring::flights(run.contact[wheel])) {

@@ -10,8 +10,6 @@ namespace touchdown::experiments {
 
 namespace {
 
-using EstimatorPointer = std::unique_ptr<ContactEstimator>;
-
 class AlwaysContact : public ContactEstimator {
  public:
   void reset() noexcept override {}
@@ -25,6 +23,35 @@ class AlwaysContact : public ContactEstimator {
                           .status = SignalStatus::good};
 };
 
+using EstimatorPointer = std::unique_ptr<ContactEstimator>;
+
+EstimatorPointer make_always_contact(const EstimatorEntry& /*entry*/,
+                                     const EstimatorSetup& /*setup*/) {
+  return std::make_unique<AlwaysContact>();
+}
+
+EstimatorPointer make_oracle(const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) {
+  return std::make_unique<Oracle>(setup.truth == nullptr
+                                      ? std::array<scoring::ContactSequence, models::wheel_count>{}
+                                      : *setup.truth,
+                                  setup.sample_rate);
+}
+
+EstimatorPointer make_free_fall(const EstimatorEntry& entry, const EstimatorSetup& setup) {
+  return std::make_unique<FreeFall>(FreeFallConfig{.sample_rate = setup.sample_rate,
+                                                   .low_pass = entry.chosen("low_pass"),
+                                                   .half_way = entry.chosen("half_way")});
+}
+
+EstimatorPointer make_upkie_observer(const EstimatorEntry& entry, const EstimatorSetup& setup) {
+  WheelContactConfig wheel;
+  wheel.liftoff_inertia = entry.chosen("liftoff_inertia");
+  wheel.touchdown_inertia = wheel.liftoff_inertia * entry.chosen("touchdown_ratio");
+  wheel.cutoff = entry.chosen("cutoff");
+  return std::make_unique<UpkieObserver>(
+      UpkieObserverConfig{.wheel = wheel, .time_step = 1.0 / setup.sample_rate});
+}
+
 }  // namespace
 
 EstimatorEntry always_contact_entry() {
@@ -33,8 +60,7 @@ EstimatorEntry always_contact_entry() {
           .summary = "Reports contact at every step, so its accuracy is the share of contact",
           .reason = "reference: the score without any signal",
           .sensors = {},
-          .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& /*setup*/)
-              -> EstimatorPointer { return std::make_unique<AlwaysContact>(); }};
+          .making = {.by_step = make_always_contact}};
 }
 
 void Oracle::reset() noexcept {
@@ -60,19 +86,13 @@ const Belief& Oracle::estimate(const Signals& signals) noexcept {
 }
 
 EstimatorEntry oracle_entry() {
-  return {
-      .name = "oracle",
-      .title = "Oracle",
-      .summary = "Repeats the ground truth, which gives the scores of a perfect estimator",
-      .reason = "reference: the best score",
-      .sensors = {},
-      .needs_truth = true,
-      .make = [](const EstimatorEntry& /*entry*/, const EstimatorSetup& setup) -> EstimatorPointer {
-        return std::make_unique<Oracle>(
-            setup.truth == nullptr ? std::array<scoring::ContactSequence, models::wheel_count>{}
-                                   : *setup.truth,
-            setup.sample_rate);
-      }};
+  return {.name = "oracle",
+          .title = "Oracle",
+          .summary = "Repeats the ground truth, which gives the scores of a perfect estimator",
+          .reason = "reference: the best score",
+          .sensors = {},
+          .knows = {.truth = true},
+          .making = {.by_step = make_oracle}};
 }
 
 EstimatorEntry free_fall_entry() {
@@ -83,11 +103,7 @@ EstimatorEntry free_fall_entry() {
           .sensors = {.acceleration = true},
           .hyperparameters = {between("half_way", FreeFallConfig{}.half_way, -9.0, -1.0),
                               around("low_pass", FreeFallConfig{}.low_pass, 5.0)},
-          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> EstimatorPointer {
-            return std::make_unique<FreeFall>(FreeFallConfig{.sample_rate = setup.sample_rate,
-                                                             .low_pass = entry.chosen("low_pass"),
-                                                             .half_way = entry.chosen("half_way")});
-          }};
+          .making = {.by_step = make_free_fall}};
 }
 
 EstimatorEntry upkie_observer_entry() {
@@ -100,14 +116,7 @@ EstimatorEntry upkie_observer_entry() {
           .hyperparameters = {around("liftoff_inertia", WheelContactConfig{}.liftoff_inertia, 3.0),
                               around("touchdown_ratio", 4.0, 3.5),
                               around("cutoff", WheelContactConfig{}.cutoff, 10.0)},
-          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> EstimatorPointer {
-            WheelContactConfig wheel;
-            wheel.liftoff_inertia = entry.chosen("liftoff_inertia");
-            wheel.touchdown_inertia = wheel.liftoff_inertia * entry.chosen("touchdown_ratio");
-            wheel.cutoff = entry.chosen("cutoff");
-            return std::make_unique<UpkieObserver>(
-                UpkieObserverConfig{.wheel = wheel, .time_step = 1.0 / setup.sample_rate});
-          }};
+          .making = {.by_step = make_upkie_observer}};
 }
 
 }  // namespace touchdown::experiments

@@ -14,8 +14,6 @@ namespace touchdown::experiments {
 
 namespace {
 
-using EstimatorPointer = std::unique_ptr<ContactEstimator>;
-
 Parameters parameters_of(const BoostedTrees& trees) {
   const auto numbers = [](const auto& values) {
     return std::vector<double>(values.begin(), values.end());
@@ -69,7 +67,8 @@ Model fit_boosted_trees(const EstimatorEntry& entry, const FitRuns& runs) {
 }
 
 template <typename Inputs>
-EstimatorPointer make_boosted_trees(const EstimatorEntry& entry, const EstimatorSetup& setup) {
+std::unique_ptr<ContactEstimator> make_boosted_trees(const EstimatorEntry& entry,
+                                                     const EstimatorSetup& setup) {
   const Parameters parameters = touchdown::parameters_of(setup.model->arrays);
   return std::make_unique<BoostedTreesEstimator<Inputs>>(
       trees_of(parameters, Inputs::count),
@@ -96,13 +95,12 @@ EstimatorEntry boosted_entry(const char* name, const char* title, const char* su
                       .joint_velocity = true},
           .knows = knows,
           .is_upper_bound = true,
-          .fit = fit_boosted_trees<Inputs>,
-          .learns_from_segments = true,
           .hyperparameters = {fitted_with(whole_between("trees", BoostingConfig{}.trees, 40, 240)),
                               fitted_with(whole_between("depth", BoostingConfig{}.depth, 3, 8)),
                               between("leave_below", network_point.leave_below, 0.1, 0.95),
                               between("return_above", network_point.return_above, 0.8, 0.995)},
-          .make = make_boosted_trees<Inputs>};
+          .fitting = {.fit = fit_boosted_trees<Inputs>, .learns_from_segments = true},
+          .making = {.by_step = make_boosted_trees<Inputs>}};
 }
 
 }  // namespace

@@ -90,28 +90,28 @@ EstimatorEntry at_quiet_point(EstimatorEntry entry) {
   return entry;
 }
 
-EstimatorEntry shipped_entry(const char* name, const EstimatorEntry& fitted) {
-  EstimatorEntry entry = fitted;
+std::unique_ptr<ContactEstimator> make_shipped(const EstimatorEntry& entry,
+                                               const EstimatorSetup& setup) {
+  const Model model = shipped_model_for(entry, setup);
+  return make_with(model, {.estimator = "evidence_curves",
+                           .sample_rate = setup.sample_rate,
+                           .configuration = model.metadata.value_or(ModelMetadata{}).configuration,
+                           .geometry = setup.legs.value_or(LegGeometry{})});
+}
+
+void require_shipped_serves(const EstimatorEntry& entry, const EstimatorSetup& setup) {
+  (void)shipped_model_for(entry, setup);
+}
+
+EstimatorEntry shipped_entry(const char* name, EstimatorEntry entry) {
   entry.name = name;
   entry.title += ", shipped";
   entry.summary = fmt::format(
       "Runs the shipped model {}, fitted to Upkie on bent and straight legs", shipped_file(name));
   entry.reason += ", without labels";
-  entry.fit = nullptr;
-  entry.learns_from_segments = false;
-  entry.trained_by = "scripts/fit_shipped_model.sh";
   entry.hyperparameters = {};
-  entry.require_served = [](const EstimatorEntry& own, const EstimatorSetup& setup) {
-    (void)shipped_model_for(own, setup);
-  };
-  entry.make = [](const EstimatorEntry& own, const EstimatorSetup& setup) {
-    const Model model = shipped_model_for(own, setup);
-    return make_with(model,
-                     {.estimator = "evidence_curves",
-                      .sample_rate = setup.sample_rate,
-                      .configuration = model.metadata.value_or(ModelMetadata{}).configuration,
-                      .geometry = setup.legs.value_or(LegGeometry{})});
-  };
+  entry.fitting = {.trained_by = "scripts/fit_shipped_model.sh"};
+  entry.making = {.by_step = make_shipped, .require_served = require_shipped_serves};
   return entry;
 }
 
@@ -135,10 +135,9 @@ EstimatorEntry decision_network_entry() {
                   .joint_position = true,
                   .joint_velocity = true},
       .knows = {.geometry = true, .mass = true, .targets = true},
-      .fit = fit_network,
-      .learns_from_segments = true,
       .hyperparameters = and_thresholds({decay()}, network_point),
-      .make = make_of_model};
+      .fitting = {.fit = fit_network, .learns_from_segments = true},
+      .making = {.by_step = make_of_model}};
 }
 
 EstimatorEntry evidence_curves_entry() {
@@ -147,7 +146,7 @@ EstimatorEntry evidence_curves_entry() {
   entry.title = "Evidence curves";
   entry.summary = "Adds up one curve of evidence for each of the wheel's loads and motions";
   entry.reason = "accuracy and transparency";
-  entry.fit = fit_evidence;
+  entry.fitting.fit = fit_evidence;
   entry.hyperparameters = and_thresholds({smoothness()});
   return entry;
 }

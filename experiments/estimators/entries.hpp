@@ -24,11 +24,11 @@ EstimatorEntry phase_entry();
 /// The phase filter without phases, with its inputs, bandwidths and hysteresis.
 EstimatorEntry hmm_entry();
 
-/// The fitted phase model; filters share it.
-std::shared_ptr<const PhaseModel> phase_model(const EstimatorSetup& setup);
-
 /// The phase filter itself, for callers that need the probabilities of phases.
 PhaseFilter phase_filter(const EstimatorEntry& entry, const EstimatorSetup& setup);
+
+/// The transition model of a Bayes filter.
+TransitionConfig transition_of(const EstimatorEntry& entry);
 
 /// The paper's neural measurement network with the shipped weights.
 EstimatorEntry neural_entry();

@@ -8,7 +8,6 @@
 
 #include "core/error.hpp"
 #include "core/yaml.hpp"
-#include "estimator/models/configuration.hpp"
 #include "estimator/models/make_estimator.hpp"
 #include "estimator/numerics/number_text.hpp"
 
@@ -41,13 +40,29 @@ double EstimatorEntry::chosen(std::string_view hyperparameter) const {
   return found->value;
 }
 
+std::unique_ptr<ContactEstimator> EstimatorEntry::make(const EstimatorSetup& setup) const {
+  if (making.by_step != nullptr) return making.by_step(*this, setup);
+  throw InputError(
+      fmt::format("'{}' processes whole runs, and this use needs one step at a time", name));
+}
+
+EstimatorRunner EstimatorEntry::runner(const EstimatorSetup& setup) const {
+  return making.whole_run ? EstimatorRunner(making.whole_run(setup)) : EstimatorRunner(make(setup));
+}
+
 EstimatorEntry with_hyperparameters(EstimatorEntry entry, const HyperparameterValues& values) {
-  if (values.empty()) return entry;
+  FitMethod& fitting = entry.fitting;
   for (Hyperparameter& hyperparameter : entry.hyperparameters) {
-    const auto chosen = values.find(hyperparameter.name);
-    if (chosen != values.end()) hyperparameter.value = chosen->second;
+    const auto& name = hyperparameter.name;
+    const auto chosen = values.find(name);
+    if (chosen == values.end()) continue;
+    const double value = hyperparameter.value = chosen->second;
+    const auto member = entry.configuration.find(name);
+    if (member != entry.configuration.end()) member->second = text_of(value);
+    if (name == "bandwidth_floor") fitting.torques->fit.bandwidth_floor = {value, value};
+    if (name == "torque_bandwidth") fitting.phases->torque_bandwidth = value;
+    if (name == "acceleration_bandwidth") fitting.phases->acceleration_bandwidth = value;
   }
-  if (entry.apply != nullptr) entry.apply(entry);
   return entry;
 }
 
@@ -73,60 +88,44 @@ noise::SensorNoise noise_of(const Sensors& sensors, const noise::SensorNoise& le
           .hip_torque = sensors.hip_torque ? levels.hip_torque : 0.0};
 }
 
-namespace {
-
-/// The members of its configuration that an estimator is made with.
-ConfigurationText configuration_of(const EstimatorEntry& entry, const Model& model) {
-  if (entry.phase) return text_of(*entry.phase);
-  if (entry.config) {
-    ConfigurationText text = text_of(*entry.config);
-    text["noise.is_followed"] = entry.config->measurement.noise.is_followed ? "true" : "false";
-    return text;
-  }
-  ConfigurationText text;
-  const std::optional<ModelMetadata>& metadata = model.metadata;
-  // All operating points of evidence curves share a fit: a model of another one gives all settings
-  // but the thresholds.
-  if (metadata && share_fit(metadata->estimator, entry.name)) text = metadata->configuration;
-  if (metadata && metadata->estimator == entry.name) return text;
-  for (const Hyperparameter& one : entry.hyperparameters) {
-    if (!one.is_fitted_with) text[one.name] = touchdown::text_of(one.value);
-  }
-  return text;
-}
-
-}  // namespace
-
 std::unique_ptr<ContactEstimator> make_of_model(const EstimatorEntry& entry,
                                                 const EstimatorSetup& setup) {
-  return make_with(*setup.model, {.estimator = entry.name,
-                                  .sample_rate = setup.sample_rate,
-                                  .configuration = configuration_of(entry, *setup.model),
-                                  .configured_rate = setup.sample_rate,
-                                  .geometry = setup.legs});
-}
-
-EstimatorRunner runner_of(const EstimatorEntry& entry, const EstimatorSetup& setup) {
-  return entry.whole_run ? EstimatorRunner(entry.whole_run(setup))
-                         : EstimatorRunner(entry.make(entry, setup));
+  ConfigurationText configuration = entry.configuration;
+  const std::optional<ModelMetadata>& metadata = setup.model->metadata;
+  if (metadata && share_fit(metadata->estimator, entry.name)) {
+    configuration.insert(metadata->configuration.begin(), metadata->configuration.end());
+  }
+  // All operating points of evidence curves share a fit: a model of another one gives all settings
+  // but the thresholds.
+  if (!metadata || metadata->estimator != entry.name) {
+    for (const Hyperparameter& one : entry.hyperparameters) {
+      if (!one.is_fitted_with) configuration[one.name] = text_of(one.value);
+    }
+  }
+  return make_with(
+      *setup.model,
+      {.estimator = entry.name,
+       .sample_rate = setup.sample_rate,
+       .configuration = std::move(configuration),
+       .configured_rate = setup.configured_rate > 0.0 ? setup.configured_rate : setup.sample_rate,
+       .geometry = setup.legs});
 }
 
 std::string given_text(const EstimatorEntry& entry, bool servo_load) {
   std::vector<std::string> given;
   if (entry.knows.geometry) given.emplace_back("geometry");
   if (entry.knows.mass) given.emplace_back("mass");
-  if (entry.knows.targets && (servo_load || entry.fit == nullptr)) given.emplace_back("targets");
+  if (entry.knows.targets && (servo_load || !entry.fits())) given.emplace_back("targets");
   if (given.empty()) given.emplace_back("signals");
-  const char* const model = entry.fits()                ? "; fitted"
-                            : !entry.trained_by.empty() ? "; fitted elsewhere"
-                                                        : "";
+  const char* const model = entry.fits()                        ? "; fitted"
+                            : !entry.fitting.trained_by.empty() ? "; fitted elsewhere"
+                                                                : "";
   return fmt::format("{}{}", fmt::join(given, ", "), model);
 }
 
 bool share_model(const EstimatorEntry& one, const EstimatorEntry& other) {
-  if (one.fit == nullptr || one.fit != other.fit) return false;
-  if (one.config) return one.config->measurement == other.config->measurement;
-  return !one.phase || one.phase->fit == other.phase->fit;
+  return one.fits() && one.fitting.fit == other.fitting.fit &&
+         one.fitting.torques == other.fitting.torques && one.fitting.phases == other.fitting.phases;
 }
 
 }  // namespace touchdown::experiments

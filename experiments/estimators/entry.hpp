@@ -34,6 +34,9 @@ struct EstimatorSetup {
   std::string robot = {};
   /// Allows a model at other rates and on other robots than it was fitted for.
   bool transfer = false;
+  /// The entry's `configured_rate`, if windows keep their duration at this sample rate. Zero: they
+  /// keep their number of steps.
+  double configured_rate = 0.0;
 };
 
 /// Sensors with noise that can change an estimator's decisions about the wheels.
@@ -83,9 +86,43 @@ struct RobotKnowledge {
   bool geometry = false;  ///< lengths and masses of its legs
   bool mass = false;      ///< its whole mass
   bool targets = false;   ///< targets and gains of its joints, where a fit uses them
+  bool truth = false;     ///< labels, so that it cannot run on logs without them
 };
 
-/// Everything that an experiment needs to know about an estimator. Most members are optional.
+struct EstimatorEntry;
+
+/// How a model of the estimator is fitted.
+struct FitMethod {
+  /// Null for an estimator that experiments do not fit.
+  Model (*fit)(const EstimatorEntry& entry, const FitRuns& runs) = nullptr;
+  /// Whether it is also fitted to an experiment's training segments, if there are any.
+  bool learns_from_segments = false;
+  /// The program that trained its model, if experiments do not fit it.
+  std::string trained_by = {};
+  /// Settings of the densities that it fits: of torques, or of phases. A model without either
+  /// consists of the estimator's own parameters (experiments/estimators/fits.hpp).
+  std::optional<MeasurementConfig> torques = {};
+  std::optional<PhaseFitConfig> phases = {};
+};
+
+/// How the estimator is made for a run: step by step as on a robot, or for the whole run at once.
+struct MakeMethod {
+  std::unique_ptr<ContactEstimator> (*by_step)(const EstimatorEntry& entry,
+                                               const EstimatorSetup& setup) = nullptr;
+  /// Replaces `by_step`.
+  std::function<WholeRunEstimator(const EstimatorSetup& setup)> whole_run = {};
+  /// Null for an estimator that serves every robot. Errors: `InputError` for a rate or a robot that
+  /// its model does not serve; `by_step` throws the same.
+  void (*require_served)(const EstimatorEntry& entry, const EstimatorSetup& setup) = nullptr;
+};
+
+/// Makes the estimator's batched form, which experiments/batch computes; null without one. Returns
+/// nothing if that does not support such noise.
+using BatchMethod = std::optional<BatchedEstimator> (*)(const EstimatorEntry& entry,
+                                                        const EstimatorSetup& setup,
+                                                        std::span<const noise::SensorNoise> levels);
+
+/// An estimator in experiments: what it is and needs, its settings, and what can be done with it.
 struct EstimatorEntry {
   std::string name;     ///< in experiment files
   std::string title;    ///< for tables and figures
@@ -95,40 +132,29 @@ struct EstimatorEntry {
   RobotKnowledge knows = {};
   /// Whether it is a reference upper bound, not a candidate for a robot.
   bool is_upper_bound = false;
-  /// The configuration of its measurement model, if it needs one.
-  std::optional<BayesFilterConfig> config = {};
-  /// The configuration of its phase model, if it needs one.
-  std::optional<PhaseFilterConfig> phase = {};
-  /// Fits its model; null if it needs none. Without one of the two configurations above, the model
-  /// consists of its own parameters (experiments/estimators/fits.hpp).
-  Model (*fit)(const EstimatorEntry& entry, const FitRuns& runs) = nullptr;
-  /// Whether it is also fitted to an experiment's training segments, if there are any.
-  bool learns_from_segments = false;
-  /// The program that trained its model, if experiments do not fit it.
-  std::string trained_by = {};
-  /// Whether it needs the labels of a run. It cannot run on logs without labels.
-  bool needs_truth = false;
-  /// What tuning can choose; may be empty.
-  std::vector<Hyperparameter> hyperparameters = {};
-  /// Copies the values of hyperparameters into `config` and `phase`.
-  void (*apply)(EstimatorEntry& entry) = nullptr;
-  std::unique_ptr<ContactEstimator> (*make)(const EstimatorEntry& entry,
-                                            const EstimatorSetup& setup) = nullptr;
-  /// Null for an estimator that serves every robot. Errors: `InputError` for a rate or a robot that
-  /// its model does not serve; `make` throws the same.
-  void (*require_served)(const EstimatorEntry& entry, const EstimatorSetup& setup) = nullptr;
-  /// Null for an estimator without a batched form. Returns nothing if that does not support such
-  /// noise.
-  std::optional<BatchedEstimator> (*batch)(const EstimatorEntry& entry, const EstimatorSetup& setup,
-                                           std::span<const noise::SensorNoise> levels) = nullptr;
-  /// Replaces `make` for an estimator that processes a whole run at once.
-  std::function<WholeRunEstimator(const EstimatorSetup& setup)> whole_run = {};
   /// Identifies code outside the program that its results depend on. Results saved with another
   /// revision are not reused.
   std::string revision = {};
+  /// What tuning can choose; may be empty.
+  std::vector<Hyperparameter> hyperparameters = {};
+  /// Its settings, with the keys of a model's metadata. Those that it lacks are the model's, else
+  /// the library's defaults.
+  ConfigurationText configuration = {};
+  double configured_rate = 1000.0;  ///< at which windows in it count steps (Hz)
+
+  FitMethod fitting = {};
+  MakeMethod making = {};
+  BatchMethod batching = nullptr;
 
   /// Whether experiments fit a model of it.
-  bool fits() const { return fit != nullptr; }
+  bool fits() const { return fitting.fit != nullptr; }
+  /// Fits its model, still without metadata.
+  Model fit(const FitRuns& runs) const { return fitting.fit(*this, runs); }
+  /// Makes it step by step. Errors: `InputError` for an estimator that processes whole runs only;
+  /// the errors of its library class.
+  std::unique_ptr<ContactEstimator> make(const EstimatorSetup& setup) const;
+  /// Makes a runner, which processes steps or whole runs.
+  EstimatorRunner runner(const EstimatorSetup& setup) const;
   /// The value of one of its hyperparameters. Errors: `Error` for an unknown name.
   double chosen(std::string_view hyperparameter) const;
 };
@@ -143,9 +169,6 @@ void check_names(const HyperparameterValues& values, const EstimatorEntry& entry
 /// The `make` of an estimator that the library makes of its model.
 std::unique_ptr<ContactEstimator> make_of_model(const EstimatorEntry& entry,
                                                 const EstimatorSetup& setup);
-
-/// Makes a runner for the estimator, which processes steps or whole runs.
-EstimatorRunner runner_of(const EstimatorEntry& entry, const EstimatorSetup& setup);
 
 /// What the estimator is given: "geometry, mass, targets; fitted". `servo_load`: whether fits use
 /// targets; shipped models do in any case. "signals" if it is given nothing else.

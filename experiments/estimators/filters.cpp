@@ -17,14 +17,14 @@ namespace touchdown::experiments {
 
 namespace {
 
-using EstimatorPointer = std::unique_ptr<ContactEstimator>;
-
 using Levels = std::span<const noise::SensorNoise>;
 
-/// An entry's configuration at this sample rate (Hz).
+/// The entry's settings in a struct of the library, at this sample rate (Hz).
 template <typename Config>
-Config at_rate(Config config, double sample_rate) {
+Config configured(const EstimatorEntry& entry, double sample_rate) {
+  Config config;
   config.sample_rate = sample_rate;
+  configure(config, entry.configuration);
   return config;
 }
 
@@ -48,74 +48,34 @@ std::vector<Hyperparameter> bayes_hyperparameters(const BayesFilterConfig& confi
   return hyperparameters;
 }
 
-/// Sets the members of the configuration that hyperparameters are named after, as in the metadata
-/// of models. Those of the fit are no members of it.
-template <typename Config>
-void set_members(Config& config, const EstimatorEntry& entry) {
-  ConfigurationText members;
-  for (const Hyperparameter& one : entry.hyperparameters) {
-    if (!one.is_fitted_with) members[one.name] = touchdown::text_of(one.value);
-  }
-  configure(config, members);
-}
-
-void apply_bayes(EstimatorEntry& entry) {
-  set_members(*entry.config, entry);
-  for (const Hyperparameter& one : entry.hyperparameters) {
-    if (one.name == "bandwidth_floor") {
-      entry.config->measurement.fit.bandwidth_floor = {one.value, one.value};
-    }
-  }
-}
-
-void apply_phase(EstimatorEntry& entry) {
-  set_members(*entry.phase, entry);
-  entry.phase->fit.torque_bandwidth = entry.chosen("torque_bandwidth");
-  entry.phase->fit.acceleration_bandwidth = entry.chosen("acceleration_bandwidth");
-}
-
 template <typename Batch>
-std::shared_ptr<Batch> measurement_batch(const EstimatorEntry& entry, const EstimatorSetup& setup,
-                                         Levels levels) {
-  return std::make_shared<Batch>(*setup.model->grid, at_rate(*entry.config, setup.sample_rate),
-                                 batch_noise(levels));
-}
-
-template <typename Batch>
-auto update_of(const std::shared_ptr<Batch>& batch) {
-  return [batch](const Signals& clean, const NoiseStep& draws) { batch->update(clean, draws); };
-}
-
-std::optional<BatchedEstimator> bayes_batch(const EstimatorEntry& entry,
-                                            const EstimatorSetup& setup, Levels levels) {
-  const auto batch = measurement_batch<BatchedBayesFilter>(entry, setup, levels);
-  return BatchedEstimator{update_of(batch), [batch](Side side) { return batch->p_contact(side); },
-                          entry.config->threshold};
-}
-
-std::optional<BatchedEstimator> measurement_only_batch(const EstimatorEntry& entry,
-                                                       const EstimatorSetup& setup, Levels levels) {
-  const auto batch = measurement_batch<BatchedMeasurement>(entry, setup, levels);
-  return BatchedEstimator{update_of(batch), [batch](Side side) { return batch->p_contact(side); },
-                          entry.config->threshold};
+std::optional<BatchedEstimator> batch_of_torques(const EstimatorEntry& entry,
+                                                 const EstimatorSetup& setup, Levels levels) {
+  const auto config = configured<BayesFilterConfig>(entry, setup.sample_rate);
+  const auto batch = std::make_shared<Batch>(*setup.model->grid, config, batch_noise(levels));
+  return BatchedEstimator{
+      [batch](const Signals& clean, const NoiseStep& draws) { batch->update(clean, draws); },
+      [batch](Side side) { return batch->p_contact(side); }, config.threshold};
 }
 
 std::optional<BatchedEstimator> phase_batch(const EstimatorEntry& entry,
                                             const EstimatorSetup& setup, Levels levels) {
   const auto batch = std::make_shared<BatchedPhaseFilter>(
-      phase_model(setup), at_rate(*entry.phase, setup.sample_rate), batch_noise(levels));
+      setup.model->phase, configured<PhaseFilterConfig>(entry, setup.sample_rate),
+      batch_noise(levels));
   // The batch applies the filter's two thresholds itself, so values are 0 or 1.
-  return BatchedEstimator{update_of(batch), [batch](Side side) { return batch->contact(side); },
-                          0.5};
+  return BatchedEstimator{
+      [batch](const Signals& clean, const NoiseStep& draws) { batch->update(clean, draws); },
+      [batch](Side side) { return batch->contact(side); }, 0.5};
 }
 
 Model fit_measurement(const EstimatorEntry& entry, const FitRuns& runs) {
-  return {.grid = fit(runs.whole, entry.config->measurement, runs.scoring)};
+  return {.grid = fit(runs.whole, *entry.fitting.torques, runs.scoring)};
 }
 
 /// Fits to the training segments if there are any, otherwise to the whole runs.
 Model fit_phase(const EstimatorEntry& entry, const FitRuns& runs) {
-  const PhaseFitConfig& config = entry.phase->fit;
+  const PhaseFitConfig& config = *entry.fitting.phases;
   return runs.segments.empty()
              ? fit_phases(runs.whole, config, runs.scoring.skip, runs.before_density)
              : fit_phases(runs.segments, config, 0.0, runs.before_density);
@@ -138,6 +98,14 @@ Model network(const EstimatorEntry& entry) {
 
 NeuralEstimatorConfig neural_config(const EstimatorEntry& entry, const EstimatorSetup& setup) {
   return {.sample_rate = setup.sample_rate, .threshold = entry.chosen("threshold")};
+}
+
+std::unique_ptr<ContactEstimator> make_network(const EstimatorEntry& entry,
+                                               const EstimatorSetup& setup) {
+  return make_with(network(entry),
+                   {.estimator = "nmn",
+                    .sample_rate = setup.sample_rate,
+                    .configuration = {{"threshold", text_of(entry.chosen("threshold"))}}});
 }
 
 /// The elements of a batch share the encoder signals, so a batch does not support encoder noise.
@@ -163,36 +131,33 @@ std::optional<BatchedEstimator> neural_batch(const EstimatorEntry& entry,
 
 EstimatorEntry bayes_entry(const std::string& name, const std::string& summary,
                            const std::string& reason, const BayesFilterConfig& config) {
-  return {.name = name,
-          .title = "Bayes filter (" + name + ")",
-          .summary = summary,
-          .reason = reason,
-          .sensors = {.knee_torque = true, .wheel_torque = true, .acceleration = true},
-          .config = config,
-          .fit = fit_measurement,
-          .hyperparameters = bayes_hyperparameters(config),
-          .apply = apply_bayes,
-          .make = make_of_model,
-          .batch = bayes_batch};
+  EstimatorEntry entry{.name = name,
+                       .title = "Bayes filter (" + name + ")",
+                       .summary = summary,
+                       .reason = reason,
+                       .sensors = {.knee_torque = true, .wheel_torque = true, .acceleration = true},
+                       .hyperparameters = bayes_hyperparameters(config),
+                       .configuration = text_of(config),
+                       .fitting = {.fit = fit_measurement, .torques = config.measurement},
+                       .making = {.by_step = make_of_model},
+                       .batching = batch_of_torques<BatchedBayesFilter>};
+  // The text of a configuration that does not follow the noise lacks this key.
+  entry.configuration["noise.is_followed"] =
+      config.measurement.noise.is_followed ? "true" : "false";
+  return entry;
 }
 
 EstimatorEntry measurement_only_entry() {
-  return {
-      .name = "measurement_only",
-      .title = "Measurement only",
-      .summary = "Estimates contact from a wheel's current torques alone, the paper's ablation",
-      .reason = "history: the paper's ablation without the accelerometer",
-      .sensors = {.knee_torque = true, .wheel_torque = true},
-      .config = BayesFilterConfig::robust(),
-      .fit = fit_measurement,
-      .hyperparameters = {between("threshold", BayesFilterConfig::robust().threshold, 0.2, 0.95),
-                          fitted_with(around(
-                              "bandwidth_floor",
-                              BayesFilterConfig::robust().measurement.fit.bandwidth_floor.knee,
-                              4.0))},
-      .apply = apply_bayes,
-      .make = make_of_model,
-      .batch = measurement_only_batch};
+  EstimatorEntry entry = bayes_entry(
+      "measurement_only",
+      "Estimates contact from a wheel's current torques alone, the paper's ablation",
+      "history: the paper's ablation without the accelerometer", BayesFilterConfig::robust());
+  entry.title = "Measurement only";
+  entry.sensors = {.knee_torque = true, .wheel_torque = true};
+  std::erase_if(entry.hyperparameters,
+                [](const Hyperparameter& one) { return one.name.starts_with("transition."); });
+  entry.batching = batch_of_torques<BatchedMeasurement>;
+  return entry;
 }
 
 EstimatorEntry phase_entry() {
@@ -203,17 +168,15 @@ EstimatorEntry phase_entry() {
       .summary = "Filters by a hidden Markov model of the phases between rolling and falling",
       .reason = "data: 6 to 20 s of labels, no geometry; it names the phases",
       .sensors = {.knee_torque = true, .wheel_torque = true, .acceleration = true},
-      .phase = config,
-      .fit = fit_phase,
-      .learns_from_segments = true,
       .hyperparameters = {fitted_with(around("torque_bandwidth", config.fit.torque_bandwidth, 4.0)),
                           fitted_with(around("acceleration_bandwidth",
                                              config.fit.acceleration_bandwidth, 4.0)),
                           between("leave_below", config.leave_below, 0.05, 0.5),
                           between("return_above", config.return_above, 0.5, 0.95)},
-      .apply = apply_phase,
-      .make = make_of_model,
-      .batch = phase_batch};
+      .configuration = text_of(config),
+      .fitting = {.fit = fit_phase, .learns_from_segments = true, .phases = config.fit},
+      .making = {.by_step = make_of_model},
+      .batching = phase_batch};
 }
 
 EstimatorEntry hmm_entry() {
@@ -222,18 +185,18 @@ EstimatorEntry hmm_entry() {
   entry.title = "Two-state HMM";
   entry.summary = "Runs the phase filter without phases: each wheel is in contact or not";
   entry.reason = "ablation of the phase filter";
-  PhaseLabelConfig& labels = entry.phase->fit.labels;
+  PhaseLabelConfig& labels = entry.fitting.phases->labels;
   labels.unloading = labels.impact = {0.0, 0.0, 0.0};
   labels.held_margin = std::numeric_limits<double>::infinity();
   return entry;
 }
 
-std::shared_ptr<const PhaseModel> phase_model(const EstimatorSetup& setup) {
-  return setup.model->phase;
+PhaseFilter phase_filter(const EstimatorEntry& entry, const EstimatorSetup& setup) {
+  return PhaseFilter(setup.model->phase, configured<PhaseFilterConfig>(entry, setup.sample_rate));
 }
 
-PhaseFilter phase_filter(const EstimatorEntry& entry, const EstimatorSetup& setup) {
-  return PhaseFilter(phase_model(setup), at_rate(*entry.phase, setup.sample_rate));
+TransitionConfig transition_of(const EstimatorEntry& entry) {
+  return configured<BayesFilterConfig>(entry, BayesFilterConfig{}.sample_rate).transition;
 }
 
 EstimatorEntry neural_entry() {
@@ -242,16 +205,10 @@ EstimatorEntry neural_entry() {
           .summary = "Runs the paper's neural network on IMU, joints and command, without torques",
           .reason = "history: the paper's neural baseline, without torques",
           .sensors = {.acceleration = true, .joint_position = true, .joint_velocity = true},
-          .trained_by = "touchdown train",
           .hyperparameters = {between("threshold", NeuralEstimatorConfig{}.threshold, 0.2, 0.95)},
-          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> EstimatorPointer {
-            return make_with(
-                network(entry),
-                {.estimator = "nmn",
-                 .sample_rate = setup.sample_rate,
-                 .configuration = {{"threshold", touchdown::text_of(entry.chosen("threshold"))}}});
-          },
-          .batch = neural_batch};
+          .fitting = {.trained_by = "touchdown train"},
+          .making = {.by_step = make_network},
+          .batching = neural_batch};
 }
 
 EstimatorEntry retrained_neural_entry() {

@@ -28,10 +28,6 @@ LegGeometry legs_of(const FitRuns& runs) {
   return {};
 }
 
-double period_of(const RunSignals& run) {
-  return 1e-6 * static_cast<double>(run.info.control_period_us);
-}
-
 std::string robot_of(const logs::RecordingInfo& info) {
   if (info.scenario_yaml.empty()) return info.robot;
   const YamlDocument scenario =
@@ -49,7 +45,7 @@ void FittedTo::add(const logs::RecordingInfo& info) {
 
 std::size_t skipped_steps(const RunSignals& run, double skip) {
   const double rest = std::max(0.0, skip - run.start);
-  return std::min(run.steps(), static_cast<std::size_t>(std::llround(rest / period_of(run))));
+  return std::min(run.steps(), static_cast<std::size_t>(std::llround(rest / run.period())));
 }
 
 ModelArray provenance_of(std::string_view estimator, std::span<const RunSignals* const> runs,
@@ -62,7 +58,7 @@ ModelArray provenance_of(std::string_view estimator, std::span<const RunSignals*
     scenarios.insert(run->info.scenario);
     simulators.insert(run->info.simulator);
     drawn.insert(fmt::format("{}:{}", run->info.seed, run->info.run));
-    seconds += static_cast<double>(run->steps() - skipped_steps(*run, skip)) * period_of(*run);
+    seconds += static_cast<double>(run->steps() - skipped_steps(*run, skip)) * run->period();
   }
   return array_of_text(fmt::format(
       "estimator: {}\nscenarios: {}\nseconds: {:.3f}\nseed:run: {}\nsimulators: {}\n", estimator,

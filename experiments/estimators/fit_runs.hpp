@@ -35,9 +35,6 @@ struct FitRuns {
 /// Legs of the robot, which all runs of one fit share.
 LegGeometry legs_of(const FitRuns& runs);
 
-/// Control period (s).
-double period_of(const RunSignals& run);
-
 /// The name of the robot's file, without extension; empty for a log that does not name it.
 std::string robot_of(const logs::RecordingInfo& info);
 

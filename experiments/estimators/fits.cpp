@@ -91,7 +91,7 @@ Model fit_phases(std::span<const RunSignals* const> runs, const PhaseFitConfig& 
   }
   return {.arrays = {{std::string(provenance_array), provenance_of("phase", runs, skip)}},
           .phase = std::make_shared<const PhaseModel>(
-              fit_phase_model(segments, 1.0 / period_of(*runs.front()), config, before_density))};
+              fit_phase_model(segments, 1.0 / runs.front()->period(), config, before_density))};
 }
 
 MeasurementModel fit(std::span<const RunSignals* const> runs, const MeasurementConfig& config,
@@ -100,7 +100,7 @@ MeasurementModel fit(std::span<const RunSignals* const> runs, const MeasurementC
   std::vector<TorqueSample> no_contact;
   for (const RunSignals* run : runs) {
     check_may_be_fitted(run->info);
-    const double period = 1e-6 * static_cast<double>(run->info.control_period_us);
+    const double period = run->period();
     const std::size_t skip = scoring::first_scored_step(run->info.control_period_us, scoring);
     for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
       // Torques are processed as in the filter, and sorted by their wheel's label.
@@ -122,7 +122,7 @@ Model fit_parameters(const EstimatorEntry& entry, const FitRuns& runs, const Fit
     check_may_be_fitted(run->info);
     labelled.push_back({.signals = usable_signals(*run, copies),
                         .contact = {run->contact[0], run->contact[1]},
-                        .sample_rate = 1.0 / period_of(*run),
+                        .sample_rate = 1.0 / run->period(),
                         .skip = skipped_steps(*run, runs.scoring.skip),
                         .legs = run->legs});
   }

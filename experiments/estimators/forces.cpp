@@ -8,10 +8,6 @@ namespace touchdown::experiments {
 
 namespace {
 
-using EstimatorPointer = std::unique_ptr<ContactEstimator>;
-
-using EstimatorPointer = std::unique_ptr<ContactEstimator>;
-
 /// The sensors that a wheel's load is computed from.
 constexpr Sensors load_sensors = {
     .hip_torque = true, .knee_torque = true, .acceleration = true, .joint_position = true};
@@ -22,6 +18,17 @@ Model fit_wheel_states(const EstimatorEntry& entry, const FitRuns& runs) {
                                                          .low_pass = entry.chosen("low_pass"),
                                                          .leak = entry.chosen("leak")}));
   });
+}
+
+std::unique_ptr<ContactEstimator> make_support_force(const EstimatorEntry& entry,
+                                                     const EstimatorSetup& setup) {
+  const double contact = entry.chosen("contact");
+  return std::make_unique<SupportForce>(
+      SupportForceConfig{.sample_rate = setup.sample_rate,
+                         .geometry = setup.legs.value_or(LegGeometry{}),
+                         .low_pass = entry.chosen("low_pass"),
+                         .contact = contact,
+                         .release = contact * entry.chosen("release_share")});
 }
 
 }  // namespace
@@ -36,15 +43,7 @@ EstimatorEntry support_force_entry() {
           .hyperparameters = {around("contact", SupportForceConfig{}.contact, 4.0),
                               between("release_share", 0.5, 0.2, 0.95),
                               around("low_pass", SupportForceConfig{}.low_pass, 5.0)},
-          .make = [](const EstimatorEntry& entry, const EstimatorSetup& setup) -> EstimatorPointer {
-            const double contact = entry.chosen("contact");
-            return std::make_unique<SupportForce>(
-                SupportForceConfig{.sample_rate = setup.sample_rate,
-                                   .geometry = setup.legs.value_or(LegGeometry{}),
-                                   .low_pass = entry.chosen("low_pass"),
-                                   .contact = contact,
-                                   .release = contact * entry.chosen("release_share")});
-          }};
+          .making = {.by_step = make_support_force}};
 }
 
 EstimatorEntry force_kinematics_entry() {
@@ -60,11 +59,11 @@ EstimatorEntry force_kinematics_entry() {
       .reason = "data: 2 s of labels; the usual filter on legged robots",
       .sensors = sensors,
       .knows = {.geometry = true},
-      .fit = fit_wheel_states,
       .hyperparameters = {between("threshold", ForceKinematicsConfig{}.threshold, 0.1, 0.95),
                           fitted_with(around("low_pass", ForceKinematicsConfig{}.low_pass, 5.0)),
                           fitted_with(around("leak", ForceKinematicsConfig{}.leak, 4.0))},
-      .make = make_of_model};
+      .fitting = {.fit = fit_wheel_states},
+      .making = {.by_step = make_of_model}};
 }
 
 }  // namespace touchdown::experiments

@@ -108,26 +108,6 @@ std::vector<noise::SensorNoise> levels_of(std::span<const noise::NoiseCell> cell
   return levels;
 }
 
-template <typename Estimator>
-std::vector<scoring::Classification> counts_by_level(Estimator& estimator,
-                                                     std::span<const noise::SensorNoise> levels,
-                                                     const RunSignals& run, const NoiseRun& noise,
-                                                     const scoring::ScoringConfig& scoring,
-                                                     const ShouldContinue& should_continue) {
-  const std::size_t segments = run.segments.size();
-  std::vector<scoring::Classification> counts(levels.size() * segments);
-  for (std::size_t level = 0; level < levels.size(); ++level) {
-    if (!should_continue()) throw Stopped();
-    const auto decisions = decide(estimator, run, noise, levels[level]);
-    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-      const auto of_wheel = scoring::classify(run.contact[wheel], decisions[wheel], run.segments,
-                                              run.info.control_period_us, scoring);
-      for (std::size_t i = 0; i < segments; ++i) counts[level * segments + i] += of_wheel[i];
-    }
-  }
-  return counts;
-}
-
 }  // namespace
 
 bool needs_no_guard(const RunSignals& run, std::span<const noise::SensorNoise> levels) {
@@ -142,7 +122,7 @@ bool needs_no_guard(const RunSignals& run, std::span<const noise::SensorNoise> l
   if (!(20.0 * noise < 0.5 * config.largest_acceleration)) return false;
   if (!(20.0 * torque_noise < 0.5 * config.largest_torque)) return false;
   const SignalCheck check;
-  SignalGuard guard(config, 1e6 / static_cast<double>(run.info.control_period_us));
+  SignalGuard guard(config, run.sample_rate());
   for (const Signals& signals : run.signals) {
     const bool torques_good =
         std::all_of(signals.leg.begin(), signals.leg.end(), [&](const LegSignals& leg) {
@@ -184,20 +164,23 @@ std::vector<scoring::Classification> count_in_batch(const BatchedEstimator& batc
 
 }  // namespace
 
-std::vector<scoring::Classification> sweep_levels(ContactEstimator& estimator,
+std::vector<scoring::Classification> sweep_levels(const EstimatorRunner& runner,
                                                   std::span<const noise::SensorNoise> levels,
                                                   const RunSignals& run, const NoiseRun& noise,
                                                   const scoring::ScoringConfig& scoring,
                                                   const ShouldContinue& should_continue) {
-  return counts_by_level(estimator, levels, run, noise, scoring, should_continue);
-}
-
-std::vector<scoring::Classification> sweep_levels(EstimatorRunner& runner,
-                                                  std::span<const noise::SensorNoise> levels,
-                                                  const RunSignals& run, const NoiseRun& noise,
-                                                  const scoring::ScoringConfig& scoring,
-                                                  const ShouldContinue& should_continue) {
-  return counts_by_level(runner, levels, run, noise, scoring, should_continue);
+  const std::size_t segments = run.segments.size();
+  std::vector<scoring::Classification> counts(levels.size() * segments);
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    if (!should_continue()) throw Stopped();
+    const auto decisions = decide(runner, run, noise, levels[level]);
+    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+      const auto of_wheel = scoring::classify(run.contact[wheel], decisions[wheel], run.segments,
+                                              run.info.control_period_us, scoring);
+      for (std::size_t i = 0; i < segments; ++i) counts[level * segments + i] += of_wheel[i];
+    }
+  }
+  return counts;
 }
 
 std::vector<scoring::Classification> sweep_run(std::span<const Condition> conditions,
@@ -217,10 +200,12 @@ std::vector<scoring::Classification> sweep_run(std::span<const Condition> condit
     const EstimatorSetup setup = setup_of(experiment, condition, models, run);
     const DifferentLevels levels(entry.sensors, all_levels);
     std::optional<BatchedEstimator> batch;
-    if (can_batch && entry.batch != nullptr) batch = entry.batch(entry, setup, levels.different);
+    if (can_batch && entry.batching != nullptr) {
+      batch = entry.batching(entry, setup, levels.different);
+    }
     const auto one_by_one = [&] {
-      EstimatorRunner runner = runner_of(entry, setup);
-      return sweep_levels(runner, levels.different, run, noise, scoring, should_continue);
+      return sweep_levels(entry.runner(setup), levels.different, run, noise, scoring,
+                          should_continue);
     };
     const std::vector<scoring::Classification> by_level =
         batch

@@ -94,12 +94,7 @@ std::vector<scoring::Classification> sweep_run(std::span<const Condition> condit
                                                const ShouldContinue& should_continue);
 
 /// The counts of one estimator that processes the noise levels one by one: by level, then segment.
-std::vector<scoring::Classification> sweep_levels(ContactEstimator& estimator,
-                                                  std::span<const noise::SensorNoise> levels,
-                                                  const RunSignals& run, const NoiseRun& noise,
-                                                  const scoring::ScoringConfig& scoring,
-                                                  const ShouldContinue& should_continue);
-std::vector<scoring::Classification> sweep_levels(EstimatorRunner& runner,
+std::vector<scoring::Classification> sweep_levels(const EstimatorRunner& runner,
                                                   std::span<const noise::SensorNoise> levels,
                                                   const RunSignals& run, const NoiseRun& noise,
                                                   const scoring::ScoringConfig& scoring,

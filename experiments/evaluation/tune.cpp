@@ -92,8 +92,7 @@ SceneCounts counts_on(const HeldOut& held_out, const EstimatorEntry& entry, cons
   SceneCounts counts;
   for (std::size_t i = 0; i < held_out.runs.size(); ++i) {
     const RunSignals& run = *held_out.runs[i];
-    EstimatorRunner runner =
-        runner_of(entry, {1.0 / period_of(run), &model, run.legs, &run.contact});
+    EstimatorRunner runner = entry.runner({1.0 / run.period(), &model, run.legs, &run.contact});
     for (std::size_t cell = 0; cell < experiment.tuning->noise.size(); ++cell) {
       stop_if_asked();
       count(runner, run, held_out.noise[i], experiment.tuning->noise[cell].levels(),

@@ -104,11 +104,7 @@ EstimatorSetup setup_of(const Experiment& experiment, const Condition& condition
           ? &models.at(model_key(condition.fit_simulator, condition.fit, condition.refit))
                  .at(condition.estimator)
           : nullptr;
-  return {1e6 / static_cast<double>(run.info.control_period_us),
-          model,
-          run.legs,
-          &run.contact,
-          robot_of(run.info),
+  return {run.sample_rate(),  model, run.legs, &run.contact, robot_of(run.info),
           experiment.transfer};
 }
 
@@ -117,17 +113,13 @@ std::unique_ptr<ContactEstimator> make_estimator(const Experiment& experiment,
                                                  const FittedModels& models,
                                                  const RunSignals& run) {
   const EstimatorEntry entry = entry_of(experiment, condition, models);
-  if (entry.make == nullptr) {
-    throw InputError(fmt::format("'{}' processes whole runs, and this use needs one step at a time",
-                                 entry.name));
-  }
-  return entry.make(entry, setup_of(experiment, condition, models, run));
+  return entry.make(setup_of(experiment, condition, models, run));
 }
 
 EstimatorRunner runner_of(const Experiment& experiment, const Condition& condition,
                           const FittedModels& models, const RunSignals& run) {
-  return runner_of(entry_of(experiment, condition, models),
-                   setup_of(experiment, condition, models, run));
+  return entry_of(experiment, condition, models)
+      .runner(setup_of(experiment, condition, models, run));
 }
 
 RunPointers drawn_anew(const RunPointers& runs, std::uint64_t seed, int number) {
@@ -166,7 +158,7 @@ Model fit_model(const EstimatorEntry& entry, const FitRuns& runs) {
   for (const auto* group : {&runs.whole, &runs.segments}) {
     for (const RunSignals* run : *group) check_may_be_fitted(run->info);
   }
-  return entry.fit(entry, runs);
+  return entry.fit(runs);
 }
 
 ModelMetadata new_metadata(const std::string& estimator, const FitRuns& runs,

@@ -25,9 +25,10 @@ const EstimatorEntry& usual_estimator(const Model& model) {
 
 /// Whether fits of the estimator give such numbers.
 bool fits_such(const EstimatorEntry& entry, const Model& model) {
-  if (model.grid) return entry.config.has_value();
-  if (model.phase) return entry.phase.has_value();
-  return entry.fits() && !entry.config && !entry.phase;
+  const FitMethod& fitting = entry.fitting;
+  if (model.grid) return fitting.torques.has_value();
+  if (model.phase) return fitting.phases.has_value();
+  return entry.fits() && !fitting.torques && !fitting.phases;
 }
 
 std::string described(const Model& model, const EstimatorEntry& usual,
@@ -37,14 +38,17 @@ std::string described(const Model& model, const EstimatorEntry& usual,
     return fmt::format("a model of '{}'", usual.name);
   }
   if (model.phase) return "a phase model";
-  return entry.phase ? "no phase model" : "a model of torques' densities";
+  return entry.fitting.phases ? "no phase model" : "a model of torques' densities";
 }
 
-/// Errors: `InputError` that names the file, for parameters that the estimator cannot be made with.
-void check_parameters(const EstimatorEntry& entry, const Model& model,
-                      const std::filesystem::path& path) {
+/// Errors: `InputError` that names the file, for numbers or a configuration that the estimator
+/// cannot be made with.
+void check_model(const EstimatorEntry& entry, const Model& model,
+                 const std::filesystem::path& path) {
+  EstimatorSetup setup{.model = &model};
+  if (model.phase) setup.sample_rate = model.phase->sample_rate;
   try {
-    entry.make(entry, {.model = &model});
+    entry.make(setup);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", path.string(), error.what()));
   }
@@ -65,7 +69,7 @@ void check_fit(const EstimatorEntry& entry, const Model& model, const std::files
 }
 
 void check_needs(const EstimatorEntry& entry, const std::filesystem::path& model) {
-  if (entry.needs_truth) {
+  if (entry.knows.truth) {
     throw InputError(fmt::format(
         "--estimator: the {} repeats the ground truth and does not run on logs", entry.name));
   }
@@ -81,22 +85,15 @@ void check_needs(const EstimatorEntry& entry, const std::filesystem::path& model
 }
 
 /// The entry with the configuration from its own model's metadata.
-EstimatorEntry configured(EstimatorEntry entry, const Model& model,
-                          const std::filesystem::path& path) {
+EstimatorEntry configured(EstimatorEntry entry, const Model& model) {
   if (!model.metadata || model.metadata->estimator != entry.name) return entry;
-  try {
-    if (entry.config) {
-      entry.config->sample_rate = model.metadata->sample_rate;
-      configure(*entry.config, model.metadata->configuration);
-    }
-    if (entry.phase) configure(*entry.phase, model.metadata->configuration);
-    for (Hyperparameter& hyperparameter : entry.hyperparameters) {
-      const auto stored = model.metadata->configuration.find(hyperparameter.name);
-      if (stored == model.metadata->configuration.end()) continue;
-      hyperparameter.value = number_of(stored->second).value_or(hyperparameter.value);
-    }
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
+  const ConfigurationText& stored = model.metadata->configuration;
+  for (const auto& [key, value] : stored) entry.configuration[key] = value;
+  entry.configured_rate = model.metadata->sample_rate;
+  for (Hyperparameter& hyperparameter : entry.hyperparameters) {
+    const auto value = stored.find(hyperparameter.name);
+    if (value == stored.end()) continue;
+    hyperparameter.value = number_of(value->second).value_or(hyperparameter.value);
   }
   return entry;
 }
@@ -119,11 +116,12 @@ std::unique_ptr<ContactEstimator> LogEstimator::make(double sample_rate,
   const bool is_fitted_rate =
       model.metadata && is_same_rate(sample_rate, model.metadata->sample_rate);
   const double rate = is_fitted_rate ? model.metadata->sample_rate : sample_rate;
-  EstimatorEntry resampled = entry;
-  if (resampled.config) resampled.config = at_rate(*entry.config, rate);
   const std::optional<LegGeometry> legs =
       entry.knows.geometry ? checked_robot(request.robot, log).legs : request.robot.legs;
-  std::unique_ptr<ContactEstimator> made = resampled.make(resampled, {rate, &model, legs});
+  std::unique_ptr<ContactEstimator> made = entry.make({.sample_rate = rate,
+                                                       .model = &model,
+                                                       .legs = legs,
+                                                       .configured_rate = entry.configured_rate});
   if (model.metadata) made->limit_signals(signal_bounds_of(model.metadata->configuration));
   return made;
 }
@@ -164,7 +162,8 @@ LogEstimator log_estimator(LogEstimatorRequest request) {
   const EstimatorEntry& entry =
       request.name.empty() ? usual_estimator(model) : estimator_entry(request.name);
   check_fit(entry, model, request.model);
-  if (!(model.grid || model.phase)) check_parameters(entry, model, request.model);
+  EstimatorEntry own = configured(entry, model);
+  check_model(own, model, request.model);
   check_names(request.hyperparameters, entry);
   for (const Hyperparameter& hyperparameter : entry.hyperparameters) {
     const std::string& name = hyperparameter.name;
@@ -172,7 +171,6 @@ LogEstimator log_estimator(LogEstimatorRequest request) {
     throw InputError(fmt::format("'{0}' is fixed by the fit: touchdown fit --set {0}={1}", name,
                                  text_of(request.hyperparameters.at(name))));
   }
-  EstimatorEntry own = configured(entry, model, request.model);
   if (model.metadata) put_into(*model.metadata, request.hyperparameters);
   return {with_hyperparameters(std::move(own), request.hyperparameters), std::move(model),
           std::move(request)};

@@ -74,11 +74,11 @@ bool is_gap(double elapsed, const SignalGuardConfig& guard) {
   return !(elapsed >= 0.0 && elapsed <= guard.maximum_gap);
 }
 
-void read_log(const FitLog& log, const BayesFilterConfig& filter, const LogFitConfig& config,
+void read_log(const FitLog& log, const MeasurementConfig& measurement, const LogFitConfig& config,
               const Sink& sink, LogFitReport& report) {
   FitLogSteps reader(log, config, report);
   const LogSteps& steps = reader.steps();
-  const TorqueConfig& torque = filter.measurement.torque;
+  const TorqueConfig& torque = measurement.torque;
   std::array<LabelledLeg, models::wheel_count> legs = {
       LabelledLeg(torque, Side::left, steps, config.labels, sink),
       LabelledLeg(torque, Side::right, steps, config.labels, sink)};
@@ -91,7 +91,7 @@ void read_log(const FitLog& log, const BayesFilterConfig& filter, const LogFitCo
     const bool is_used = k >= skipped && reader.is_covered();
     if (is_used) ++used;
     for (std::size_t side = 0; side < legs.size(); ++side) {
-      if (k > 0 && is_gap(step->signals.time - before, filter.guard)) legs[side].restart();
+      if (k > 0 && is_gap(step->signals.time - before, SignalGuardConfig{})) legs[side].restart();
       const double force = step->normal_force ? (*step->normal_force)[side] : 0.0;
       const std::optional<bool> contact = log.labels ? std::optional(force > 0.0) : log.contact;
       if (!legs[side].add(step->signals.leg[side], !is_used, contact, force)) {
@@ -133,20 +133,20 @@ void require_both_classes(const ClassCounts& used, const ClassCounts& skipped, d
 }
 
 MeasurementModel fit_measurement_to_logs(std::span<const FitLog> logs,
-                                         const BayesFilterConfig& filter,
+                                         const MeasurementConfig& measurement,
                                          const LogFitConfig& config, LogFitReport& report) {
   std::array<std::vector<TorqueSample>, 2> samples;
   report = {};
   for (const FitLog& log : logs) {
     read_log(
-        log, filter, config,
+        log, measurement, config,
         [&](bool contact, const TorqueSample& sample) {
           samples[contact ? 1 : 0].push_back(sample);
         },
         report);
   }
   require_both_classes({samples[0].size(), samples[1].size()}, {}, config.skip);
-  MeasurementFit fit = fit_measurement(samples[1], samples[0], filter.measurement.fit);
+  MeasurementFit fit = fit_measurement(samples[1], samples[0], measurement.fit);
   report.samples = {samples[0].size(), samples[1].size()};
   report.bandwidth = fit.bandwidth;
   return std::move(fit.model);
@@ -198,7 +198,7 @@ void add_runs_of_log(const FitLog& log, const LogFitConfig& config, CheckStep ch
     run.legs = reader.legs();
     for (std::size_t wheel = 0; wheel < models::wheel_count && !log.contact; ++wheel) {
       run.contact[wheel] =
-          scoring::contact_labels(run.normal_force[wheel], period_of(run), config.labels);
+          scoring::contact_labels(run.normal_force[wheel], run.period(), config.labels);
     }
     runs.push_back(std::move(run));
     run = {};
@@ -229,7 +229,7 @@ std::vector<RunSignals> signals_of_logs(std::span<const FitLog> logs, const LogF
   for (const FitLog& log : logs) add_runs_of_log(log, config, check, report, runs);
   for (const RunSignals& run : runs) {
     const std::size_t skipped = skipped_steps(run, config.skip);
-    report.seconds += static_cast<double>(run.steps() - skipped) * period_of(run);
+    report.seconds += static_cast<double>(run.steps() - skipped) * run.period();
     for (const scoring::ContactSequence& contact : run.contact) {
       for (std::size_t k = 0; k < contact.size(); ++k) {
         ++(k < skipped ? skipped_samples : report.samples)[contact[k] & 1U];
@@ -285,17 +285,18 @@ std::vector<RunSignals> logs_of_both_classes(std::span<const FitLog> logs,
 
 Model fit_model(const EstimatorEntry& entry, std::span<const FitLog> logs,
                 const LogFitConfig& config, LogFitReport& report) {
-  if (entry.config) {
-    return {.grid = fit_measurement_to_logs(logs, *entry.config, config, report)};
+  if (entry.fitting.torques) {
+    return {.grid = fit_measurement_to_logs(logs, *entry.fitting.torques, config, report)};
   }
-  const std::vector<RunSignals> runs = entry.phase ? logs_with_takeoffs(logs, config, report)
-                                                   : logs_of_both_classes(logs, config, report);
+  const std::vector<RunSignals> runs = entry.fitting.phases
+                                           ? logs_with_takeoffs(logs, config, report)
+                                           : logs_of_both_classes(logs, config, report);
   FitRuns fitted;
   fitted.whole = pointers_to(runs);
   fitted.scoring.skip = config.skip;
   fitted.before_density = [&] { stop_if_asked(config); };
   fitted.servo_load = config.servo_load;
-  return entry.fit(entry, fitted);
+  return entry.fit(fitted);
 }
 
 }  // namespace

@@ -130,7 +130,7 @@ void plan_segments(const RunRequest& request, const RobotAndSensors& setup, Plan
   const Experiment& experiment = request.experiment;
   const auto& names = experiment.estimators;
   if (std::none_of(names.begin(), names.end(), [&](const std::string& name) {
-        return estimator_entry(experiment, name).learns_from_segments;
+        return estimator_entry(experiment, name).fitting.learns_from_segments;
       })) {
     return;
   }
@@ -209,8 +209,8 @@ EstimatorSetup robot_setup(const Experiment& experiment, const scenarios::Scenar
 void require_served(const Experiment& experiment, std::string_view estimator,
                     const scenarios::Scenario& scenario, scenarios::CompiledScenes& scenes) {
   const EstimatorEntry& entry = estimator_entry(experiment, estimator);
-  if (entry.require_served == nullptr || experiment.transfer) return;
-  entry.require_served(entry, robot_setup(experiment, scenario, scenes));
+  if (entry.making.require_served == nullptr || experiment.transfer) return;
+  entry.making.require_served(entry, robot_setup(experiment, scenario, scenes));
 }
 
 void require_served(const Experiment& experiment, const Plan& plan) {

@@ -78,8 +78,9 @@ std::string scenario_file(std::size_t number) { return fmt::format("scenario_{:0
 /// Identifies the results of a directory: the request, and the build that computes it.
 std::string state_key(const RunRequest& request) { return key_of(request.id, build_fingerprint()); }
 
-}  // namespace
-
+/// Reads the sensor profiles of an experiment. Clears the experiment's own `sensors` if that
+/// profile is ideal, so that ideal sensors and none are the same request. Errors: `InputError` for
+/// a file that is missing or wrong.
 std::vector<NamedSensors> read_sensors(Experiment& experiment) {
   std::vector<NamedSensors> sensors;
   for (const std::string& file : sensor_files(experiment)) {
@@ -92,6 +93,8 @@ std::vector<NamedSensors> read_sensors(Experiment& experiment) {
   return sensors;
 }
 
+}  // namespace
+
 std::vector<NamedSensors> read_sensors(const Experiment& experiment,
                                        const std::filesystem::path& run_directory) {
   std::vector<NamedSensors> sensors;
@@ -100,13 +103,6 @@ std::vector<NamedSensors> read_sensors(const Experiment& experiment,
     sensors.push_back({file, from_yaml<noise::SensorProfile>(kept)});
   }
   return sensors;
-}
-
-void write_sensors(const std::vector<NamedSensors>& sensors,
-                   const std::filesystem::path& run_directory) {
-  for (std::size_t i = 0; i < sensors.size(); ++i) {
-    write_atomically(kept_file(run_directory, i), noise::to_yaml(sensors[i].profile));
-  }
 }
 
 noise::SensorProfile profile_of(const std::vector<NamedSensors>& sensors, const std::string& file) {
@@ -183,7 +179,9 @@ void write_request(const RunRequest& request, const RunDirectory& directory, boo
     write_atomically(directory.file("state", scenario_file(i)),
                      scenarios::to_yaml(request.scenarios[i].scenario));
   }
-  write_sensors(request.sensors, directory.path());
+  for (std::size_t i = 0; i < request.sensors.size(); ++i) {
+    write_atomically(kept_file(directory.path(), i), noise::to_yaml(request.sensors[i].profile));
+  }
   write_atomically(directory.path() / "config.yaml", to_yaml(request.experiment));
 }
 

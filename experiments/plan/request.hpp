@@ -21,18 +21,9 @@ struct NamedSensors {
   noise::SensorProfile profile;
 };
 
-/// Reads the sensor profiles of an experiment. Clears the experiment's own `sensors` if that
-/// profile is ideal, so that ideal sensors and none are the same request. Errors: `InputError` for
-/// a file that is missing or wrong.
-std::vector<NamedSensors> read_sensors(Experiment& experiment);
-
 /// Reads the copies of the profiles in a run directory.
 std::vector<NamedSensors> read_sensors(const Experiment& experiment,
                                        const std::filesystem::path& run_directory);
-
-/// Writes copies of the profiles into a run directory, beside the scenarios.
-void write_sensors(const std::vector<NamedSensors>& sensors,
-                   const std::filesystem::path& run_directory);
 
 /// The profile of this file; ideal sensors for no file.
 noise::SensorProfile profile_of(const std::vector<NamedSensors>& sensors, const std::string& file);

@@ -84,7 +84,7 @@ RunPointers training_set(const RunPointers& pieces, std::size_t size) {
 }
 
 double used_seconds(const RunSignals& piece, double skip) {
-  const double period = 1e-6 * static_cast<double>(piece.info.control_period_us);
+  const double period = piece.period();
   return std::max(0.0, static_cast<double>(piece.steps()) * period - skip);
 }
 

@@ -20,7 +20,7 @@ namespace touchdown::experiments {
 namespace {
 
 std::vector<Phase> true_phases(const RunSignals& run, const PhaseLabelConfig& config) {
-  const double rate = 1e6 / static_cast<double>(run.info.control_period_us);
+  const double rate = run.sample_rate();
   std::vector<std::uint8_t> held, carried;
   if (may_be_held(run.info)) {
     held = held_steps(run.signals, rate, config);
@@ -92,7 +92,7 @@ const EstimatorEntry& spectrum_entry(const Experiment& experiment,
                                      const std::vector<std::string>& estimators) {
   for (const std::string& name : estimators) {
     const EstimatorEntry& entry = estimator_entry(experiment, name);
-    if (entry.config) return entry;
+    if (entry.fitting.torques) return entry;
   }
   return estimator_entry(experiment, "robust");
 }
@@ -167,16 +167,16 @@ DropPosterior drop_posterior(const Experiment& experiment, const PosteriorConfig
   posterior.simulator = run.info.simulator;
   posterior.noise = config.noise;
   posterior.at = config.choice.at;
-  posterior.time = time_in(window, 1e-6 * static_cast<double>(run.info.control_period_us));
+  posterior.time = time_in(window, run.period());
 
   const Condition condition{run.info.simulator, run.info.simulator, "phase"};
   const EstimatorEntry entry = entry_of(experiment, condition, models);
   const EstimatorSetup setup = setup_of(experiment, condition, models, run);
   PhaseFilter filter = phase_filter(entry, setup);
-  const PreparedPhaseModel prepared(phase_model(setup), filter.config());
+  const PreparedPhaseModel prepared(setup.model->phase, filter.config());
   const NoiseRun noise = noise_run(run, noise_key(experiment, config.choice.seed, run.info.run));
   const noise::SensorNoise levels = config.noise.levels();
-  const std::vector<Phase> truth = true_phases(run, entry.phase->fit.labels);
+  const std::vector<Phase> truth = true_phases(run, entry.fitting.phases->labels);
   Belief belief;
   PhaseEvidence evidence;
   for (std::size_t k = 0; k < window.end; ++k) {
@@ -203,11 +203,11 @@ DropDetail drop_detail(const Experiment& experiment, const DetailConfig& config,
                        const FittedModels& models) {
   const DropWindow window =
       drop_window(run, config.choice, experiment.scoring.minimum_flight, "detail");
-  const double rate = 1e6 / static_cast<double>(run.info.control_period_us);
+  const double rate = run.sample_rate();
   const Condition shown{run.info.simulator, run.info.simulator,
                         spectrum_entry(experiment, config.estimators).name};
   const EstimatorEntry entry = entry_of(experiment, shown, models);
-  const TransitionConfig& transition = entry.config->transition;
+  const TransitionConfig transition = transition_of(entry);
 
   DropDetail detail;
   detail.simulator = run.info.simulator;
@@ -302,7 +302,7 @@ std::size_t takeoff_of(const RunSignals& run, const DropChoice& choice, double p
 
 DropWindow drop_window(const RunSignals& run, const DropChoice& choice, double minimum_flight,
                        const std::string& key) {
-  const double period = 1e-6 * static_cast<double>(run.info.control_period_us);
+  const double period = run.period();
   const std::size_t zero = choice.at ? step_at(run, *choice.at, period, key)
                                      : takeoff_of(run, choice, period, minimum_flight, key);
   const auto steps = [&](double seconds) {

@@ -68,7 +68,7 @@ std::vector<std::string> oracle_names(const std::vector<double>& delays) {
 }
 
 std::vector<ContactTrack> oracle_tracks(const std::vector<double>& delays, const RunSignals& run) {
-  const double period = 1e-6 * static_cast<double>(run.info.control_period_us);
+  const double period = run.period();
   std::vector<ContactTrack> tracks = {delayed_labels(run, 0)};
   for (const double delay : delays) {
     tracks.push_back(delayed_labels(run, static_cast<std::size_t>(std::llround(delay / period))));

@@ -10,6 +10,7 @@
 #include "core/files.hpp"
 #include "core/yaml.hpp"
 #include "experiments/run_directory/lock.hpp"
+#include "experiments/run_directory/store.hpp"
 
 namespace touchdown::experiments {
 
@@ -106,26 +107,14 @@ std::vector<fs::path> recorded_files(const fs::path& run_directory) {
 
 using Names = std::vector<std::string>;
 
-/// Files that are recognised by their names: parts of the store and other state, and what training
-/// and pictures write.
+/// Files of a run that are neither recorded nor parts of the store, by their names.
 struct FixedNames {
   const char* folder;
   const char* shape;
 };
 constexpr std::array fixed_names = {FixedNames{"state", R"((scenario|sensors)_\d{3,}\.yaml)"},
-                                    FixedNames{"state/evaluation", R"(.+_seed_\d{4,})"},
                                     FixedNames{"state/shards", R"(\d+_of_\d+)"},
-                                    FixedNames{"state/columns", R"([a-z_]+\.csv)"},
-                                    FixedNames{"state/tuning", R"(.+_fold_\d+)"},
-                                    FixedNames{"state/submissions", R"([^.].*)"},
-                                    FixedNames{"videos", R"(report\.(mp4|jpg))"},
-                                    FixedNames{"tables", R"(training\.csv)"},
-                                    FixedNames{"figures", R"(training\.(gp|png))"},
-                                    FixedNames{"models", R"(nmn\.(npz|json))"},
-                                    FixedNames{"checkpoints", R"(\d{4,}\.pt)"}};
-
-/// The items of model tasks, in a folder of `state` for each kind.
-constexpr const char* model_task_shape = R"([a-z]+_\d{6,})";
+                                    FixedNames{"videos", R"(report\.(mp4|jpg))"}};
 
 /// Every folder that a run creates beside `state`.
 constexpr std::array result_folders = {"recordings", "models",       "tables",      "figures",
@@ -159,13 +148,17 @@ Names files_in(const fs::path& folder) {
   return names;
 }
 
-/// A recording belongs to the run if its part in the store does.
-std::vector<fs::path> recordings_of(const fs::path& directory) {
+/// The parts in `state`, and the recordings that some of them are about.
+std::vector<fs::path> parts(const fs::path& directory) {
   std::vector<fs::path> names;
-  for (const std::string& name : files_in(directory / "state/recordings")) {
-    if (!name.ends_with(".mpack") || name.starts_with('.')) continue;
-    names.push_back(fs::path("recordings") / name);
-    names.push_back(fs::path("state/recordings") / name);
+  for (const std::string& folder : all_folders(directory)) {
+    if (!folder.starts_with("state/")) continue;
+    for (const std::string& name : files_in(directory / folder)) {
+      const fs::path part = fs::path(folder) / name;
+      if (name.starts_with('.') || !is_part_of_a_store(directory / part)) continue;
+      if (folder == "state/recordings") names.push_back(fs::path("recordings") / name);
+      names.push_back(part);
+    }
   }
   return names;
 }
@@ -268,7 +261,7 @@ fs::path record_file(const fs::path& run_directory, const fs::path& name) {
 
 std::vector<fs::path> own_files(const fs::path& directory) {
   std::vector<fs::path> names = recorded_files(directory);
-  append(names, recordings_of(directory));
+  append(names, parts(directory));
   append(names, figures(directory));
   const auto add = [&](const fs::path& folder, const char* shape) {
     for (const std::string& file : files_in(directory / folder)) {
@@ -276,9 +269,6 @@ std::vector<fs::path> own_files(const fs::path& directory) {
     }
   };
   for (const FixedNames& fixed : fixed_names) add(fixed.folder, fixed.shape);
-  for (const std::string& folder : all_folders(directory)) {
-    if (folder.starts_with("state/")) add(folder, model_task_shape);
-  }
   // Each record comes after its file: after a killed removal it still names it.
   add("state/files", R"([^.].*)");
   // The experiment comes last, so that the directory can be identified after a killed removal.

@@ -44,7 +44,7 @@ std::filesystem::path record_file(const std::filesystem::path& run_directory,
                                   const std::filesystem::path& name);
 
 /// The files in a run directory that its runs made, without its key and its lock: recorded files,
-/// and state, figures and checkpoints by their names. `config.yaml` comes last, because it names
+/// parts of the store, and figures by their scripts. `config.yaml` comes last, because it names
 /// the experiment. Other files, and targets of links, are not included.
 std::vector<std::filesystem::path> own_files(const std::filesystem::path& directory);
 

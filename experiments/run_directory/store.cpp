@@ -15,8 +15,10 @@ namespace touchdown::experiments {
 
 namespace {
 
+constexpr std::string_view first_line = "touchdown state\n";
+
 std::string head(std::string_view key, std::string_view content) {
-  return fmt::format("touchdown state\n{}\n{} {:016x}\n", key, content.size(), checksum(content));
+  return fmt::format("{}{}\n{} {:016x}\n", first_line, key, content.size(), checksum(content));
 }
 
 /// The content of a file, with its key.
@@ -65,6 +67,13 @@ std::optional<std::uint64_t> file_checksum(const std::filesystem::path& path) {
   } while (file);
   if (file.bad()) return std::nullopt;
   return XXH3_64bits_digest(sum.get());
+}
+
+bool is_part_of_a_store(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string begin(first_line.size(), '\0');
+  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return file && begin == first_line;
 }
 
 struct Store::Memory {

@@ -93,6 +93,9 @@ struct WrongPart {
   std::string expected;  ///< the key of the part
 };
 
+/// Whether a file begins as parts of a store do.
+bool is_part_of_a_store(const std::filesystem::path& file);
+
 /// The parts of an experiment that are computed already, as bytes by kind and name. A resumed run,
 /// a shard and a merge ask for the same parts, whichever process computed them. Each file holds a
 /// key (experiment, build, kind, name) and a checksum; a file with another key, or a damaged one,

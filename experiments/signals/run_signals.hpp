@@ -54,6 +54,10 @@ struct RunSignals {
   std::shared_ptr<const RunMotion> motion = {};  ///< of test runs, if odometry is studied
 
   std::size_t steps() const { return signals.size(); }
+  /// Control period (s).
+  double period() const { return 1e-6 * static_cast<double>(info.control_period_us); }
+  /// Control rate (Hz).
+  double sample_rate() const { return 1e6 / static_cast<double>(info.control_period_us); }
 };
 
 /// Runs that others hold. Fits read them in place: their signals are most of an experiment's

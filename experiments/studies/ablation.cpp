@@ -60,7 +60,7 @@ EstimatorEntry hmm_without_memory() {
   entry.title = entry.name;
   entry.summary = "Runs the two-state HMM with uniform transition probabilities";
   entry.reason = "ablation of the phase filter";
-  entry.phase->fit.pseudo_count = 1e12;
+  entry.fitting.phases->pseudo_count = 1e12;
   return entry;
 }
 

@@ -196,7 +196,7 @@ void require_closed_loop(const RunRequest& request) {
           cell.scene, scene.scenario));
     }
     const bool is_estimator = !cell.is_oracle() && cell.contact != "always";
-    if (is_estimator && estimator_entry(experiment, cell.contact).make == nullptr) {
+    if (is_estimator && estimator_entry(experiment, cell.contact).making.by_step == nullptr) {
       throw InputError(fmt::format(
           "closed_loop.contact: '{}' needs whole runs, but a policy gets contact step by step",
           cell.contact));

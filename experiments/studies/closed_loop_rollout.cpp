@@ -101,7 +101,7 @@ std::unique_ptr<ContactEstimator> estimator_of(const Experiment& experiment,
   const EstimatorEntry entry =
       entry_of(experiment, {cell.simulator, cell.simulator, cell.contact}, models);
   setup.model = entry.fits() ? &models.at(model_key(cell.simulator, {})).at(entry.name) : nullptr;
-  return entry.make(entry, setup);
+  return entry.make(setup);
 }
 
 double ratio(double sum, std::int64_t count) {

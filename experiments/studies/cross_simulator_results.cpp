@@ -47,7 +47,7 @@ Mean& mean_of(RunFacts& facts, Quantity quantity) {
 
 /// Flights, edge contacts between them and landings, of the robot as a whole.
 void add_drops(const RunSignals& run, const scoring::ScoringConfig& scoring, RunFacts& facts) {
-  const double period = 1e-6 * static_cast<double>(run.info.control_period_us);
+  const double period = run.period();
   const auto steps = [&](double seconds) {
     return static_cast<std::size_t>(std::llround(seconds / period));
   };

@@ -33,7 +33,7 @@ Measure label_measure() {
             made.cell == 0 && made.run.seed == 0 && made.condition.is_fitted_in_domain();
         if (!is_wanted) return counts;
         const RunSignals& run = made.run.signals;
-        const double period = 1e-6 * static_cast<double>(run.info.control_period_us);
+        const double period = run.period();
         for (const scoring::LabelConfig& labels : definitions()) {
           scoring::Classification& sum = counts.emplace_back();
           for (std::size_t w = 0; w < models::wheel_count; ++w) {

@@ -64,7 +64,7 @@ double autocorrelation_time(const std::vector<TorqueSegment>& segments, Joint jo
 }  // namespace
 
 void add_torques(const RunSignals& run, double skip, TorqueSegments& all) {
-  const double period = 1e-6 * static_cast<double>(run.info.control_period_us);
+  const double period = run.period();
   for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
     constexpr int gap = 2;
     int last = gap;

@@ -133,8 +133,7 @@ ModelArrays arrays_of(const RunSignals& run,
     steps.push_back(signals_at(k));
     recorded.data.push_back(has_record(steps.back()) ? 1.0 : 0.0);
     if (!has_record(steps.back())) {
-      steps.back().time =
-          1e-6 * static_cast<double>(run.info.control_period_us) * static_cast<double>(k);
+      steps.back().time = run.period() * static_cast<double>(k);
     }
     for (const scoring::ContactSequence& label : run.contact) {
       contact.data.push_back(label[k] != 0 ? 1.0 : 0.0);

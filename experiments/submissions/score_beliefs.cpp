@@ -146,7 +146,7 @@ void require_sound(const std::vector<BeliefFile>& files, const ShouldContinue& s
 
 /// The step of a belief.
 std::size_t step_of(const logs::Beliefs& beliefs, std::size_t index, const RunSignals& run) {
-  const double period = 1e-6 * static_cast<double>(run.info.control_period_us);
+  const double period = run.period();
   const double step = std::round(beliefs.time[index] / period);
   if (step >= 0.0 && step < static_cast<double>(run.steps())) return static_cast<std::size_t>(step);
   throw InputError(fmt::format("{}: time {} s: expected one of the run, from 0 to {:.6g} s",

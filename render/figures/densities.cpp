@@ -198,12 +198,12 @@ std::optional<DensityFigure> density_figure(const experiments::ExperimentResult&
     const auto model = models->second.find(estimator);
     if (model == models->second.end() || !model->second.grid) continue;
     const experiments::EstimatorEntry& entry = experiments::estimator_entry(experiment, estimator);
-    const auto same = std::find(drawn.begin(), drawn.end(), entry.config->measurement);
+    const auto same = std::find(drawn.begin(), drawn.end(), *entry.fitting.torques);
     if (same != drawn.end()) {
       figure.rows[static_cast<std::size_t>(same - drawn.begin())].title += ", " + entry.title;
       continue;
     }
-    drawn.push_back(entry.config->measurement);
+    drawn.push_back(*entry.fitting.torques);
     figure.rows.push_back({entry.title, model->second.grid->grids()});
   }
   if (figure.rows.empty()) return std::nullopt;

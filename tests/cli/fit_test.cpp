@@ -70,7 +70,7 @@ TEST_F(Fit, OfLabelledLogsEqualsTheFitOfExperiments) {
     const std::vector<const experiments::RunSignals*> signals = {&a, &b};
     expect_same(*load_model(folder_ / "m.npz").grid,
                 touchdown::experiments::fit(
-                    signals, experiments::estimator_entry(name).config->measurement, {}));
+                    signals, experiments::estimator_entry(name).fitting.torques.value(), {}));
   }
 }
 
@@ -152,8 +152,7 @@ TEST_F(Fit, OfPhasesAndParametersEqualsTheFitOfExperiments) {
       continue;
     }
     const experiments::EstimatorEntry& entry = experiments::estimator_entry(name);
-    EXPECT_EQ(parameters_of(written.arrays),
-              parameters_of(entry.fit(entry, {.whole = {&run}}).arrays));
+    EXPECT_EQ(parameters_of(written.arrays), parameters_of(entry.fit({.whole = {&run}}).arrays));
     EXPECT_EQ(estimator_of(written), name);
   }
 }

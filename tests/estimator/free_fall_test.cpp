@@ -60,13 +60,6 @@ TEST(FreeFall, FadesToThePriorWithoutAnAcceleration) {
   EXPECT_TRUE(fall.update(0.0, 100).wheel[0].contact);
 }
 
-TEST(FreeFall, StartsAgainAfterReset) {
-  Fall fall;
-  fall.update(-9.81, 200);
-  fall.estimator().reset();
-  EXPECT_GT(fall.update(0.0, 1).wheel[0].p_contact, 0.99);
-}
-
 TEST(FreeFall, RefusesInvalidValues) {
   EXPECT_THROW(FreeFall({.width = 0.0}), InputError);
   EXPECT_THROW(FreeFall({.low_pass = -1.0}), InputError);

@@ -11,7 +11,7 @@
 
 #include "core/files.hpp"
 #include "core/resources.hpp"
-#include "estimator/decision/leg_features.hpp"
+#include "estimator/decision/feature_extractor.hpp"
 #include "logs/signals_from.hpp"
 #include "tests/scratch_folder.hpp"
 #include "tests/simulators/upkie.hpp"

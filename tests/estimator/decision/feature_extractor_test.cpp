@@ -29,14 +29,6 @@ TEST(LowPassBank, FollowsAStepWithTimeConstantsOfOneTo128Milliseconds) {
   }
 }
 
-TEST(LowPassBank, StartsAtTheFirstInputAfterAReset) {
-  LowPassBank scales(1000.0);
-  scales.update(2.0);
-  scales.reset();
-  scales.update(-7.0);
-  for (const float value : scales.values()) EXPECT_EQ(value, -7.0F);
-}
-
 TEST(LowPassBank, FastForwardsThroughADropout) {
   LowPassBank complete(1000.0);
   LowPassBank dropout(1000.0);
@@ -49,18 +41,6 @@ TEST(LowPassBank, FastForwardsThroughADropout) {
   }
   dropout.fast_forward(-7.0, std::numeric_limits<double>::infinity());
   for (const float value : dropout.values()) EXPECT_NEAR(value, -7.0F, 1e-5);
-}
-
-TEST(Repetition, IsFrozenAfterTheConfiguredTimeWithoutAnyChange) {
-  Repetition<2> repetition({.frozen_after = 0.1}, 100.0);
-  for (int round = 0; round < 2; ++round) {
-    for (int k = 0; k <= 12; ++k) EXPECT_EQ(repetition.update({1.0, 2.0}), k >= 10) << k;
-    EXPECT_FALSE(repetition.update({1.0, std::nextafter(2.0, 3.0)}));
-  }
-  for (int k = 0; k < 30; ++k) EXPECT_FALSE(repetition.update({1.0, std::nan("")}));
-  for (int k = 0; k < 30; ++k) EXPECT_FALSE(repetition.update({0.0, 0.0}));
-  Repetition<2> never({.frozen_after = 0.0}, 100.0);
-  for (int k = 0; k < 1000; ++k) EXPECT_FALSE(never.update({1.0, 2.0}));
 }
 
 /// A robot with random loads, torques, motions and accelerations.

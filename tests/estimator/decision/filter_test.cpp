@@ -41,18 +41,6 @@ TEST(DecisionNetwork, IsFittedToTheSameBits) {
   EXPECT_EQ(fit_decision_model(runs, {}, config), fit_decision_model(runs, {}, config));
 }
 
-TEST(DecisionNetwork, SwapsBeliefsForTheMirroredRobot) {
-  DecisionNetwork estimator(lifted_network());
-  DecisionNetwork mirror(lifted_network());
-  for (const Signals& s : lifted_run(1, 5, 0.3).signals) {
-    const Belief belief = estimator.update(s);
-    const Belief& mirrored = mirror.update(test::in_the_mirror(s));
-    for (std::size_t side = 0; side < 2; ++side) {
-      ASSERT_NEAR(mirrored.wheel[side].p_contact, belief.wheel[1 - side].p_contact, 1e-4);
-    }
-  }
-}
-
 TEST(DecisionNetwork, BelievesTheSameOfARobotTwiceAsHeavy) {
   LegGeometry heavy;
   for (double* of_mass : {&heavy.upper_mass, &heavy.lower_mass, &heavy.wheel_mass,
@@ -139,69 +127,6 @@ TEST(DecisionNetwork, ContinuesWithOneLegWhileTheOtherIsMissing) {
     EXPECT_EQ(belief.status, SignalStatus::good);
     EXPECT_GT(belief.wheel[1].p_contact, 0.95);
   }
-}
-
-TEST(DecisionNetwork, RelaxesWithoutAnImuReportsWhyAndRecovers) {
-  DecisionNetwork estimator(lifted_network());
-  test::CarriedRun run = lifted_run(1, 8);
-  const std::size_t standing = 250;
-  run.signals.resize(standing);
-  last_of(estimator, run);
-  Signals s = run.signals.back();
-  Belief belief;
-  const auto roll_on = [&s] {  // a moving joint is not frozen
-    for (LegSignals& leg : s.leg) leg.wheel.position += 1e-3;
-    s.angular_velocity.y() += 1e-6;
-  };
-  for (int k = 0; k < 1000; ++k) {
-    s.time += 0.001;
-    roll_on();
-    s.vertical_acceleration = std::nan("");
-    belief = estimator.update(s);
-  }
-  EXPECT_EQ(belief.status, SignalStatus::invalid);
-  EXPECT_NEAR(belief.wheel[0].p_contact, 0.5, 0.01);
-  EXPECT_TRUE(belief.wheel[0].contact);
-  s.vertical_acceleration = 0.01;
-  s.time += 0.001;
-  EXPECT_GT(estimator.update(s).wheel[0].p_contact, 0.9);
-  s.angular_velocity.x() = std::nan("");
-  s.time += 0.001;
-  EXPECT_EQ(estimator.update(s).status, SignalStatus::invalid);
-  s.angular_velocity.x() = 0.0;
-  for (int k = 0; k < 1000; ++k) {  // the accelerometer is frozen
-    s.time += 0.001;
-    roll_on();
-    belief = estimator.update(s);
-  }
-  EXPECT_EQ(belief.status, SignalStatus::frozen);
-  EXPECT_NEAR(belief.wheel[1].p_contact, 0.5, 0.01);
-  s.time += 1.0;
-  s.vertical_acceleration = 0.02;
-  belief = estimator.update(s);
-  EXPECT_EQ(belief.status, SignalStatus::gap);
-  EXPECT_GT(belief.wheel[1].p_contact, 0.9);
-  estimator.reset();
-  EXPECT_EQ(estimator.update(s).status, SignalStatus::good);
-}
-
-TEST(DecisionNetwork, RestartsAfterAGap) {
-  constexpr DecisionConfig slow = {.smoothing = 10.0};
-  DecisionNetwork estimator(lifted_network(), slow);
-  test::CarriedRun run;
-  for (int k = 0; k < 300; ++k) estimator.update(run.add(26.0, 26.0));
-  Signals& s = run.add(0.0, 0.0, -9.81);
-  s.time += 1.0;
-  const Belief belief = estimator.update(s);
-  EXPECT_EQ(belief.status, SignalStatus::gap);
-  DecisionNetwork other(lifted_network(), slow);
-  EXPECT_NEAR(belief.wheel[0].p_contact, other.update(s).wheel[0].p_contact, 0.01);
-  EXPECT_LT(belief.wheel[0].p_contact, 0.5);
-}
-
-TEST(DecisionNetwork, GivesProbabilitiesForAnySignals) {
-  DecisionNetwork estimator(lifted_network());
-  test::expect_probabilities(estimator);
 }
 
 TEST(DecisionNetwork, RefusesInvalidValues) {

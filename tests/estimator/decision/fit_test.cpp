@@ -1,8 +1,6 @@
 #include "estimator/decision/fit.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -10,7 +8,6 @@
 #include "core/error.hpp"
 #include "estimator/decision/feature_extractor.hpp"
 #include "tests/estimator/decision/lifted_run.hpp"
-#include "tests/estimator/random.hpp"
 
 namespace touchdown {
 namespace {
@@ -55,36 +52,6 @@ TEST(DecisionRows, OfSlowPassesMatchTheInputsOfASlowRobot) {
     EXPECT_EQ(row, rows.count());
     EXPECT_EQ(2 * rows.inputs.cols(), rows.count());  // both wheels share a column
   }
-}
-
-TEST(DecisionRows, GiveEveryInputOfAllRowsAsTheyGiveRows) {
-  test::Normal normal(5);
-  DecisionRows rows;
-  rows.inputs.resize(static_cast<int>(decision_inputs), 3);
-  rows.servo.resize(static_cast<int>(std::tuple_size_v<ServoLoadInputs>), 3);
-  for (auto* columns : {rows.inputs.data(), rows.servo.data()}) {
-    const Eigen::Index size = columns == rows.servo.data() ? rows.servo.size() : rows.inputs.size();
-    std::generate_n(columns, size, [&] { return static_cast<float>(normal()); });
-  }
-  const auto expect_alike = [&] {
-    for (Eigen::Index row = 0; row < rows.count(); ++row) {
-      const auto at = static_cast<std::size_t>(row);
-      for (std::size_t i = 0; i < decision_inputs; ++i) {
-        EXPECT_EQ(rows.values_of_input(i)[at], rows.inputs_of(row)[i]) << row << ", " << i;
-      }
-      for (std::size_t i = 0; i < std::tuple_size_v<ServoLoadInputs>; ++i) {
-        EXPECT_EQ(rows.values_of_servo_load(i)[at], rows.servo_load_of(row)[i]) << row;
-      }
-    }
-  };
-  rows.is_contact.setOnes(3);
-  expect_alike();
-  // Both wheels of a step, the right one alone, the left one alone.
-  rows.places = {{0, 0}, {0, 1}, {1, 1}, {2, 0}};
-  rows.is_contact.setOnes(4);
-  expect_alike();
-  EXPECT_EQ(rows.inputs_of(1), of_other_wheel(rows.inputs_of(0)));
-  EXPECT_EQ(rows.servo_load_of(1), of_other_wheel(rows.servo_load_of(0)));
 }
 
 TEST(DecisionRows, KeepTheWheelThatIsValid) {

@@ -1,10 +1,9 @@
-#include "estimator/decision/leg_features.hpp"
-
 #include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "estimator/decision/feature_extractor.hpp"
 #include "tests/estimator/force/held_leg.hpp"
 
 namespace touchdown {

@@ -1,13 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 #include "estimator/contact_estimator.hpp"
 #include "estimator/decision/fit.hpp"
@@ -84,27 +80,6 @@ inline CarriedRun overlapping_loads(Normal& normal) {
     run.label(in_contact[0], in_contact[1]);
   }
   return run;
-}
-
-/// Expects probabilities for extreme signals.
-inline void expect_probabilities(ContactEstimator& estimator) {
-  constexpr double huge = std::numeric_limits<double>::max();
-  Signals s = lifted_run(1, 9).signals.front();
-  for (const double extreme : {huge, -huge, 1e308, 1e4, -1e4, 0.0}) {
-    for (int k = 0; k < 50; ++k) {
-      s.time += 0.001;
-      s.vertical_acceleration = 0.5 * k;
-      s.angular_velocity.setConstant(extreme);
-      for (LegSignals& leg : s.leg) {
-        for (JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) {
-          *joint = {extreme, extreme, std::clamp(extreme, -1e4, 1e4)};
-        }
-      }
-      for (const WheelBelief& wheel : estimator.update(s).wheel) {
-        ASSERT_TRUE(wheel.p_contact >= 0.0 && wheel.p_contact <= 1.0) << extreme;
-      }
-    }
-  }
 }
 
 }  // namespace touchdown::test

@@ -10,7 +10,6 @@
 #include "estimator/evidence/channels.hpp"
 #include "estimator/evidence/fit.hpp"
 #include "tests/estimator/evidence/lifted_curves.hpp"
-#include "tests/estimator/evidence/random_curves.hpp"
 
 namespace touchdown {
 namespace {
@@ -71,42 +70,6 @@ TEST(EvidenceCurves, AreCalibratedForAnyClassWeights) {
     }
     EXPECT_NEAR(bias / static_cast<double>(others.signals.size()), 0.0, 0.03) << exponent;
   }
-}
-
-TEST(EvidenceCurves, RelaxWithoutALegOrAnImuAndReportWhy) {
-  EvidenceCurves estimator(lifted_curves());
-  test::CarriedRun run = test::lifted_run(1, 8);
-  Signals s;
-  for (std::size_t k = 0; k < 250; ++k) estimator.update(s = run.signals[k]);
-  Belief belief;
-  const auto run_with = [&](auto fault) {
-    for (int k = 0; k < 1000; ++k) {
-      s.time += 0.001;
-      s.vertical_acceleration = 1e-3 * (k % 3);
-      for (LegSignals& leg : s.leg) leg.wheel.position += 1e-3;  // a moving joint is not frozen
-      s.angular_velocity.y() += 1e-6;
-      Signals faulty = s;
-      fault(faulty);
-      belief = estimator.update(faulty);
-    }
-  };
-  run_with([](Signals& faulty) { faulty.leg[1].knee.torque = std::nan(""); });
-  EXPECT_EQ(belief.status, SignalStatus::invalid);
-  EXPECT_GT(belief.wheel[0].p_contact, 0.95);
-  EXPECT_NEAR(belief.wheel[1].p_contact, 0.5, 0.01);
-  EXPECT_TRUE(belief.wheel[1].contact);  // the last decision
-  run_with([](Signals& faulty) { faulty.angular_velocity.x() = std::nan(""); });
-  EXPECT_NEAR(belief.wheel[0].p_contact, 0.5, 0.01);
-  run_with([](Signals&) {});
-  EXPECT_EQ(belief.status, SignalStatus::good);
-  EXPECT_GT(belief.wheel[1].p_contact, 0.95);
-  estimator.reset();
-  EXPECT_EQ(estimator.update(s).status, SignalStatus::good);
-}
-
-TEST(EvidenceCurves, GiveProbabilitiesForAnySignals) {
-  EvidenceCurves estimator(test::random_curves(3));
-  test::expect_probabilities(estimator);
 }
 
 TEST(EvidenceCurves, RefuseInvalidValues) {

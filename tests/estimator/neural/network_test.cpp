@@ -90,15 +90,6 @@ TEST(NeuralForward, AgreesWithTheTextbookOverManySteps) {
   }
 }
 
-TEST(NeuralForward, ClearsItsStateOnReset) {
-  NeuralForward forward(test::shared(test::random_network(16, 8, 8)));
-  const NeuralForward::Column input = NeuralForward::Column::Ones(neural_input_count);
-  const NeuralForward::Column first = forward.step(input);
-  EXPECT_NE(forward.step(input), first);
-  forward.reset();
-  EXPECT_EQ(forward.step(input), first);
-}
-
 TEST(NeuralNetwork, AcceptsAnySizesThatFit) {
   EXPECT_NO_THROW(check(test::random_network()));
   EXPECT_NO_THROW(check(test::random_network(3, 5, 2)));

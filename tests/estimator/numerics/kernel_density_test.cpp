@@ -67,18 +67,6 @@ TEST(KernelDensity, OfSeveralWidthsEqualsEachAlone) {
   }
 }
 
-TEST(KernelDensity, OfOneSampleIsItsKernel) {
-  const std::vector<double> one{0.5};
-  const Axis axis{0.0, 1.0, 11};
-  const std::vector<double> line = kernel_density(one, 0.1, axis);
-  const std::vector<double> grid = kernel_density(one, one, 0.1, 0.2, axis, axis);
-  for (int i = 0; i < axis.count; ++i) {
-    EXPECT_NEAR(line[static_cast<std::size_t>(i)], gaussian(axis[i] - 0.5, 0.1), 1e-14);
-    EXPECT_NEAR(grid[static_cast<std::size_t>(i * 11 + 3)],
-                gaussian(axis[i] - 0.5, 0.1) * gaussian(axis[3] - 0.5, 0.2), 1e-14);
-  }
-}
-
 TEST(KernelDensity, IntegratesToOne) {
   const std::vector<double> x = normals(700, 0.0, 1.0, 3);
   const Axis axis{-8.0, 8.0, 321};

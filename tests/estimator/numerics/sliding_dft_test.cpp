@@ -88,24 +88,6 @@ TEST(SlidingDft, MatchesAPlainDftThroughAShockOverAMillionSteps) {
   std::printf("largest relative error: %.2g\n", worst);
 }
 
-TEST(SlidingDft, StartsAnewAfterAReset) {
-  SlidingDft used(32);
-  SlidingDft fresh(32);
-  Normal normal(7);
-  for (int t = 0; t < 100; ++t) {
-    used.push(normal());
-  }
-  used.reset();
-  for (int t = 0; t < 50; ++t) {
-    const double sample = normal();
-    used.push(sample);
-    fresh.push(sample);
-  }
-  for (int k = 0; k < fresh.bins(); ++k) {
-    EXPECT_EQ(used.squared_magnitude(k), fresh.squared_magnitude(k));
-  }
-}
-
 TEST(SlidingDft, RefusesAWindowWithoutFrequencies) {
   EXPECT_THROW(SlidingDft(1), InputError);
   EXPECT_THROW(SlidingDft(0), InputError);

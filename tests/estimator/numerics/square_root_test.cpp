@@ -1,11 +1,11 @@
-#include "estimator/numerics/square_root.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "estimator/numerics/sliding_dft.hpp"
 
 namespace touchdown {
 namespace {

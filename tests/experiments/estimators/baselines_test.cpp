@@ -105,7 +105,7 @@ TEST(Oracle, IsTheOnlyEstimatorThatUsesLabels) {
         decide(*make_estimator(experiment, condition, models, run), run, noise, {});
     EXPECT_EQ(decided == decide(*make_estimator(experiment, condition, models, inverted), inverted,
                                 noise, {}),
-              !estimator_entry(name).needs_truth)
+              !estimator_entry(name).knows.truth)
         << name;
   }
 }

@@ -3,42 +3,23 @@
 #include "core/error.hpp"
 #include "experiments/estimators/entries.hpp"
 #include "experiments/signals/run_signals.hpp"
-#include "logs/model_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
-#include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {
 namespace {
 
 class BoostedEntry : public ::testing::TestWithParam<EstimatorEntry (*)()> {};
 
-TEST_P(BoostedEntry, KeepsItsTreesToTheBitInAFile) {
-  const ScratchFolder folder;
-  const EstimatorEntry entry = GetParam()();
-  EXPECT_TRUE(entry.is_upper_bound);
-  const RunSignals run = synthetic_run(1'000'000, 1500);
-  const Model fitted = entry.fit(entry, {.whole = {&run}});
-  logs::save_model(fitted, folder / "m.npz");
-  const Model read = load_model(folder / "m.npz");
-  EXPECT_EQ(read.arrays, fitted.arrays);
-  const RunSignals other = synthetic_run(3, 1500);
-  const auto p_contact_of = [&](const Model& model) {
-    return predict(*entry.make(entry, {.model = &model}), other, noise_run(other, {}), {})[1]
-        .p_contact;
-  };
-  EXPECT_EQ(p_contact_of(read), p_contact_of(fitted));
-}
-
 TEST_P(BoostedEntry, RefusesInvalidTrees) {
   const EstimatorEntry entry = GetParam()();
   const RunSignals run = synthetic_run(1'000'000, 1500);
-  const Model fitted = entry.fit(entry, {.whole = {&run}});
+  const Model fitted = entry.fit({.whole = {&run}});
   const auto refused = [&](const char* name, const auto& change) {
     Model model = fitted;
     ModelArray& array = model.arrays.at(name);
     change(array.data);
     array.shape = {array.data.size()};
-    EXPECT_THROW(entry.make(entry, {.model = &model}), InputError) << name;
+    EXPECT_THROW(entry.make({.model = &model}), InputError) << name;
   };
   refused("leaf", [](std::vector<double>& values) { values.pop_back(); });
   refused("feature", [](std::vector<double>& values) { values[0] = 1e9; });
@@ -75,9 +56,8 @@ TEST_P(BoostedEntry, UsesTargetsIfItsFitDoes) {
   const RunSignals run = shown_by_targets(1'000'000);
   const RunSignals other = shown_by_targets(3);
   const auto right = [&](bool servo_load) {
-    const Model model = entry.fit(entry, {.whole = {&run}, .servo_load = servo_load});
-    const auto decided =
-        decide(*entry.make(entry, {.model = &model}), other, noise_run(other, {}), {});
+    const Model model = entry.fit({.whole = {&run}, .servo_load = servo_load});
+    const auto decided = decide(*entry.make({.model = &model}), other, noise_run(other, {}), {});
     std::size_t count = 0;
     for (std::size_t k = 0; k < other.steps(); ++k) {
       count += decided[0][k] == other.contact[0][k] ? 1U : 0U;

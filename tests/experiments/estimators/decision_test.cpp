@@ -3,52 +3,26 @@
 #include "core/error.hpp"
 #include "experiments/estimators/entries.hpp"
 #include "experiments/signals/run_signals.hpp"
-#include "logs/model_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
-#include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {
 namespace {
-
-TEST(DecisionNetworkEntry, KeepsItsWeightsToTheBitInAFile) {
-  const ScratchFolder folder;
-  const EstimatorEntry entry = decision_network_entry();
-  const RunSignals run = synthetic_run(1'000'000, 1500);
-  const Model fitted = entry.fit(entry, {.whole = {&run}});
-  logs::save_model(fitted, folder / "m.npz");
-  const Model read = load_model(folder / "m.npz");
-  EXPECT_EQ(read.arrays, fitted.arrays);
-  EXPECT_EQ(estimator_of(read), "decision_network");
-  const RunSignals other = synthetic_run(3, 1500);
-  const auto p_contact_of = [&](const Model& model) {
-    return predict(*entry.make(entry, {.model = &model}), other, noise_run(other, {}), {})[1]
-        .p_contact;
-  };
-  EXPECT_EQ(p_contact_of(read), p_contact_of(fitted));
-}
 
 TEST(DecisionNetworkEntry, LearnsFromSegmentsToo) {
   const EstimatorEntry entry = decision_network_entry();
   RunSignals standing = synthetic_run(1'000'000, 600);
   RunSignals segment = synthetic_run(1'000'001, 1500);
   segment.info.scenario = "segment";
-  EXPECT_THROW(entry.fit(entry, {.whole = {&standing}}), InputError);  // nothing but contact
-  const Model fitted = entry.fit(entry, {.whole = {&standing}, .segments = {&segment}});
+  EXPECT_THROW(entry.fit({.whole = {&standing}}), InputError);  // nothing but contact
+  const Model fitted = entry.fit({.whole = {&standing}, .segments = {&segment}});
   EXPECT_NE(text_of_array(fitted.arrays.at("provenance"), "provenance").find("segment"),
             std::string::npos);
-}
-
-TEST(DecisionNetworkEntry, StopsOnRequest) {
-  struct Asked {};
-  const EstimatorEntry entry = decision_network_entry();
-  const RunSignals run = synthetic_run(1'000'000, 1500);
-  EXPECT_THROW(entry.fit(entry, {.whole = {&run}, .before_density = [] { throw Asked(); }}), Asked);
 }
 
 TEST(DecisionNetworkEntry, RefusesModelsWithoutALayerOrWithOtherFeatures) {
   const EstimatorEntry entry = decision_network_entry();
   const RunSignals run = synthetic_run(1'000'000, 1500);
-  const Model good = entry.fit(entry, {.whole = {&run}});
+  const Model good = entry.fit({.whole = {&run}});
   for (const char* const part : {"second_weight", "senses"}) {
     for (const bool is_missing : {true, false}) {
       Model model = good;
@@ -57,7 +31,7 @@ TEST(DecisionNetworkEntry, RefusesModelsWithoutALayerOrWithOtherFeatures) {
       } else {
         model.arrays.at(part) = {{1}, {1.0}};
       }
-      EXPECT_THROW(entry.make(entry, {.model = &model}), InputError) << part;
+      EXPECT_THROW(entry.make({.model = &model}), InputError) << part;
     }
   }
 }
@@ -79,8 +53,8 @@ TEST(DecisionEntries, HaveTheServoLoadIfTheirFitDoes) {
   const RunSignals run = with_targets(synthetic_run(1'000'000, 1500));
   for (const EstimatorEntry& entry :
        {decision_network_entry(), evidence_curves_entry(), quiet_evidence_curves_entry()}) {
-    const Model with = entry.fit(entry, {.whole = {&run}, .servo_load = true});
-    const Model without = entry.fit(entry, {.whole = {&run}});
+    const Model with = entry.fit({.whole = {&run}, .servo_load = true});
+    const Model without = entry.fit({.whole = {&run}});
     const auto has = [](const Model& model, const char* name) {
       return model.arrays.contains(name);
     };
@@ -92,11 +66,11 @@ TEST(DecisionEntries, HaveTheServoLoadIfTheirFitDoes) {
     EXPECT_FALSE(has(without, "without_targets_bias"));
     // A fit without the channel does not depend on targets.
     const RunSignals plain = synthetic_run(1'000'000, 1500);
-    EXPECT_EQ(entry.fit(entry, {.whole = {&plain}}).arrays, without.arrays);
+    EXPECT_EQ(entry.fit({.whole = {&plain}}).arrays, without.arrays);
 
     const RunSignals other = with_targets(synthetic_run(3, 1500));
-    const auto estimator = entry.make(entry, {.model = &with});
-    const auto twin = entry.make(entry, {.model = &without});
+    const auto estimator = entry.make({.model = &with});
+    const auto twin = entry.make({.model = &without});
     std::size_t agreed = 0;
     for (std::size_t k = 0; k < other.steps(); ++k) {
       Signals signals = other.signals[k];

@@ -6,56 +6,27 @@
 #include "estimator/models/parameters.hpp"
 #include "experiments/estimators/entries.hpp"
 #include "experiments/signals/run_signals.hpp"
-#include "logs/model_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
-#include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {
 namespace {
-
-TEST(EvidenceEntries, KeepTheirCurvesToTheBitInAFile) {
-  const ScratchFolder folder;
-  const RunSignals run = synthetic_run(1'000'000, 1500);
-  const RunSignals other = synthetic_run(3, 1500);
-  for (const EstimatorEntry& entry : {evidence_curves_entry(), quiet_evidence_curves_entry()}) {
-    const Model fitted = entry.fit(entry, {.whole = {&run}});
-    logs::save_model(fitted, folder / "m.npz");
-    const Model read = load_model(folder / "m.npz");
-    EXPECT_EQ(read.arrays, fitted.arrays);
-    EXPECT_EQ(estimator_of(read), entry.name);
-    EXPECT_EQ(evidence_in(read), evidence_in(fitted));
-    const auto p_contact_of = [&](const Model& model) {
-      return predict(*entry.make(entry, {.model = &model}), other, noise_run(other, {}), {})[1]
-          .p_contact;
-    };
-    EXPECT_EQ(p_contact_of(read), p_contact_of(fitted));
-  }
-}
-
-TEST(EvidenceEntries, StopOnRequest) {
-  struct Asked {};
-  const EstimatorEntry entry = evidence_curves_entry();
-  const RunSignals run = synthetic_run(1'000'000, 1500);
-  EXPECT_THROW(entry.fit(entry, {.whole = {&run}, .before_density = [] { throw Asked(); }}), Asked);
-}
 
 TEST(EvidenceEntries, AreFittedWithTheChosenSmoothness) {
   const RunSignals run = synthetic_run(1'000'000, 1500);
   const EstimatorEntry entry = evidence_curves_entry();
   const EstimatorEntry other = with_hyperparameters(entry, {{"smoothness", 1e-3}});
-  EXPECT_NE(evidence_in(entry.fit(entry, {.whole = {&run}})),
-            evidence_in(other.fit(other, {.whole = {&run}})));
+  EXPECT_NE(evidence_in(entry.fit({.whole = {&run}})), evidence_in(other.fit({.whole = {&run}})));
 }
 
 TEST(EvidenceEntries, RefuseIncompleteModelsAndOtherFeatures) {
   const EstimatorEntry entry = evidence_curves_entry();
   const RunSignals run = synthetic_run(1'000'000, 1500);
-  const Model good = entry.fit(entry, {.whole = {&run}});
+  const Model good = entry.fit({.whole = {&run}});
   const auto refused = [&](const auto& spoil) {
     Parameters parameters = parameters_of(good.arrays);
     spoil(parameters);
     const Model model = {.arrays = arrays_of(parameters, entry.name)};
-    EXPECT_THROW(entry.make(entry, {.model = &model}), InputError);
+    EXPECT_THROW(entry.make({.model = &model}), InputError);
   };
   refused([](Parameters& all) { all.erase("curves_load"); });
   refused([](Parameters& all) { all.at("curves_torque_noise").pop_back(); });
@@ -68,7 +39,7 @@ TEST(EvidenceEntries, DecideByTheThresholdsInTheirMetadata) {
   const EstimatorEntry entry = evidence_curves_entry();
   const RunSignals run = synthetic_run(1'000'000, 1500);
   const RunSignals other = synthetic_run(3, 3000);
-  Model model = entry.fit(entry, {.whole = {&run}});
+  Model model = entry.fit({.whole = {&run}});
   const auto decisions_with = [&](const char* key, const char* value) {
     model.metadata = ModelMetadata{.estimator = entry.name,
                                    .sample_rate = 1000.0,
@@ -76,7 +47,7 @@ TEST(EvidenceEntries, DecideByTheThresholdsInTheirMetadata) {
                                    .configuration = {{key, value}},
                                    .fingerprint = {}};
     const scoring::Prediction tracks =
-        predict(*entry.make(entry, {.model = &model}), other, noise_run(other, {}), {});
+        predict(*entry.make({.model = &model}), other, noise_run(other, {}), {});
     return std::array{tracks[0].contact, tracks[1].contact};
   };
   EXPECT_NE(decisions_with("leave_below", "0.0001"), decisions_with("leave_below", "0.9"));
@@ -94,7 +65,7 @@ TEST(EvidenceEntries, ShareAFitAndDifferInTheirOperatingPoint) {
   const RunSignals other = synthetic_run(3, 3000);
   // A model of either entry, with its metadata or without any, runs at the point of the entry.
   for (const EstimatorEntry& fitted : {balanced, quiet}) {
-    Model model = fitted.fit(fitted, {.whole = {&run}});
+    Model model = fitted.fit({.whole = {&run}});
     for (const bool has_metadata : {false, true}) {
       if (has_metadata) {
         model.metadata = ModelMetadata{.estimator = fitted.name,
@@ -107,7 +78,7 @@ TEST(EvidenceEntries, ShareAFitAndDifferInTheirOperatingPoint) {
         const OperatingPoint& point = entry.name == balanced.name ? balanced_point : quiet_point;
         EvidenceCurves expected(evidence_in(model).value(), {.leave_below = point.leave_below,
                                                              .return_above = point.return_above});
-        EXPECT_EQ(decide(*entry.make(entry, {.model = &model}), other, noise_run(other, {}), {}),
+        EXPECT_EQ(decide(*entry.make({.model = &model}), other, noise_run(other, {}), {}),
                   decide(expected, other, noise_run(other, {}), {}))
             << fitted.name << " as " << entry.name;
       }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "experiments/estimators/entries.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
@@ -34,14 +35,39 @@ TEST(FittedModel, GivesTheSameBeliefsAfterReadingItsFile) {
     logs::save_model(fitted, folder / "m.npz");
     const Model read = load_model(folder / "m.npz");
     const auto p_contact_of = [&](const Model& model) {
-      return predict(*entry.make(entry, {.model = &model}), run, noise, {})[0].p_contact;
+      return predict(*entry.make({.model = &model}), run, noise, {})[0].p_contact;
     };
     const std::vector<double> expected = p_contact_of(fitted);
     const std::vector<double> found = p_contact_of(read);
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], 1e-6);
+    if (!fitted.grid && !fitted.phase) {  // parameters keep every bit
+      EXPECT_EQ(read.arrays, fitted.arrays) << name;
+      EXPECT_EQ(found, expected) << name;
+      EXPECT_EQ(estimator_of(read), name);
+      EXPECT_EQ(evidence_in(read), evidence_in(fitted)) << name;
+    }
     const auto [least, most] = std::minmax_element(found.begin(), found.end());
     EXPECT_GT(*most - *least, 0.5) << name;
+  }
+}
+
+TEST(EveryEstimator, StartsAnewAfterAReset) {
+  const RunSignals run = synthetic_run(3, 1500);
+  const NoiseRun noise = noise_run(run, {.seed = 2});
+  const FittedModels models = fit_models(synthetic_experiment(fitted_estimators()),
+                                         pointers_to({synthetic_run(first_fit_run)}));
+  for (const EstimatorEntry& entry : all_estimator_entries()) {
+    const auto estimator =
+        entry.make({.model = entry.fits() ? &models.at("mujoco").at(entry.name) : nullptr,
+                    .truth = &run.contact});
+    const auto beliefs = [&](const noise::SensorNoise& levels) {
+      return predict(*estimator, run, noise, levels)[1].p_contact;
+    };
+    // The filters that estimate the noise must forget it, too.
+    const std::vector<double> first = beliefs({});
+    (void)beliefs({.knee_torque = 2.0, .wheel_torque = 1.0, .acceleration = 8.0});
+    EXPECT_EQ(beliefs({}), first) << entry.name;
   }
 }
 
@@ -57,7 +83,17 @@ TEST(FittedModel, IsNeverFittedToReservedSeeds) {
     }
     // A direct call of the entry's fit is refused, too.
     const EstimatorEntry& entry = any_estimator_entry(name);
-    EXPECT_THROW(entry.fit(entry, {.whole = {&reserved}}), InputError) << name;
+    EXPECT_THROW(entry.fit({.whole = {&reserved}}), InputError) << name;
+  }
+}
+
+TEST(FittedModel, IsNotFittedToTheEndIfItsFitIsStopped) {
+  struct Asked {};
+  const RunSignals run = synthetic_run(first_fit_run, 1500);
+  for (const char* name : {"decision_network", "evidence_curves"}) {
+    EXPECT_THROW(
+        estimator_entry(name).fit({.whole = {&run}, .before_density = [] { throw Asked(); }}),
+        Asked);
   }
 }
 

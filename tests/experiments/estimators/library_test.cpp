@@ -48,7 +48,7 @@ TEST(LoadedEstimator, EqualsItsEntryToTheBit) {
     logs::save_model(models.at("mujoco").at(name), file);
     const Model read = load_model(file);
     EXPECT_EQ(p_contact_of(*load_estimator(file), run),
-              p_contact_of(*entry.make(entry, {.model = &read}), run))
+              p_contact_of(*entry.make({.model = &read}), run))
         << name;
     EXPECT_EQ(load_metadata(file).estimator, name);
     EXPECT_EQ(load_metadata(file).sample_rate, 1000.0);
@@ -63,7 +63,7 @@ TEST(LoadedEstimator, OfAShippedNetworkIsNmn) {
         std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models" / (name + ".npz");
     const EstimatorEntry& entry = any_estimator_entry(name);
     EXPECT_EQ(p_contact_of(*load_estimator(file, {.sample_rate = 1000.0}), run),
-              p_contact_of(*entry.make(entry, {}), run))
+              p_contact_of(*entry.make({}), run))
         << name;
   }
 }
@@ -73,7 +73,7 @@ TEST(LoadedEstimator, OfTheShippedModelEqualsItsEntry) {
       std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models/evidence_curves.npz";
   const RunSignals run = synthetic_run(3, 1000);
   const EstimatorEntry& entry = estimator_entry("shipped");
-  EXPECT_EQ(p_contact_of(*load_estimator(file), run), p_contact_of(*entry.make(entry, {}), run));
+  EXPECT_EQ(p_contact_of(*load_estimator(file), run), p_contact_of(*entry.make({}), run));
   EXPECT_EQ(load_metadata(file).estimator, "evidence_curves");
   EXPECT_EQ(load_metadata(file).robot, "upkie");
 }
@@ -82,7 +82,7 @@ TEST(ShippedModel, RefusesAnotherRobotOrRateInExperimentsAsItsFileDoes) {
   const EstimatorEntry& entry = estimator_entry("shipped");
   const auto complaint = [&](const EstimatorSetup& setup) -> std::string {
     try {
-      (void)entry.make(entry, setup);
+      (void)entry.make(setup);
     } catch (const InputError& error) {
       return error.what();
     }

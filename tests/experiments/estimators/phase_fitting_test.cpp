@@ -35,12 +35,7 @@ PhaseFitConfig coarse() {
   return config;
 }
 
-TEST(PhaseFitting, RefusesRunsOfReservedSeeds) {
-  const RunSignals fine = run_of_seed(first_reserved_seed - 1);
-  const RunSignals reserved = run_of_seed(first_reserved_seed);
-  EXPECT_NO_THROW(fit_phases(std::vector<const RunSignals*>{&fine}, coarse(), 0.0));
-  EXPECT_THROW(fit_phases(std::vector<const RunSignals*>{&fine, &reserved}, coarse(), 0.0),
-               InputError);
+TEST(PhaseFitting, DrawsItsRunsWithNoReservedSeed) {
   EXPECT_EQ(fit_seed(5), 5U);
   EXPECT_FALSE(is_reserved(fit_seed(first_reserved_seed + 3)));
 }

@@ -44,11 +44,11 @@ TEST(RandomSequences, LeaveEveryRegisteredEstimatorWithProbabilities) {
         .model = entry.fits() ? &models.at("mujoco").at(entry.name) : nullptr,
         .truth = &run.contact};
     const bool is_recurrent = entry.name.starts_with("nmn");
-    RandomSequences random([&] { return entry.make(entry, setup); },
+    RandomSequences random([&] { return entry.make(setup); },
                            is_recurrent ? simulated_signals() : run.signals, 39);
     // The recurrent networks take every fifth record, counted from the last gap.
     if (is_recurrent) random.restart_twin_at_gaps();
-    random.expect_probabilities(sequences(), entry.name, !entry.needs_truth);
+    random.expect_probabilities(sequences(), entry.name, !entry.knows.truth);
   }
 }
 

@@ -19,7 +19,7 @@ TEST(Registry, HasUniqueNamesAndCompleteEntries) {
     EXPECT_FALSE(entry.title.empty()) << entry.name;
     EXPECT_FALSE(entry.summary.empty()) << entry.name;
     EXPECT_FALSE(entry.reason.empty()) << entry.name;
-    EXPECT_NE(entry.make, nullptr) << entry.name;
+    EXPECT_NE(entry.making.by_step, nullptr) << entry.name;
     EXPECT_EQ(&estimator_entry(entry.name), &entry);
   }
   EXPECT_TRUE(names.contains(std::string(always_contact_name)));

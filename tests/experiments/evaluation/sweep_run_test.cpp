@@ -92,23 +92,6 @@ TEST(NoiseCells, NameEveryCellOnceAndDistinguishKneesFromWheels) {
   EXPECT_EQ(noise::noise_cells(same).size(), 4U);
 }
 
-TEST(NoiseFreeScores, ComputesOncePerRunConditionAndCell) {
-  NoiseFreeScores known;
-  int computed = 0;
-  for (int pass = 0; pass < 3; ++pass) {
-    for (const NoiseFreeScores::Key& key :
-         std::vector<NoiseFreeScores::Key>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}) {
-      const std::size_t size = 1 + key.run + 2 * key.condition + 4 * key.cell;
-      const auto scores = known.scores(key, [&] {
-        ++computed;
-        return NoiseFreeScores::Scores(size);
-      });
-      EXPECT_EQ(scores.size(), size);
-    }
-  }
-  EXPECT_EQ(computed, 5);
-}
-
 // Every combination of cells with and without noise, of one sensor or both, with and without a
 // measure: a task that shares scores with other seeds equals one that is computed alone.
 TEST(Evaluation, SharesScoresWithoutNoiseBetweenSeeds) {

@@ -72,7 +72,7 @@ std::vector<double> beliefs(const EstimatorEntry& plain,
     model = fit_model(entry, runs);
     model.metadata = new_metadata(entry.name, runs, hyperparameters);
   }
-  EstimatorRunner runner = runner_of(entry, {1000.0, &model, run.legs, &run.contact});
+  EstimatorRunner runner = entry.runner({1000.0, &model, run.legs, &run.contact});
   const NoiseRun noise = noise_run(run, {.seed = 3, .run = 1});
   std::vector<double> all;
   for (const double level : {0.1, 0.7, 2.0}) {

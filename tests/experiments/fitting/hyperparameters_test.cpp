@@ -37,7 +37,7 @@ TEST(GivenHyperparameters, AreUsedByFitsAndEstimators) {
   const auto entry_for = [&](const char* estimator) {
     return entry_of(experiment, {"mujoco", "mujoco", estimator}, models);
   };
-  EXPECT_EQ(entry_for("phase").phase->leave_below, 0.125);
+  EXPECT_EQ(entry_for("phase").configuration.at("leave_below"), "0.125");
   EXPECT_EQ(entry_for("free_fall").chosen("half_way"), -3.0);
 }
 
@@ -47,14 +47,14 @@ TEST(GivenHyperparameters, SetTheMembersThatTheyAreNamedAfter) {
                                                        {"transition.switch.offset", 2.7},
                                                        {"transition.switch.slope", 1.0 / 3.0},
                                                        {"bandwidth_floor", 0.07}});
-  EXPECT_EQ(robust.config->threshold, 0.3);
-  EXPECT_EQ(robust.config->transition.switch_sigmoid.offset, 2.7);
-  EXPECT_EQ(robust.config->transition.switch_sigmoid.slope, 1.0 / 3.0);
-  EXPECT_EQ(robust.config->measurement.fit.bandwidth_floor, (TorqueBandwidth{0.07, 0.07}));
+  EXPECT_EQ(robust.configuration.at("threshold"), "0.3");
+  EXPECT_EQ(robust.configuration.at("transition.switch.offset"), "2.7");
+  EXPECT_EQ(robust.configuration.at("transition.switch.slope"), text_of(1.0 / 3.0));
+  EXPECT_EQ(robust.fitting.torques->fit.bandwidth_floor, (TorqueBandwidth{0.07, 0.07}));
   const EstimatorEntry phase = with_hyperparameters(
       estimator_entry("phase"), {{"torque_bandwidth", 0.1}, {"return_above", 2.0 / 3.0}});
-  EXPECT_EQ(phase.phase->fit.torque_bandwidth, 0.1);
-  EXPECT_EQ(phase.phase->return_above, 2.0 / 3.0);
+  EXPECT_EQ(phase.fitting.phases->torque_bandwidth, 0.1);
+  EXPECT_EQ(phase.configuration.at("return_above"), text_of(2.0 / 3.0));
 }
 
 TEST(GivenHyperparameters, YieldToChosenOnes) {

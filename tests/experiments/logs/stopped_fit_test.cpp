@@ -27,7 +27,7 @@ TEST(FitToLogs, StopsWhileItComputes) {
   LogFitReport report;
   EstimatorEntry entry;
   entry.name = "endless";
-  entry.fit = endless;
+  entry.fitting.fit = endless;
   EXPECT_THROW(fit_to_logs(entry, logs, config, report), Stopped);
 }
 

@@ -63,14 +63,16 @@ struct OwnFiles : ::testing::Test {
     folder.write("figures/success_mujoco.gp",
                  "# Draws success_mujoco.png, success_mujoco.svg and success_mujoco.pdf\n"
                  "plot 'success_mujoco.dat', 'success_mujoco_2.dat'\n");
-    for (const char* file :
-         {"state/recordings/mujoco_step_test_000.mpack", "recordings/mujoco_step_test_000.mpack",
-          "state/evaluation/mujoco_step_test_000_seed_0000", "state/shards/1_of_2",
-          "state/submissions/mine", "figures/success_mujoco.png", "figures/success_mujoco.dat",
-          "figures/success_mujoco_2.dat", "figures/style.gp", "videos/report.jpg", "manifest.json",
-          "report.html"}) {
+    for (const char* file : {"recordings/mujoco_step_test_000.mpack", "state/shards/1_of_2",
+                             "figures/success_mujoco.png", "figures/success_mujoco.dat",
+                             "figures/success_mujoco_2.dat", "figures/style.gp",
+                             "videos/report.jpg", "manifest.json", "report.html"}) {
       folder.write(file, "ours");
     }
+    const Store store(folder / "state", "key");
+    store.put("recordings", "mujoco_step_test_000.mpack", 1);
+    store.put("evaluation", "mujoco_step_test_000_seed_0000", 1);
+    store.put("submissions", "mine", 1);
     for (const char* file : {"models/mujoco_robust.npz", "tables/success.csv",
                              "tables/summary.json", "videos/mujoco_step.mp4"}) {
       write_atomically(record_file(folder.path(), file), "ours");
@@ -118,7 +120,7 @@ TEST_F(OwnFiles, OfAnyNameAreRemovedIfTheRunRecordedThem) {
   folder.write("state/files/..:outside.csv", "");
   folder.write("state/files/tables:.hidden.csv", "");
   folder.write("tables/.hidden.csv", "precious");
-  folder.write("state/my_study/item_000012", "ours");
+  Store(folder / "state", "key").put("my_study", "item_000012", 1);
   folder.write("state/my_study/notes", "precious");
   const std::vector<fs::path> found = own_files(folder.path());
   for (const fs::path& file : recorded) EXPECT_THAT(found, ::testing::Contains(file));

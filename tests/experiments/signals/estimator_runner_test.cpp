@@ -38,7 +38,8 @@ EstimatorEntry external(const std::string& name) {
           .summary = "Runs free fall on whole runs",
           .reason = "a test",
           .sensors = {.acceleration = true},
-          .whole_run = [](const EstimatorSetup& /*setup*/) { return whole_run_free_fall(); }};
+          .making = {
+              .whole_run = [](const EstimatorSetup& /*setup*/) { return whole_run_free_fall(); }}};
 }
 
 TEST(EstimatorRunner, GivesTheSameBeliefsForWholeRunsAsStepByStep) {

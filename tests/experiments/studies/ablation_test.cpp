@@ -102,7 +102,7 @@ std::vector<std::string> from_paper_to_robust() {
 std::array<std::vector<double>, 2> p_contact_of(const EstimatorEntry& entry, const Model& model,
                                                 const RunSignals& run,
                                                 const noise::SensorNoise& levels) {
-  const auto estimator = entry.make(entry, {.model = &model});
+  const auto estimator = entry.make({.model = &model});
   const NoiseRun noise = noise_run(run, {.seed = 5, .run = 1});
   const scoring::Prediction prediction = predict(*estimator, run, noise, levels);
   return {prediction[0].p_contact, prediction[1].p_contact};
@@ -139,7 +139,7 @@ TEST(BayesAblation, EndsInRobustToTheBitOnASimulatedRun) {
   const noise::SensorNoise noise{0.5, 0.5, 3.0};
   const auto robust = p_contact_of(estimator_entry("robust"), models.at("robust"), *runs[0], noise);
   EXPECT_NE(p_contact_of(last, models.at(last.name), *runs[0], noise), robust);
-  last.config->transition.row_stochastic = true;
+  last.configuration["transition.row_stochastic"] = "true";
   EXPECT_EQ(p_contact_of(last, models.at(last.name), *runs[0], noise), robust);
 }
 

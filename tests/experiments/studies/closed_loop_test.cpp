@@ -170,7 +170,7 @@ TEST(ClosedLoop, ContactSourcesDecideAsInOfflineEvaluation) {
       const RunSignals run =
           signals_of(reported, experiment.labels, experiment.scoring, experiment.intervals.over);
       const EstimatorEntry& entry = estimator_entry(name);
-      const auto estimator = entry.make(entry, {.model = &model, .legs = run.legs});
+      const auto estimator = entry.make({.model = &model, .legs = run.legs});
       const auto offline = predict(*estimator, run, noise_run(run, noise_key(experiment, 0, 1)),
                                    cell.noise.levels());
       for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {

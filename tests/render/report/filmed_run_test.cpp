@@ -21,7 +21,7 @@ using ::testing::Not;
 std::vector<float> left_beliefs(const std::string& name, const logs::Recording& recording,
                                 const LegGeometry& legs) {
   const experiments::EstimatorEntry& entry = experiments::estimator_entry(name);
-  const auto estimator = entry.make(entry, {.sample_rate = 1.0 / recording.period(), .legs = legs});
+  const auto estimator = entry.make({.sample_rate = 1.0 / recording.period(), .legs = legs});
   std::vector<float> beliefs;
   for (std::size_t k = 0; k < recording.steps(); ++k) {
     const Signals signals =
