@@ -136,7 +136,7 @@ crouch: [{time: 2, hip: 0.3, rate: 0.2}]
 tether: {anchor: [0.1, -0.2, 2.5], point_in_base: [0, 0, 0.1], length: 1.1, stiffness: 9, damping: 5}
 guides: [{x: 1, y: 2, point_in_base: [0.1, 0.2, 0.3], stiffness: 4, damping: 5}]
 forces:
-  - {time: 1.5, duration: 0.3, rise: 0.1, fall: 0.2, force: [1, 2.5, -3], along_heading: true}
+  - {time: 1.5, duration: 0.4, rise: 0.1, fall: 0.2, force: [1, 2.5, -3], along_heading: true}
   - {time: 0}
 simulation:
   physics_step_us: 250
