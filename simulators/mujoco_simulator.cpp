@@ -32,6 +32,8 @@ bool diverged(const mjData& data) {
          0;
 }
 
+}  // namespace
+
 /// The tyres of a robot in MuJoCo.
 class MujocoTyres {
  public:
@@ -219,8 +221,6 @@ void MujocoSimulator::read(ContactForces& forces) const {
     }
   }
 }
-
-}  // namespace
 
 std::unique_ptr<Simulator> make_mujoco(const std::shared_ptr<const models::RobotModel>& model,
                                        const SimulatorOptions& options) {
