@@ -44,7 +44,7 @@ RunDirectory open_run_directory(const RunRequest& request, Access access,
 
 /// An experiment on one page. Each stage reads what is saved and computes the rest, so that a
 /// resumed run, a shard and a merge are the same calls. A shard ends when its tasks are evaluated,
-/// without a result. Pictures are drawn from the result (render/report/pictures.hpp). Errors:
+/// without a result. Pictures are drawn from the result (render/report/report.hpp). Errors:
 /// `Stopped`, with what is saved; `Error` with the reasons if no test run can be scored.
 std::optional<ExperimentResult> run_stages(ExperimentContext& context, Computed& done) try {
   simulate(context, done);

@@ -14,7 +14,7 @@ PROGRAM = sys.argv.pop(1)
 
 
 def faults(check, files, *arguments):
-    """The lines that a check prints about a tree of these files; its exit code tells whether there are any."""
+    """The lines that a check prints about a tree of these files; its exit code states whether there are any."""
     with tempfile.TemporaryDirectory() as folder:
         for name, text in files.items():
             path = pathlib.Path(folder, name)

@@ -272,7 +272,7 @@ TEST_F(RefusedRobot, HasTooManyGeoms) {
               HasSubstr("expected at most 5000 geoms"));
 }
 
-TEST_F(RefusedRobot, HasOtherJointsAndIsToldTheWayOut) {
+TEST_F(RefusedRobot, HasOtherJointsAndNamesTheRemedy) {
   EXPECT_THAT(complaint(edited_upkie(
                   {{"<body name=\"left_wheel\"",
                     "<body name=\"ankle\"><inertial pos=\"0 0 0\" mass=\"0.1\" diaginertia=\"1e-4 "

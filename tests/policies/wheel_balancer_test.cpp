@@ -48,7 +48,7 @@ Observation leaning(double pitch, double yaw = 0.0) {
   return seen;
 }
 
-/// An upright robot whose wheels have rolled forward by this angle (rad).
+/// An upright robot after its wheels have rolled forward by this angle (rad).
 Observation rolled(double angle, double yaw = 0.0) {
   Observation seen = leaning(0.0, yaw);
   seen.servo[models::index(Servo::left_wheel)].position = angle;

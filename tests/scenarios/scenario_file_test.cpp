@@ -226,7 +226,7 @@ TEST(ScenarioYaml, IsRefusedWithPlaceKeyAndExpectation) {
               HasSubstr("terrain.friction"));
 }
 
-/// What the robot of a scenario cannot do, or its file does not say.
+/// What the robot of a scenario cannot do, or what its file lacks.
 TEST_F(ScenarioOfARobot, IsRefusedForItsRobot) {
   const std::string hip = "hip: expected -1.26 to 1.26, the range of joint 'left_hip'";
   const std::string knee = "knee: expected -2.51 to 2.51, the range of joint 'left_knee'";
