@@ -30,18 +30,6 @@ void set_joints(Signals& signals, const Joint& joint) {
   }
 }
 
-/// The arrays of targets, by member of `JointTarget`.
-struct TargetArray {
-  const char* name;
-  double JointTarget::*member;
-};
-constexpr std::array<TargetArray, 5> target_arrays = {
-    {{"target_position", &JointTarget::position},
-     {"target_velocity", &JointTarget::velocity},
-     {"target_torque", &JointTarget::feedforward_torque},
-     {"target_kp", &JointTarget::kp},
-     {"target_kd", &JointTarget::kd}}};
-
 /// Sets one member of all targets to `number(index)`.
 template <typename Number>
 void set_targets(Signals& signals, double JointTarget::*member, const Number& number) {

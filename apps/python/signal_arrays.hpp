@@ -9,6 +9,18 @@
 
 namespace touchdown::python {
 
+/// The arrays of targets, by member of `JointTarget`.
+struct TargetArray {
+  const char* name;
+  double JointTarget::*member;
+};
+inline constexpr std::array<TargetArray, 5> target_arrays = {
+    {{"target_position", &JointTarget::position},
+     {"target_velocity", &JointTarget::velocity},
+     {"target_torque", &JointTarget::feedforward_torque},
+     {"target_kp", &JointTarget::kp},
+     {"target_kd", &JointTarget::kd}}};
+
 /// The signals that an estimator uses. Arrays of others may be missing: they are 0.
 struct SignalNeeds {
   bool torque = true;
