@@ -50,12 +50,12 @@ TEST(GivenHyperparameters, SetTheMembersThatTheyAreNamedAfter) {
                                                        {"bandwidth_floor", 0.07}});
   EXPECT_EQ(robust.configuration.at("threshold"), "0.3");
   EXPECT_EQ(robust.configuration.at("transition.switch.offset"), "2.7");
-  EXPECT_EQ(robust.configuration.at("transition.switch.slope"), text_of(1.0 / 3.0));
+  EXPECT_EQ(robust.configuration.at("transition.switch.slope"), touchdown::text_of(1.0 / 3.0));
   EXPECT_EQ(robust.fitting.torques->fit.bandwidth_floor, (TorqueBandwidth{0.07, 0.07}));
   const EstimatorEntry phase = with_hyperparameters(
       estimator_entry("phase"), {{"torque_bandwidth", 0.1}, {"return_above", 2.0 / 3.0}});
   EXPECT_EQ(phase.fitting.phases->torque_bandwidth, 0.1);
-  EXPECT_EQ(phase.configuration.at("return_above"), text_of(2.0 / 3.0));
+  EXPECT_EQ(phase.configuration.at("return_above"), touchdown::text_of(2.0 / 3.0));
 }
 
 TEST(GivenHyperparameters, YieldToChosenOnes) {
