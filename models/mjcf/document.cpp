@@ -322,7 +322,7 @@ std::string_view attribute(const XMLElement& element, const char* name) {
 }
 
 std::string found_text(std::string_view name, const std::vector<std::string>& names) {
-  const std::string near = did_you_mean(name, names);
+  std::string near = did_you_mean(name, names);
   if (!near.empty()) return near;
   return names.empty() ? ", found none" : fmt::format(", found {}", fmt::join(names, ", "));
 }

@@ -31,7 +31,7 @@ bool is_number(const std::string& cell) {
 }
 
 std::string readable_cell(const std::string& name, const TableRow& row) {
-  const std::string cell = row.text(name);
+  std::string cell = row.text(name);
   if (cell == "nan") return "–";
   if (name.ends_with("simulator")) return simulators::simulator_title(cell);
   if (name == "estimator" || name == "first" || name == "second")
