@@ -66,7 +66,8 @@ std::vector<NeededFit> needed_fits(const ExperimentContext& context, const Compu
 
 void tune_and_fit(ExperimentContext& context, const NeededFit& needed, Computed& done) {
   const StageTimer timer(context, "fit");
-  const auto& [engine, fit] = needed;
+  const std::string& engine = needed.engine;
+  const std::string& fit = needed.name;
   Experiment experiment = context.request.experiment;
   experiment.simulators = {engine};
   Rollouts streamed = simulate_fit(context, needed, done);

@@ -254,7 +254,7 @@ class LogReader::Cleaning {
 LogReader::LogReader(const std::filesystem::path& path, const std::atomic<bool>* stop)
     : LogReader(file_source(path, stop), path == "-" ? "standard input" : path.string()) {}
 
-LogReader::LogReader(ByteSource source, std::string name)
+LogReader::LogReader(ByteSource source, const std::string& name)
     : LogReader(packed_records(std::move(source), name), name) {}
 
 LogReader::LogReader(std::unique_ptr<RecordSource> records, std::string name)

@@ -34,7 +34,7 @@ class LogReader {
   /// "-" reads standard input. The log ends early once `stop` is true; `stop` may be null.
   explicit LogReader(const std::filesystem::path& path, const std::atomic<bool>* stop = nullptr);
   /// `name` is used in messages.
-  LogReader(ByteSource source, std::string name);
+  LogReader(ByteSource source, const std::string& name);
   LogReader(std::unique_ptr<RecordSource> records, std::string name);
   LogReader(LogReader&& other) noexcept;
   ~LogReader();
