@@ -64,6 +64,8 @@ constexpr double soft_stiffness = 500.0;  // N/m: of one soft leg from hip to ax
 constexpr double soft_damping = 140.0;    // N·s/m
 constexpr double gravity = 9.81;          // m/s²
 
+}  // namespace
+
 /// Masses and lengths of a wheeled biped from the side, x forward, z up, for control laws. Both
 /// legs count as one. All joints are at zero, where both links point straight down.
 struct SideView {
@@ -84,6 +86,8 @@ struct SideView {
   Eigen::Vector2d centre(double hip, double knee, double pitch) const;
 };
 
+namespace {
+
 /// The line from hip to axle of a leg with its knee bent forward.
 struct LegLine {
   double lever;       ///< lever arm at the knee of a force along the line (m)
@@ -99,6 +103,8 @@ LegLine line_of(const SideView& robot, double knee) {
           std::atan2(l * std::sin(knee), u + l * std::cos(knee)),
           (l * l + u * l * std::cos(knee)) / square};
 }
+
+}  // namespace
 
 Eigen::Vector2d SideView::centre(double hip, double knee, double pitch) const {
   const Eigen::Vector2d to_knee = bent(hip, {0.0, -upper_length});
@@ -275,8 +281,6 @@ models::Action SoftLander::act(const models::Observation& observation) {
   previous_ = action;
   return action;
 }
-
-}  // namespace
 
 std::unique_ptr<Policy> make_soft_lander(PolicyParts parts, const models::RobotModel& robot) {
   return std::make_unique<SoftLander>(std::move(parts), side_view(robot));
