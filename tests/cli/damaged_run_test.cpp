@@ -16,8 +16,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-namespace fs = std::filesystem;
-
 /// The document with another value at each of its paths, the root included; of a list, in its first
 /// item only. The values take turns.
 void for_each_damage(Json document, const std::vector<Json>& values,

@@ -12,7 +12,6 @@ namespace touchdown::experiments {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 constexpr std::size_t resamples = 20'000;
 const scoring::BootstrapConfig intervals = {.resamples = resamples};

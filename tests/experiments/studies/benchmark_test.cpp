@@ -17,7 +17,6 @@
 namespace touchdown::experiments {
 namespace {
 
-using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 using ::testing::ThrowsMessage;

@@ -30,7 +30,6 @@ using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using ::testing::ThrowsMessage;
 
 Experiment with_closed_loop(const ScratchFolder& folder, const std::string& section,

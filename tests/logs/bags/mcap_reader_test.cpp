@@ -21,7 +21,6 @@ namespace {
 
 using test::lines_of;
 using test::mcap_bytes;
-using test::McapOptions;
 using test::ReadBag;
 using test::TestBag;
 using ::testing::HasSubstr;

@@ -19,7 +19,6 @@
 namespace touchdown::logs {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 /// The required signals. Optional ones can be appended behind `imu`.

@@ -20,7 +20,6 @@ namespace touchdown::render {
 namespace {
 
 using ::testing::ExitedWithCode;
-using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 /// A process looks for its OpenGL once, and so does MuJoCo. Each drawing here therefore runs in its
