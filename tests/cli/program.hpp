@@ -49,7 +49,7 @@ class ProgramFolder : public ScratchFolder {
 /// Each test has a folder of its own.
 class InFolder : public ::testing::Test {
  protected:
-  const ProgramFolder folder_;
+  const ProgramFolder folder_{};
 };
 
 /// Writes an experiment that takes about a second, and its scenarios, into the folder; returns its
