@@ -24,6 +24,9 @@ using ::testing::HasSubstr;
 
 /// `touchdown estimate - --estimator free_fall`, with a pipe at its input.
 class LiveEstimate : public InFolder {
+ public:
+  ~LiveEstimate() override { close_input(); }
+
  protected:
   LiveEstimate() {
     std::array<int, 2> input = {};
@@ -33,7 +36,6 @@ class LiveEstimate : public InFolder {
     to_ = input[1];
     program_.emplace("estimate - --estimator free_fall", folder_.path());
   }
-  ~LiveEstimate() override { close_input(); }
 
   void send(std::string_view bytes) const {
     while (!bytes.empty()) {
