@@ -26,7 +26,8 @@ class MappedLogs : public ::testing::Test {
     return folder_ / name;
   }
 
-  /// The rows of a log. A caller that pulls them gets the same bits as the reader of an exported log.
+  /// The rows of a log. A caller that pulls them gets the same bits as the reader of an exported
+  /// log.
   std::vector<LogRow> convert(const std::filesystem::path& log, const std::string& mapping) {
     const std::filesystem::path map = write("map.yaml", mapping);
     std::stringstream stream;
