@@ -66,6 +66,9 @@ constexpr double gravity = 9.81;          // m/s²
 
 }  // namespace
 
+// The classes below have external linkage: in an anonymous namespace g++ inlines them otherwise and
+// contracts other products into sums, which changes the last bits of simulated runs.
+
 /// Masses and lengths of a wheeled biped from the side, x forward, z up, for control laws. Both
 /// legs count as one. All joints are at zero, where both links point straight down.
 struct SideView {

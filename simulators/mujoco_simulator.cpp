@@ -34,6 +34,9 @@ bool diverged(const mjData& data) {
 
 }  // namespace
 
+// The classes below have external linkage: in an anonymous namespace g++ inlines them otherwise and
+// contracts other products into sums, which changes the last bits of simulated runs.
+
 /// The tyres of a robot in MuJoCo.
 class MujocoTyres {
  public:
