@@ -1,7 +1,6 @@
 #include "logs/bags/bag.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -21,12 +20,6 @@ namespace touchdown::logs {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 /// NAME_10 comes after NAME_9: numbers of more digits are larger.
 std::pair<std::size_t, std::string> by_number(const fs::path& file) {
@@ -51,8 +44,8 @@ std::vector<fs::path> listed_files(const fs::path& metadata) {
 
 /// The extension in lower case, without `.zstd`: ".mcap", ".db3", ".bag" or another one.
 std::string bag_extension(const fs::path& file) {
-  const std::string last = lower(file.extension().string());
-  return last == ".zstd" || last == ".zst" ? lower(file.stem().extension().string()) : last;
+  const std::string last = extension_of(file);
+  return last == ".zstd" || last == ".zst" ? extension_of(file.stem()) : last;
 }
 
 std::vector<fs::path> files_in(const fs::path& folder) {

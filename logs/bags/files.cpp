@@ -1,6 +1,7 @@
 #include "logs/bags/files.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -17,6 +18,13 @@
 #include "core/resources.hpp"
 
 namespace touchdown::logs {
+
+std::string extension_of(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
 
 RandomFile::RandomFile(const std::filesystem::path& path, std::string name)
     : name_(std::move(name)) {

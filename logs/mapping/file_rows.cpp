@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -16,6 +15,7 @@
 
 #include "core/error.hpp"
 #include "estimator/npz/npz.hpp"
+#include "logs/bags/files.hpp"
 #include "logs/log/numbers_csv.hpp"
 #include "logs/mapping/row_source.hpp"
 
@@ -292,9 +292,7 @@ class ArrayFile final : public FileSource {
 
 std::unique_ptr<RowSource> open_file(const std::filesystem::path& file, const std::string& section,
                                      std::size_t source) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = extension_of(file);
   if (extension == ".csv" || extension == ".tsv") {
     return std::make_unique<CsvFile>(file, section, source);
   }

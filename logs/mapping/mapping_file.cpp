@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <cctype>
 #include <string>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "core/resources.hpp"
+#include "logs/bags/files.hpp"
 #include "logs/mapping/mapping_reader.hpp"
 
 namespace touchdown::logs {
@@ -25,9 +25,7 @@ void describe_names(Fields& fields, const char* key, std::vector<std::string>& n
 }
 
 bool is_file_name(const std::string& name) {
-  std::string extension = std::filesystem::path(name).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = extension_of(name);
   return extension == ".csv" || extension == ".npz" || extension == ".tsv" || extension == ".txt";
 }
 

@@ -45,8 +45,8 @@ class RowSource {
 /// - sources without a time in common; and as in `BagReader` and `find_signal_topics`.
 std::unique_ptr<RowSource> open_rows(const std::filesystem::path& log, const LogSources& sources);
 
-/// Opens one file; its columns have the number `source` in the mapping. `section` is
-/// that of `SourceNames`.
+/// Opens one file; its columns have the number `source` in the mapping. `section` is that of
+/// `SourceNames`.
 std::unique_ptr<RowSource> open_file(const std::filesystem::path& file,
                                      const std::string& section = {}, std::size_t source = 0);
 

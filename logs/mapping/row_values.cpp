@@ -32,10 +32,6 @@ void put(LogValues& values, std::size_t slot, const Eigen::Vector3d& vector) {
   std::copy(vector.begin(), vector.end(), values.begin() + static_cast<std::ptrdiff_t>(slot));
 }
 
-constexpr std::size_t velocity_target(models::Servo wheel) {
-  return log_slot::command + 6 * models::index(wheel) + 2;
-}
-
 constexpr std::array<models::Servo, 4> leg_servos = {
     models::Servo::left_hip, models::Servo::left_knee, models::Servo::right_hip,
     models::Servo::right_knee};
@@ -45,6 +41,7 @@ constexpr std::size_t command_of(models::Servo servo) {
   return log_slot::command + 6 * models::index(servo);
 }
 constexpr std::size_t leg_command_size = 5;
+constexpr std::size_t velocity_target(models::Servo wheel) { return command_of(wheel) + 2; }
 
 void put_leg_targets(const MappedLegTargets& targets, std::span<const double> row,
                      LogValues& values) {
