@@ -31,11 +31,12 @@ struct Refusal {
 /// Checks that `read` refuses every input with a complaint of one line that has all of its words.
 template <typename Read>
 void expect_refused(const std::vector<Refusal>& table, const Read& read) {
-  for (const auto& [input, words] : table) {
+  for (const Refusal& refusal : table) {
+    const std::string& input = refusal.input;
     const std::string complaint = complaint_of([&] { (void)read(input); });
     EXPECT_NE(complaint, "no complaint") << input;
     EXPECT_THAT(complaint, ::testing::Not(::testing::HasSubstr("\n"))) << input;
-    for (const std::string& word : words) {
+    for (const std::string& word : refusal.words) {
       if (word.starts_with('^')) {
         EXPECT_THAT(complaint, ::testing::StartsWith(word.substr(1))) << input;
       } else {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/training/config/training.hpp"
+#include "apps/training/trainer.hpp"
 #include "noise/sensor_profile.hpp"
 #include "scenarios/scenario.hpp"
 
