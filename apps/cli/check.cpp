@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/program.hpp"
 #include "core/resources.hpp"
+#include "core/stop.hpp"
 #include "core/table.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
@@ -168,12 +169,7 @@ std::size_t check_robot(const std::string& path, bool as_json, const CliSession&
 /// Returns the number of findings. Errors: `InputError` for a log that cannot be read.
 std::size_t check_log(const std::string& path, const std::string& mapping,
                       const experiments::LogRobot& robot, const CliSession& session) {
-  const auto check_stop = [&] {
-    if (*session.stop) throw Stopped("stopped");
-  };
-  logs::LogReader reader =
-      mapping.empty() ? logs::LogReader(path, session.stop)
-                      : logs::LogReader(logs::mapped_records(path, mapping, {check_stop}), path);
+  logs::LogReader reader = logs::open_log(path, mapping, session.stop);
   experiments::LogSteps log(reader, nullptr, experiments::checked_robot(robot, reader.info()));
   std::int64_t steps = 0;
   double last = 0.0;
@@ -181,7 +177,7 @@ std::size_t check_log(const std::string& path, const std::string& mapping,
     ++steps;
     last = step->signals.time;
   }
-  if (*session.stop) throw Stopped("stopped");
+  end_if(session.stop);
   print_warnings(reader.warnings());
   const std::vector<std::string> findings = log.findings();
   std::string text =

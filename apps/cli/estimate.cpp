@@ -198,11 +198,10 @@ std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* 
     const bool live = path == "-";
     const auto open = [&] {
       if (!flags.mapping.empty()) {
-        const auto check_stop = [&] {
-          if (*session.stop) throw Stopped("stopped; nothing was written");
-        };
         return logs::LogReader(
-            logs::mapped_records(path, flags.mapping, {check_stop, mpack != nullptr}), path);
+            logs::mapped_records(path, flags.mapping,
+                                 {.stop = session.stop, .with_bytes = mpack != nullptr}),
+            path);
       }
       // A reader of a live stream gets every line before the program waits for the next record.
       return logs::LogReader(

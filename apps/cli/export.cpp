@@ -14,6 +14,7 @@
 #include "core/program.hpp"
 #include "core/progress.hpp"
 #include "core/resources.hpp"
+#include "core/stop.hpp"
 #include "experiments/logs/estimator.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
@@ -44,10 +45,6 @@ void check_files(const ExportedLog& files) {
   check_outputs({{files.log, "log"}, {files.mapping, "mapping"}}, outputs);
 }
 
-void check_stop(const CliSession& session) {
-  if (*session.stop) throw Stopped("stopped; nothing was written");
-}
-
 /// Prints what is implausible about the signals of the written log, one line each. Returns their
 /// number.
 std::size_t report_findings(const ExportedLog& files, const CliSession& session) {
@@ -55,7 +52,7 @@ std::size_t report_findings(const ExportedLog& files, const CliSession& session)
   std::vector<std::string> findings;
   try {
     experiments::LogSteps log(reader, nullptr, experiments::checked_robot({}, reader.info()));
-    while (log.next() != nullptr) check_stop(session);
+    while (log.next() != nullptr) end_if(session.stop);
     findings = log.findings();
   } catch (const InputError& error) {
     findings = {error.what()};  // no estimator can read the log
@@ -100,8 +97,8 @@ void export_log(const ExportedLog& files, const CliSession& session) {
   check_files(files);
   logs::ConvertedLog log;
   write_stream_atomically(files.output, [&](std::ostream& stream) {
-    log = logs::convert_log(
-        files.log, files.mapping, stream, [&] { check_stop(session); }, !files.labels.empty());
+    log = logs::convert_log(files.log, files.mapping, stream,
+                            {.stop = session.stop, .with_labels = !files.labels.empty()});
     stream.flush();  // labels only beside a whole log
     if (!stream) return;
     if (!files.labels.empty()) write_atomically(files.labels, labels_text(files, log));
@@ -122,19 +119,18 @@ void export_log(const ExportedLog& files, const CliSession& session) {
 }
 
 /// Writes a log, with the beliefs in it, as an MCAP file and prints a summary. If the log contains
-/// its scene, or a `robot` is named, the file shows it too (render/mcap/scene.hpp). Errors: as
-/// above.
+/// its scene, or a `robot` is named, the file shows it too. Errors: as above.
 void export_mcap(const std::string& log, const std::string& robot, const std::string& output,
                  const CliSession& session) {
   check_outputs({{log, "log"}}, {output});
   logs::LogReader reader(log, session.stop);
   std::uint64_t rows = 0;
   const std::optional<render::FilmedRun> run = drawable(log, robot, reader.info(), session);
-  check_stop(session);
+  end_if(session.stop);
   write_stream_atomically(output, [&](std::ostream& stream) {
     rows = run ? render::write_mcap_with_scene(reader, stream, run->robot, run->recording)
                : logs::write_mcap(reader, stream);
-    check_stop(session);
+    end_if(session.stop);
   });
   print_warnings(reader.warnings());
   print("log       {}, {} records, {:.1f} MB\n", output, rows,

@@ -14,6 +14,7 @@
 #include "core/program.hpp"
 #include "core/progress.hpp"
 #include "core/resources.hpp"
+#include "core/stop.hpp"
 #include "experiments/config/yaml_kind.hpp"
 #include "logs/log/reader.hpp"
 #include "logs/log/recording_file.hpp"
@@ -108,7 +109,7 @@ void simulate(SimulateFlags flags, const CliSession& session) {
                                   return !*session.stop;
                                 });
   }
-  if (*session.stop) throw Stopped("stopped; nothing was written");
+  end_if(session.stop);
   if (sensors) report_through(*sensors, recording);
   logs::write_recording(recording, flags.output);
   const auto all = scoring::flights(scoring::any_wheel(scoring::contact_labels(recording, {})));

@@ -48,20 +48,10 @@ py::tuple simulate(const fs::path& scenario, const std::string& simulator, std::
   }));
 }
 
-/// `mapping` converts another robot's log or bag.
-logs::LogReader reader_of(const fs::path& path, const std::optional<fs::path>& mapping,
-                          const std::atomic<bool>& stop) {
-  if (!mapping) return logs::LogReader(path, &stop);
-  const auto check_stop = [&] {
-    if (stop) throw Stopped("stopped");
-  };
-  return {logs::mapped_records(path, *mapping, {check_stop}), path.string()};
-}
-
 py::tuple load(const fs::path& path, const std::optional<fs::path>& mapping) {
   std::vector<std::string> warnings;
   py::tuple read = with_info(long_call([&](const std::atomic<bool>& stop) {
-    logs::LogReader reader = reader_of(path, mapping, stop);
+    logs::LogReader reader = logs::open_log(path, mapping.value_or(fs::path()), &stop);
     logs::Recording recording = logs::read_recording(reader, &warnings);
     if (stop) throw Stopped("stopped");
     return recording;

@@ -116,8 +116,8 @@ bool is_bag(const fs::path& path) {
   return extension == ".mcap" || extension == ".db3" || extension == ".bag";
 }
 
-BagReader::BagReader(const fs::path& path, TopicFilter wanted)
-    : wanted_(std::move(wanted)), files_(bag_files(path)) {}
+BagReader::BagReader(const fs::path& path, TopicFilter wanted, const std::atomic<bool>* stop)
+    : wanted_(std::move(wanted)), stop_(stop), files_(bag_files(path)) {}
 
 void BagReader::close() {
   mcap_.reset();
@@ -130,7 +130,7 @@ void BagReader::open_next() {
   fs::path file = named;
   if (is_zstd(first_bytes(file))) {
     const fs::path& plain = temporary_.emplace().path();
-    decompress_file(file, plain);
+    decompress_file(file, plain, stop_);
     file = plain;
   }
   const std::string bytes = first_bytes(file);
@@ -143,9 +143,9 @@ void BagReader::open_next() {
   }
   topic_of_.clear();
   if (bytes.starts_with(mcap_magic)) {
-    mcap_ = std::make_unique<McapReader>(file, wanted_, named.string());
+    mcap_ = std::make_unique<McapReader>(file, wanted_, named.string(), stop_);
   } else if (bytes.starts_with("SQLite format 3")) {
-    sqlite_ = std::make_unique<SqliteReader>(file, wanted_, named.string());
+    sqlite_ = std::make_unique<SqliteReader>(file, wanted_, named.string(), stop_);
   } else {
     throw InputError(
         fmt::format("{}: is no ROS 2 bag: it begins neither like MCAP nor like SQLite{}",

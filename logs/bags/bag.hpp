@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -25,10 +26,12 @@ bool is_bag(const std::filesystem::path& path);
 /// (it names the conversion), and as in `McapReader` and `SqliteReader`.
 class BagReader {
  public:
-  /// A topic is read if `wanted` is empty or true for it.
-  explicit BagReader(const std::filesystem::path& path, TopicFilter wanted = {});
+  /// A topic is read if `wanted` is empty or true for it. `stop` may be null.
+  explicit BagReader(const std::filesystem::path& path, TopicFilter wanted = {},
+                     const std::atomic<bool>* stop = nullptr);
 
-  /// Proceeds to the next message. Returns false at the end.
+  /// Proceeds to the next message. Returns false at the end. Errors: also `Stopped` once `stop` is
+  /// true.
   bool next(BagMessage& message);
 
   /// Topics found so far, with the number of messages read; complete at the end.
@@ -43,6 +46,7 @@ class BagReader {
   void update_topics(const std::vector<BagTopic>& of_file);
 
   TopicFilter wanted_;
+  const std::atomic<bool>* stop_;
   std::vector<std::filesystem::path> files_;
   std::size_t next_file_ = 0;
   std::optional<TemporaryFile> temporary_;  ///< the current file, decompressed

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/stop.hpp"
 
 namespace touchdown::logs {
 
@@ -122,7 +123,8 @@ Decompressed decompress(Compression compression, std::string_view compressed, st
 
 bool is_zstd(std::string_view bytes) { return bytes.starts_with("\x28\xb5\x2f\xfd"); }
 
-void decompress_file(const std::filesystem::path& compressed, const std::filesystem::path& path) {
+void decompress_file(const std::filesystem::path& compressed, const std::filesystem::path& path,
+                     const std::atomic<bool>* stop) {
   std::ifstream from(compressed, std::ios::binary);
   std::ofstream to(path, std::ios::binary);
   if (!to) throw Error(fmt::format("{}: cannot be written", path.string()));
@@ -133,6 +135,7 @@ void decompress_file(const std::filesystem::path& compressed, const std::filesys
   bool has_bytes = false;
   while (from.read(in_bytes.data(), static_cast<std::streamsize>(in_bytes.size())),
          from.gcount() > 0) {
+    end_if(stop);
     has_bytes = true;
     ZSTD_inBuffer in{in_bytes.data(), static_cast<std::size_t>(from.gcount()), 0};
     // A full output buffer may hide output that still waits in the decompressor.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -24,7 +25,9 @@ Decompressed decompress(Compression compression, std::string_view compressed, st
 bool is_zstd(std::string_view bytes);
 
 /// Decompresses the file `compressed` into the file `path`. Errors: `InputError` for bytes that are
-/// no zstd frames, or that end early; `Error` when the file cannot be written.
-void decompress_file(const std::filesystem::path& compressed, const std::filesystem::path& path);
+/// no zstd frames, or that end early; `Error` when the file cannot be written; `Stopped` once
+/// `stop`, which may be null, is true.
+void decompress_file(const std::filesystem::path& compressed, const std::filesystem::path& path,
+                     const std::atomic<bool>* stop = nullptr);
 
 }  // namespace touchdown::logs

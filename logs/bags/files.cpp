@@ -16,6 +16,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/resources.hpp"
+#include "core/stop.hpp"
 
 namespace touchdown::logs {
 
@@ -26,8 +27,9 @@ std::string extension_of(const std::filesystem::path& file) {
   return extension;
 }
 
-RandomFile::RandomFile(const std::filesystem::path& path, std::string name)
-    : name_(std::move(name)) {
+RandomFile::RandomFile(const std::filesystem::path& path, std::string name,
+                       const std::atomic<bool>* stop)
+    : name_(std::move(name)), stop_(stop) {
   require_file(path);
   descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);  // NOLINT
   const off_t end = descriptor_ < 0 ? -1 : ::lseek(descriptor_, 0, SEEK_END);
@@ -42,6 +44,7 @@ RandomFile::RandomFile(const std::filesystem::path& path, std::string name)
 RandomFile::~RandomFile() { ::close(descriptor_); }
 
 void RandomFile::read(std::uint64_t offset, std::uint64_t size, std::string& bytes) const {
+  end_if(stop_);
   const std::uint64_t there = offset < size_ ? size_ - offset : 0;
   bytes.resize(std::min(size, there));
   std::size_t done = 0;

@@ -17,8 +17,8 @@ constexpr std::uint64_t most_loaded_bytes = std::uint64_t{1} << 30U;
 }  // namespace
 
 McapReader::McapReader(const std::filesystem::path& path, TopicFilter wanted,
-                       const std::string& name)
-    : file_(path, name.empty() ? path.string() : name),
+                       const std::string& name, const std::atomic<bool>* stop)
+    : file_(path, name.empty() ? path.string() : name, stop),
       wanted_(std::move(wanted)),
       layout_(mcap_layout(file_)) {
   if (layout_.is_in_file_order) return;

@@ -105,9 +105,10 @@ McapLayout mcap_layout(const RandomFile& file);
 /// chunks that are too large together.
 class McapReader {
  public:
-  /// A topic is read if `wanted` is empty or true for it. `name` is the file's in messages.
+  /// A topic is read if `wanted` is empty or true for it. `name` is the file's in messages. Reading
+  /// ends with `Stopped` once `stop` is true; it may be null.
   explicit McapReader(const std::filesystem::path& path, TopicFilter wanted = {},
-                      const std::string& name = {});
+                      const std::string& name = {}, const std::atomic<bool>* stop = nullptr);
 
   /// Proceeds to the next message. Returns false at the end.
   bool next(BagMessage& message);

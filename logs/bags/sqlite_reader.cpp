@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/resources.hpp"
+#include "core/stop.hpp"
 #include "logs/bags/files.hpp"
 
 namespace touchdown::logs {
@@ -17,6 +18,12 @@ namespace {
 
 /// Largest message; SQLite refuses longer values without memory for them.
 constexpr int most_message_bytes = 1 << 28;
+
+/// SQLite's virtual machine needs at most 40 steps to order and read a message, which takes 12
+/// bytes and more in the file, and a few thousand to open it.
+constexpr std::uint64_t steps_per_byte = 8;
+constexpr std::uint64_t steps_at_start = 1'000'000;
+constexpr int steps_at_once = 100;
 
 /// The path as a URI of SQLite, in which these characters have a meaning.
 std::string uri_of(const std::string& path, const char* options) {
@@ -42,9 +49,11 @@ void SqliteReader::Close::operator()(sqlite3* database) const { sqlite3_close(da
 void SqliteReader::Close::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 
 SqliteReader::SqliteReader(const std::filesystem::path& path, const TopicFilter& wanted,
-                           const std::string& name)
-    : name_(name.empty() ? path.string() : name) {
+                           const std::string& name, const std::atomic<bool>* stop)
+    : name_(name.empty() ? path.string() : name), stop_(stop) {
   require_file(path);
+  steps_left_ =
+      (steps_per_byte * std::filesystem::file_size(path) + steps_at_start) / steps_at_once;
   open(path);
   for (const char* table : {"topics", "messages"}) {
     if (!has_table(table)) complain(fmt::format("is no ROS 2 bag: it has no table '{}'", table));
@@ -70,6 +79,14 @@ int SqliteReader::try_open(const std::string& uri, bool salvages) {
   sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, most_message_bytes);
   sqlite3_db_config(opened, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   sqlite3_db_config(opened, SQLITE_DBCONFIG_WRITABLE_SCHEMA, salvages ? 1 : 0, nullptr);
+  sqlite3_progress_handler(
+      opened, steps_at_once,
+      [](void* self) {
+        auto& reader = *static_cast<SqliteReader*>(self);
+        const bool is_stopped = reader.stop_ != nullptr && *reader.stop_;
+        return is_stopped || reader.steps_left_ == 0 || --reader.steps_left_ == 0 ? 1 : 0;
+      },
+      this);
   sqlite3_exec(opened, "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
   return sqlite3_exec(opened, "SELECT name FROM sqlite_master LIMIT 1", nullptr, nullptr, nullptr);
 }
@@ -115,9 +132,7 @@ void SqliteReader::open(const std::filesystem::path& path) {
     result = try_open(uri_of(copy_->path(), "?mode=ro"), true);
   }
   if (result == SQLITE_NOTADB) complain("is no SQLite database: is it compressed?");
-  if (result != SQLITE_OK) {
-    complain(fmt::format("cannot be read: {}", sqlite3_errmsg(database_.get())));
-  }
+  if (result != SQLITE_OK) complain_unreadable();
 }
 
 /// Whether it has this table. A view or a virtual table of the name, which could run code or never
@@ -143,6 +158,7 @@ void SqliteReader::read_topics(const TopicFilter& wanted) {
 SqliteReader::Statement SqliteReader::prepare(const std::string& sql) {
   sqlite3_stmt* statement = nullptr;
   if (sqlite3_prepare_v2(database_.get(), sql.c_str(), -1, &statement, nullptr) != SQLITE_OK) {
+    if (sqlite3_errcode(database_.get()) == SQLITE_INTERRUPT) complain_unreadable();
     complain(fmt::format("is no ROS 2 bag: {}", sqlite3_errmsg(database_.get())));
   }
   return Statement(statement);
@@ -153,7 +169,7 @@ bool SqliteReader::step(sqlite3_stmt* statement) {
   const int result = sqlite3_step(statement);
   if (result == SQLITE_ROW) return true;
   if (result == SQLITE_DONE) return false;
-  complain(fmt::format("cannot be read: {}", sqlite3_errmsg(database_.get())));
+  complain_unreadable();
 }
 
 bool SqliteReader::take(sqlite3_stmt* row, BagMessage& message) {
@@ -216,6 +232,12 @@ bool SqliteReader::next_in_file(BagMessage& message) {
       name_, messages_);
   all_.reset();
   return false;
+}
+
+void SqliteReader::complain_unreadable() const {
+  end_if(stop_);
+  complain(steps_left_ > 0 ? fmt::format("cannot be read: {}", sqlite3_errmsg(database_.get()))
+                           : "its pages name each other again and again: it is damaged");
 }
 
 void SqliteReader::complain(const std::string& what) const {

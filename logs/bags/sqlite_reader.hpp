@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -20,12 +21,14 @@ namespace touchdown::logs {
 
 /// Reads the messages of a SQLite bag (`.db3`) by the time of recording, with or without an index
 /// of times. A damaged file is read as far as its pages are whole; `note()` describes it. Errors
-/// (`InputError`): a file that is no SQLite database, or one without a bag's tables.
+/// (`InputError`): a file that is no SQLite database, or one without a bag's tables; one whose
+/// pages name each other again and again, so that it has more rows than its bytes can hold.
 class SqliteReader {
  public:
-  /// A topic is read if `wanted` is empty or true for it. `name` is the file's in messages.
+  /// A topic is read if `wanted` is empty or true for it. `name` is the file's in messages. Reading
+  /// ends with `Stopped` once `stop` is true; it may be null.
   explicit SqliteReader(const std::filesystem::path& path, const TopicFilter& wanted = {},
-                        const std::string& name = {});
+                        const std::string& name = {}, const std::atomic<bool>* stop = nullptr);
 
   /// Proceeds to the next message. Returns false at the end.
   bool next(BagMessage& message);
@@ -52,9 +55,12 @@ class SqliteReader {
   bool take(sqlite3_stmt* row, BagMessage& message);
   bool next_in_order(BagMessage& message);
   bool next_in_file(BagMessage& message);
+  [[noreturn]] void complain_unreadable() const;
   [[noreturn]] void complain(const std::string& what) const;
 
   std::string name_;
+  const std::atomic<bool>* stop_;
+  std::uint64_t steps_left_ = 0;       ///< of SQLite's virtual machine, in hundreds
   std::optional<TemporaryFile> copy_;  ///< the whole pages of a file that is cut off
   std::unique_ptr<sqlite3, Close> database_;
   std::vector<BagTopic> topics_;

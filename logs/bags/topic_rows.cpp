@@ -234,8 +234,9 @@ void check_readable(const BagTopic& topic, BagReader& bag, const std::filesystem
 }  // namespace
 
 std::vector<SignalTopic> find_signal_topics(const std::filesystem::path& path,
-                                            const std::vector<std::string>& names) {
-  BagReader bag(path);
+                                            const std::vector<std::string>& names,
+                                            const std::atomic<bool>* stop) {
+  BagReader bag(path, {}, stop);
   std::vector<SignalTopic> found;
   for (const std::string& name : names) found.emplace_back().name = name;
   const auto is_complete = [](const SignalTopic& topic) {
@@ -270,8 +271,9 @@ std::vector<SignalTopic> find_signal_topics(const std::filesystem::path& path,
   return found;
 }
 
-std::string only_topic_of_type(const std::filesystem::path& path, const std::string& type) {
-  BagReader bag(path);
+std::string only_topic_of_type(const std::filesystem::path& path, const std::string& type,
+                               const std::atomic<bool>* stop) {
+  BagReader bag(path, {}, stop);
   const std::string all = all_topics(bag);
   std::vector<std::string> names;
   for (const BagTopic& topic : bag.topics()) {

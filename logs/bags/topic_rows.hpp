@@ -92,11 +92,13 @@ class TopicRows {
 
 /// The topics of these names in a bag. Errors: `InputError`, which lists the bag's topics with
 /// their types and numbers of messages, for a topic that is not there, has another type or
-/// encoding, or has no readable message.
+/// encoding, or has no readable message; as in `BagReader`, also for `stop`.
 std::vector<SignalTopic> find_signal_topics(const std::filesystem::path& bag,
-                                            const std::vector<std::string>& names);
+                                            const std::vector<std::string>& names,
+                                            const std::atomic<bool>* stop = nullptr);
 
 /// The only topic of this type in a bag. Errors: `InputError` as above if it has none or several.
-std::string only_topic_of_type(const std::filesystem::path& bag, const std::string& type);
+std::string only_topic_of_type(const std::filesystem::path& bag, const std::string& type,
+                               const std::atomic<bool>* stop = nullptr);
 
 }  // namespace touchdown::logs

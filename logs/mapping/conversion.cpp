@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/stop.hpp"
 #include "logs/held_number.hpp"
 #include "logs/log/writer.hpp"
 #include "logs/mapping/row_source.hpp"
@@ -148,11 +149,10 @@ class IntervalBuilder {
 class MappedRecords final : public RecordSource {
  public:
   MappedRecords(const std::filesystem::path& log, const std::filesystem::path& mapping,
-                MappingOptions options, bool with_labels)
+                const MappingOptions& options)
       : log_(log.string()),
-        options_(std::move(options)),
-        with_labels_(with_labels),
-        rows_(open_rows(log, read_log_sources(mapping))),
+        options_(options),
+        rows_(open_rows(log, read_log_sources(mapping), options.stop)),
         mapping_(read_log_mapping(mapping, rows_->names())),
         present_(log_presence(mapping_)),
         hold_(mapping_),
@@ -197,7 +197,7 @@ class MappedRecords final : public RecordSource {
   /// Converts the next row that is a record. Returns false at the end.
   bool pull(LogValues& values) {
     while (!is_at_end_) {
-      if (options_.check_stop) options_.check_stop();
+      end_if(options_.stop);
       if (!rows_->next(row_)) {
         finish();
         break;
@@ -211,7 +211,7 @@ class MappedRecords final : public RecordSource {
         count(values);
       }
       const double time = is_record ? values[log_slot::time] : given_time;
-      if (with_labels_ && (is_record || has_time_)) {
+      if (options_.with_labels && (is_record || has_time_)) {
         intervals_.add(time - converted_.start, row_, *rows_);
       }
       if (is_record) return true;
@@ -270,13 +270,12 @@ class MappedRecords final : public RecordSource {
       throw InputError(fmt::format("{}: no row has a time that is a finite number", log_));
     }
     check_clock();
-    if (with_labels_) converted_.contact = intervals_.finish();
+    if (options_.with_labels) converted_.contact = intervals_.finish();
     converted_.notes = rows_->notes();
   }
 
   std::string log_;
   MappingOptions options_;
-  bool with_labels_;
   std::unique_ptr<RowSource> rows_;
   LogMapping mapping_;
   LogPresence present_;
@@ -321,14 +320,19 @@ std::vector<std::string> warnings_of(const ConvertedLog& converted, const std::s
 
 std::unique_ptr<RecordSource> mapped_records(const std::filesystem::path& log,
                                              const std::filesystem::path& mapping,
-                                             MappingOptions options) {
-  return std::make_unique<MappedRecords>(log, mapping, std::move(options), false);
+                                             const MappingOptions& options) {
+  return std::make_unique<MappedRecords>(log, mapping, options);
+}
+
+LogReader open_log(const std::filesystem::path& log, const std::filesystem::path& mapping,
+                   const std::atomic<bool>* stop) {
+  if (mapping.empty()) return LogReader(log, stop);
+  return {mapped_records(log, mapping, {.stop = stop}), log.string()};
 }
 
 ConvertedLog convert_log(const std::filesystem::path& log, const std::filesystem::path& mapping,
-                         std::ostream& stream, const std::function<void()>& check_stop,
-                         bool with_labels) {
-  MappedRecords records(log, mapping, {.check_stop = check_stop}, with_labels);
+                         std::ostream& stream, const MappingOptions& options) {
+  MappedRecords records(log, mapping, options);
   LogWriter writer(stream, records.present(), records.robot());
   while (records.next()) writer.write(records.values());
   return records.converted();

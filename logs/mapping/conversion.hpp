@@ -1,14 +1,15 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <ostream>
 #include <string>
 #include <vector>
 
 #include "logs/log/contact_intervals.hpp"
+#include "logs/log/reader.hpp"
 #include "logs/log/record_source.hpp"
 
 namespace touchdown::logs {
@@ -33,8 +34,9 @@ std::vector<std::string> warnings_of(const ConvertedLog& converted, const std::s
 
 /// How a log is converted.
 struct MappingOptions {
-  std::function<void()> check_stop = {};  ///< called for each row, and may throw
-  bool with_bytes = false;                ///< the records have bytes, for programs that copy them
+  const std::atomic<bool>* stop = nullptr;  ///< once true, reading ends with `Stopped`
+  bool with_bytes = false;                  ///< the records have bytes, for programs that copy them
+  bool with_labels = false;                 ///< contact labels are looked at
 };
 
 /// Another robot's log, CSV, NumPy's arrays or a ROS 2 bag, as records in Upkie's layout by a
@@ -44,13 +46,16 @@ struct MappingOptions {
 /// without rows or times, and for a clock that counts another unit, which the first 200 rows show.
 std::unique_ptr<RecordSource> mapped_records(const std::filesystem::path& log,
                                              const std::filesystem::path& mapping,
-                                             MappingOptions options = {});
+                                             const MappingOptions& options = {});
 
-/// Writes such records as a log in Upkie's layout. Without `with_labels`, contact labels are not
-/// looked at. `check_stop` is called regularly, and may throw. Errors: as above; `InputError` for
-/// contact labels with decreasing times; `Error` when the stream fails.
+/// Opens a log in Upkie's layout, or another robot's by a mapping file; `mapping` may be empty. A
+/// log in Upkie's layout ends early once `stop` is true.
+LogReader open_log(const std::filesystem::path& log, const std::filesystem::path& mapping,
+                   const std::atomic<bool>* stop);
+
+/// Writes such records as a log in Upkie's layout. Errors: as above; `InputError` for contact
+/// labels with decreasing times; `Error` when the stream fails.
 ConvertedLog convert_log(const std::filesystem::path& log, const std::filesystem::path& mapping,
-                         std::ostream& stream, const std::function<void()>& check_stop = {},
-                         bool with_labels = true);
+                         std::ostream& stream, const MappingOptions& options = {});
 
 }  // namespace touchdown::logs

@@ -290,11 +290,11 @@ void check_given(const fs::path& log, const LogMapping& mapping,
 
 class JoinedBag final : public JoinedSource {
  public:
-  JoinedBag(const fs::path& log, const LogSources& sources)
-      : JoinedSource(log, sources.stale_after) {
+  JoinedBag(const fs::path& log, const LogSources& sources, const std::atomic<bool>* stop)
+      : JoinedSource(log, sources.stale_after), stop_(stop) {
     if (sources.empty()) {
-      add_topics("joints", {only_topic_of_type(log, joint_state_type)});
-      add_topics("imu", {only_topic_of_type(log, imu_type)});
+      add_topics("joints", {only_topic_of_type(log, joint_state_type, stop)});
+      add_topics("imu", {only_topic_of_type(log, imu_type, stop)});
     } else {
       add_topics("joints", sources.joints);
       add_topics("imu", sources.imu);
@@ -302,7 +302,7 @@ class JoinedBag final : public JoinedSource {
     }
     std::vector<std::string> topics;
     for (const SourceNames& one : names_) topics.push_back(one.file);
-    topics_ = find_signal_topics(log, topics);
+    topics_ = find_signal_topics(log, topics, stop);
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const bool is_imu = names_[i].section == "imu";
       if ((topics_[i].type == imu_type) != is_imu) {
@@ -368,6 +368,7 @@ class JoinedBag final : public JoinedSource {
     return true;
   }
 
+  const std::atomic<bool>* stop_;
   std::vector<SignalTopic> topics_;
   bool lacks_stamps_ = false;
   std::vector<TopicRows> rows_;
@@ -378,11 +379,12 @@ class JoinedBag final : public JoinedSource {
 
 }  // namespace
 
-std::unique_ptr<RowSource> open_rows(const fs::path& log, const LogSources& sources) {
+std::unique_ptr<RowSource> open_rows(const fs::path& log, const LogSources& sources,
+                                     const std::atomic<bool>* stop) {
   if (sources.empty() && !is_bag(log)) return open_file(log);
   if (!is_there(log)) throw InputError(fmt::format("{}: no such file or folder", log.string()));
   if (sources.are_files()) return std::make_unique<JoinedFiles>(log, sources);
-  if (is_bag(log)) return std::make_unique<JoinedBag>(log, sources);
+  if (is_bag(log)) return std::make_unique<JoinedBag>(log, sources, stop);
   throw InputError(fmt::format(
       "{}: is no ROS 2 bag (a folder with .mcap or .db3 files, or such a file), but the mapping's "
       "`sources` are topics",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -43,7 +44,9 @@ class RowSource {
 /// - a cell that is not a number;
 /// - rows or arrays of different length, or an array without the wanted columns;
 /// - sources without a time in common; and as in `BagReader` and `find_signal_topics`.
-std::unique_ptr<RowSource> open_rows(const std::filesystem::path& log, const LogSources& sources);
+/// Reading a bag ends with `Stopped` once `stop` is true; it may be null.
+std::unique_ptr<RowSource> open_rows(const std::filesystem::path& log, const LogSources& sources,
+                                     const std::atomic<bool>* stop);
 
 /// Opens one file; its columns have the number `source` in the mapping. `section` is that of
 /// `SourceNames`.

@@ -177,7 +177,8 @@ joints:
 )",
                [&](const std::string& text) {
                  std::ostringstream stream;
-                 (void)logs::convert_log(log, folder.write("damaged.yaml", text), stream);
+                 (void)logs::convert_log(log, folder.write("damaged.yaml", text), stream,
+                                         {.with_labels = true});
                },
                tried);
 }

@@ -134,7 +134,8 @@ TOUCHDOWN_FUZZ(mapping) {
   const std::size_t end = std::min(input.find(between), input.size());
   const std::string_view rows = input.substr(std::min(end + between.size(), input.size()));
   std::ostringstream stream;
-  (void)logs::convert_log(log.with(rows), mapping.with(input.substr(0, end)), stream);
+  (void)logs::convert_log(log.with(rows), mapping.with(input.substr(0, end)), stream,
+                          {.with_labels = true});
 }
 
 /// An MCAP file.

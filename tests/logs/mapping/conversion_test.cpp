@@ -96,7 +96,7 @@ TEST_F(Conversion, NumbersOfARowAreThoseOfTheRecord) {
 TEST_F(Conversion, TheResultIsARobotsLogWithoutOrigin) {
   std::stringstream stream;
   const auto log = write("log.csv", names + "\n" + row("0") + "\n" + row("0.002") + "\n");
-  (void)convert_log(log, write("map.yaml", mapping_head), stream);
+  (void)convert_log(log, write("map.yaml", mapping_head), stream, {.with_labels = true});
   LogReader reader(test::stream_source(stream), "log");
   EXPECT_EQ(reader.info().simulator, "");
   EXPECT_EQ(reader.info().control_period_us, 2000);
@@ -504,7 +504,7 @@ TEST_F(Conversion, LabelsAreLookedAtOnlyIfAsked) {
   EXPECT_THAT(complaint(text, mapping), HasSubstr("contact labels need increasing times"));
   std::stringstream stream;
   const ConvertedLog converted =
-      convert_log(write("log.csv", text), write("map.yaml", mapping), stream, {}, false);
+      convert_log(write("log.csv", text), write("map.yaml", mapping), stream);
   EXPECT_EQ(converted.rows, 3U);
   EXPECT_EQ(converted.time_reversals, 1U);
 }

@@ -31,7 +31,7 @@ class MappedLogs : public ::testing::Test {
   std::vector<LogRow> convert(const std::filesystem::path& log, const std::string& mapping) {
     const std::filesystem::path map = write("map.yaml", mapping);
     std::stringstream stream;
-    converted_ = convert_log(log, map, stream);
+    converted_ = convert_log(log, map, stream, {.with_labels = true});
     LogReader exported(stream_source(stream), "log");
     LogReader pulled(mapped_records(log, map), "log");
     std::vector<LogRow> rows;
