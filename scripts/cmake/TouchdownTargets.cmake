@@ -167,7 +167,25 @@ function(touchdown_program name source)
   touchdown_precompile(${name})
   touchdown_optimize_less(${name})
   target_link_libraries(${name} PRIVATE touchdown_flags ${ARGN} CLI11::CLI11)
+  touchdown_check_before_main(${name})
   install(TARGETS ${name} RUNTIME)
+endfunction()
+
+# Adds apps/before_main.cpp, which must run on every processor and under every sanitizer.
+# touchdown_check_before_main(<program>)
+function(touchdown_check_before_main name)
+  set(source ${PROJECT_SOURCE_DIR}/apps/before_main.cpp)
+  target_sources(${name} PRIVATE ${source})
+  set_source_files_properties(${source} TARGET_DIRECTORY ${name} PROPERTIES
+    SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    set_property(SOURCE ${source} TARGET_DIRECTORY ${name} PROPERTY
+      COMPILE_OPTIONS -march=x86-64 -fno-sanitize=all)
+    if(TOUCHDOWN_NATIVE AND TOUCHDOWN_HOST_IS_X86_64_V3)
+      set_property(SOURCE ${source} TARGET_DIRECTORY ${name} PROPERTY
+        COMPILE_DEFINITIONS TOUCHDOWN_NEEDS_AVX2)
+    endif()
+  endif()
 endfunction()
 
 # Lists every .cpp of the folders. Each build lists them again, so a new file needs no line anywhere.

@@ -17,6 +17,7 @@ namespace touchdown::cli {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -247,6 +248,17 @@ TEST_F(Limits, TooFewDescriptorsAreNamedByEveryVerb) {
   EXPECT_TRUE(folder_.has("out/tables/success.csv"));
 }
 
+TEST_F(Limits, TooLittleMemoryToStartIsNamed) {
+  for (const int kilobytes : {150'000, 300'000, 400'000, 500'000}) {
+    const Ended ended = folder_.run("list", fmt::format("ulimit -v {} &&", kilobytes));
+    EXPECT_GT(ended.exit_code, 0) << kilobytes;
+    EXPECT_THAT(ended.errors,
+                AnyOf(HasSubstr("`ulimit -v` must allow 1 GB"),
+                      HasSubstr("error while loading shared libraries"), HasSubstr("Sanitizer")))
+        << kilobytes;
+  }
+}
+
 TEST_F(Limits, AFullDiskIsNamedWithItsFileByEveryVerb) {
   const fs::path full = "/dev/full";
   if (!fs::exists(full)) GTEST_SKIP() << "/dev/full is missing";
@@ -342,6 +354,10 @@ TEST_F(TextThatIsNotUtf8, IsRefusedInAFileAndReadableInTheManifest) {
   folder_.output_of("run " + experiment + " --no-pictures --out 'o\xff'");
   const auto manifest = nlohmann::json::parse(folder_.text("o\xff/manifest.json"));
   EXPECT_THAT(manifest["command"].get<std::string>(), HasSubstr("--out o?"));
+
+  folder_.write("r\xe9.xml", read_file(fs::path(TOUCHDOWN_SOURCE_DIR) / "models/upkie.xml"));
+  const auto check = nlohmann::json::parse(folder_.output_of("check 'r\xe9.xml' --json"));
+  EXPECT_EQ(check["file"].get<std::string>(), "r\xef\xbf\xbd.xml");  // the replacement character
 }
 
 }  // namespace
