@@ -138,7 +138,8 @@ void decompress_file(const std::filesystem::path& compressed, const std::filesys
     end_if(stop);
     has_bytes = true;
     ZSTD_inBuffer in{in_bytes.data(), static_cast<std::size_t>(from.gcount()), 0};
-    // A full output buffer may hide output that still waits in the decompressor.
+    // A full output buffer may hide output that still waits in the decompressor, but not at the end
+    // of a frame.
     for (bool is_full = false; in.pos < in.size || is_full;) {
       ZSTD_outBuffer out{out_bytes.data(), out_bytes.size(), 0};
       left = ZSTD_decompressStream(context.get(), &out, &in);
@@ -147,7 +148,7 @@ void decompress_file(const std::filesystem::path& compressed, const std::filesys
                                      ZSTD_getErrorName(left)));
       }
       to.write(out_bytes.data(), static_cast<std::streamsize>(out.pos));
-      is_full = out.pos == out.size;
+      is_full = left != 0 && out.pos == out.size;
     }
   }
   if (!has_bytes || left != 0) {

@@ -76,6 +76,30 @@ TEST_F(Bag, SqliteBagsOfAnyKindHaveTheSameMessages) {
   }
 }
 
+/// The reader decompresses in steps of 128 KiB, at whose ends a frame may end as well.
+TEST_F(Bag, CompressedSqliteBagsOfAnySizeAreWhole) {
+  const TestBag bag = two_topics();
+  const fs::path path = write_db3("bag.db3", bag);
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
+  sqlite3_exec(database, "PRAGMA page_size = 65536; VACUUM", nullptr, nullptr, nullptr);
+  for (int i = 0; i < 4; ++i) {
+    const std::string text = fmt::format("CREATE TABLE more_{} (x)", i);
+    ASSERT_EQ(sqlite3_exec(database, text.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
+    const std::string bytes = read_file(path);
+    ASSERT_EQ(bytes.size() % 65536, 0U);
+    const fs::path whole = write("whole.db3.zstd", test::zstd_compressed(bytes));
+    EXPECT_EQ(read_bag(whole).messages, lines_of(bag)) << bytes.size();
+    const std::size_t part = std::size_t{1} << 17U;
+    const fs::path frames = write("frames.db3.zstd", test::zstd_compressed(bytes.substr(0, part)) +
+                                                         test::zstd_compressed(bytes.substr(part)));
+    EXPECT_EQ(read_bag(frames).messages, lines_of(bag)) << bytes.size();
+    const std::string cut = read_file(whole).substr(0, fs::file_size(whole) - 1);
+    EXPECT_THAT(read_bag(write("cut.db3.zstd", cut)).error, HasSubstr("end early"));
+  }
+  sqlite3_close(database);
+}
+
 /// rosbag2 writes databases with a journal, which SQLite would open beside the bag.
 TEST_F(Bag, ASqliteBagIsReadWithoutAFileBesideIt) {
   const TestBag bag = two_topics();
