@@ -1,6 +1,7 @@
 #include "logs/model_file.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <iterator>
 #include <utility>
 
@@ -8,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/terminal_text.hpp"
 #include "estimator/models/parameters.hpp"
 #include "estimator/npz/npz.hpp"
 
@@ -34,6 +36,15 @@ void put_numbers(std::string& text, const std::vector<double>& data, const char*
     // "#" writes every number with a decimal point.
     fmt::format_to(Text(text), "{:#}{},", static_cast<Number>(value), suffix);
   }
+}
+
+/// Errors: `InputError` for a name that is more than a name in C++.
+void require_identifier(const std::string& key) {
+  const auto is_allowed = [](char c) {
+    return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0;
+  };
+  if (std::all_of(key.begin(), key.end(), is_allowed)) return;
+  throw InputError(fmt::format("array '{}': expected letters, digits and '_' in its name", key));
 }
 
 /// Writes any bytes as a C++ string literal.
@@ -81,11 +92,13 @@ std::string header_of_model(const Model& model, const std::string& source,
       "estimator.\n\n"
       "// clang-format off\n"
       "#include <touchdown/estimator.hpp>\n\nnamespace touchdown::compiled {{\n\n",
-      source, metadata.estimator, metadata.sample_rate,
-      metadata.robot.empty() ? "unknown" : metadata.robot, metadata.fingerprint, name);
+      terminal_text(source), terminal_text(metadata.estimator), metadata.sample_rate,
+      metadata.robot.empty() ? "unknown" : terminal_text(metadata.robot), metadata.fingerprint,
+      name);  // a line break in one of them would end the comment
   std::string table = fmt::format("inline constexpr CompiledArray {}[] = {{\n", name);
   for (const auto& [key, array] : arrays) {
     if (key == derived_array) continue;
+    require_identifier(key);
     const std::string own = fmt::format("{}_{}", name, key);
     const char* pointers = nullptr;
     if (is_text_array(key)) {

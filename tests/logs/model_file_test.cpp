@@ -1,5 +1,6 @@
 #include "logs/model_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -14,6 +15,7 @@
 #include "core/files.hpp"
 #include "estimator/models/parameters.hpp"
 #include "estimator/npz/npz.hpp"
+#include "tests/complaint.hpp"
 #include "tests/python_with_numpy.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -212,6 +214,38 @@ for key in theirs.keys():
   const std::string command = python + " " + (folder_ / "script.py").string() + " " +
                               path_.string() + " " + reference.string();
   EXPECT_EQ(std::system(command.c_str()), 0);
+}
+
+/// What g++ takes for code: the lines that are neither comments, which end at any line break, nor
+/// texts in quotes.
+std::string code_of(const std::string& header) {
+  std::string code;
+  for (std::size_t at = 0; at < header.size();) {
+    const std::size_t end = std::min(header.find_first_of("\r\n", at), header.size());
+    const std::string line = header.substr(at, end - at);
+    if (!line.starts_with("//") && !line.starts_with('"')) code += line + "\n";
+    at = end + 1;
+  }
+  return code;
+}
+
+TEST_F(ModelFile, AsAHeaderHasNoCodeFromItsTexts) {
+  for (const std::string text : {"x\rint pwned;", "x\nint pwned;", "\r\nint pwned;//",
+                                 "x\\\nint pwned;", "\x1b[2Jint pwned;", "\xe9int pwned;"}) {
+    Model model = model_of(small_grid());
+    model.metadata = ModelMetadata{};
+    model.metadata->estimator = "robust";
+    model.metadata->sample_rate = 1000.0;
+    if (text.find('\n') == std::string::npos) model.metadata->robot = text;  // else it is refused
+    EXPECT_THAT(code_of(header_of_model(model, text, "grid")), Not(HasSubstr("pwned"))) << text;
+  }
+  Model model = model_of(small_grid());
+  model.metadata = ModelMetadata{};
+  model.metadata->estimator = "robust";
+  model.metadata->sample_rate = 1000.0;
+  model.arrays["x[]={1};int pwned"] = {{1}, {1.0}};
+  EXPECT_THAT(complaint_of([&] { (void)header_of_model(model, "grid.npz", "grid"); }),
+              HasSubstr("expected letters, digits and '_' in its name"));
 }
 
 TEST_F(ModelFile, NamesWhatIsWrong) {
