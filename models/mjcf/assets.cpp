@@ -1,7 +1,13 @@
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cstdint>
+#include <sstream>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include "core/files.hpp"
 #include "models/mjcf/document.hpp"
 #include "models/mjcf/robot_file.hpp"
 
@@ -89,7 +95,59 @@ std::string drop_texture(MjcfDocument& document, const XMLElement& texture,
   return fmt::format("texture '{}': {}: no such file: not drawn", name, file);
 }
 
+/// Vertices, texture points and normals of an OBJ.
+using ObjCounts = std::array<std::int64_t, 3>;
+
+void count_line(std::string_view word, ObjCounts& counts) {
+  constexpr std::array<std::string_view, 3> words = {"v", "vt", "vn"};
+  for (std::size_t i = 0; i < words.size(); ++i) counts[i] += word == words[i] ? 1 : 0;
+}
+
+/// Whether a corner of a face, "vertex/texture/normal" of which all but the first may be missing,
+/// is there. A number below zero counts backwards from the last one so far; others may name a later
+/// one.
+bool is_corner(std::string_view corner, const ObjCounts& so_far, const ObjCounts& all) {
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::string_view digits = corner.substr(0, corner.find('/'));
+    std::int64_t number = 0;
+    const char* const end = digits.data() + digits.size();
+    const auto [read, wrong] = std::from_chars(digits.data(), end, number);
+    const bool is_there = wrong == std::errc() && read == end && number != 0 &&
+                          number >= -so_far[i] && number <= all[i];
+    if (!digits.empty() && !is_there) return false;
+    corner.remove_prefix(std::min(corner.size(), digits.size() + 1));
+  }
+  return true;
+}
+
 }  // namespace
+
+std::string fault_of_mesh(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (extension != ".obj") return "";
+  const std::string text = read_file(file);
+  ObjCounts all = {};
+  std::string line;
+  std::string word;
+  for (std::istringstream lines(text); std::getline(lines, line);) {
+    if (std::istringstream(line) >> word) count_line(word, all);
+  }
+  ObjCounts so_far = {};
+  std::istringstream lines(text);
+  for (std::size_t row = 1; std::getline(lines, line); ++row) {
+    std::istringstream words(line);
+    if (!(words >> word)) continue;
+    count_line(word, so_far);
+    if (word != "f") continue;
+    while (words >> word) {
+      if (is_corner(word, so_far, all)) continue;
+      return fmt::format("{}:{}: a face with a corner '{}', which is not there", file.string(), row,
+                         word);
+    }
+  }
+  return "";
+}
 
 std::vector<std::string> drop_missing_assets(MjcfDocument& document) {
   std::vector<std::string> notes;
@@ -100,7 +158,12 @@ std::vector<std::string> drop_missing_assets(MjcfDocument& document) {
       if ((!is_mesh && tag != "texture") || asset->Attribute("file") == nullptr) continue;
       const std::filesystem::path file =
           file_of(document, *asset, is_mesh ? "meshdir" : "texturedir");
-      if (!is_missing(file)) continue;
+      if (!is_missing(file)) {
+        const std::string fault = is_mesh ? fault_of_mesh(file) : "";
+        if (!fault.empty())
+          document.fail(*asset, fmt::format("mesh '{}': {}", name_of(*asset), fault));
+        continue;
+      }
       notes.push_back(document.place_of(*asset) + ": " +
                       (is_mesh ? drop_mesh(document, *asset, file.string())
                                : drop_texture(document, *asset, file.string())));

@@ -24,6 +24,11 @@ std::vector<std::string> keep_robot_only(MjcfDocument& document);
 /// of a collider, or of a body that has its mass from it.
 std::vector<std::string> drop_missing_assets(MjcfDocument& document);
 
+/// What is wrong with a mesh that MuJoCo would read beyond its end: a face of an OBJ that counts
+/// more vertices, normals or texture points than there are. With the file's line; empty if all is
+/// well.
+std::string fault_of_mesh(const std::filesystem::path& file);
+
 /// A URDF as MJCF, with a free joint on its base link.
 struct ConvertedUrdf {
   MjcfDocument mjcf;

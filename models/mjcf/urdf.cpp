@@ -84,6 +84,8 @@ void prepare(MjcfDocument& urdf) {
     if (file.empty()) {
       urdf.fail(element, fmt::format("mesh '{}': no such file; it is a collider", address));
     }
+    const std::string fault = fault_of_mesh(file);
+    if (!fault.empty()) urdf.fail(element, fmt::format("mesh '{}': {}", address, fault));
     element.SetAttribute("filename", file.c_str());
   });
 }

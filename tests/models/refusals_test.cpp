@@ -434,5 +434,26 @@ TEST_F(RefusedRobot, HasNoMeshesThatCount) {
             "no complaint");
 }
 
+TEST_F(RefusedRobot, HasNoObjThatCountsMoreThanItHas) {
+  const Edit asset = {"<asset>", "<asset>\n<mesh name=\"shell\" file=\"shell.OBJ\"/>\n"};
+  const std::string robot =
+      edited_upkie({asset,
+                    {"<site name=\"imu\"",
+                     "<geom class=\"visual\" type=\"mesh\" mesh=\"shell\"/><site name=\"imu\""}});
+  const std::string four = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\nvt 0 0\n";
+  const std::string rest = "f 1 2 4\nf 1 3 4\nf 2 3 4\n";
+  for (const char* face :
+       {"1 2 2147483647", "1 2 5", "1 2 0", "-5 1 2", "1 2 -2147483648", "1/2 2 3", "1//2 2 3",
+        "1/1/9 2 3", "1 2 99999999999999999999", "1 2 x"}) {
+    folder_.write("shell.OBJ", four + "f " + face + "\n" + rest);
+    EXPECT_THAT(complaint(robot), HasSubstr("shell.OBJ:7: a face with a corner '")) << face;
+  }
+  for (const char* face : {"1 2 3", "-4 -3 -2", "1/1 2/1 3/1", "1//1 2//1 3//1",
+                           "1/1/1 2/1/1 3/1/1", "1/-1/-1 2/1/1 3/1/1"}) {
+    folder_.write("shell.OBJ", four + "f " + face + "\n" + rest);
+    EXPECT_EQ(complaint(robot), "no complaint") << face;
+  }
+}
+
 }  // namespace
 }  // namespace touchdown::models
