@@ -206,10 +206,10 @@ RobotCheck check_robot(const std::filesystem::path& file,
                        const std::function<bool()>& should_continue) {
   RobotCheck check;
   try {
-    const Scenario scenario = complete_scenario(
-        YamlDocument::parse(fmt::format("name: stand\nrobot: {}\nend: {{duration: 2}}\n",
-                                        YAML::Dump(YAML::Node(file.string()))),
-                            "stand"));
+    const YamlDocument stand_scene =
+        YamlDocument::parse("name: stand\nend: {duration: 2}\n", "stand");
+    YAML::Node(stand_scene.root())["robot"] = file.string();  // it need not be UTF-8
+    const Scenario scenario = complete_scenario(stand_scene);
     read_robot(scenario, check);
     constexpr double gravity = 9.81;
     for (const std::string& engine : simulators::simulator_names()) {

@@ -160,7 +160,8 @@ bool is_robot_file(const std::string& path) {
 std::size_t check_robot(const std::string& path, bool as_json, const CliSession& session) {
   const RobotCheck check =
       scenarios::check_robot(find_resource(path), [&] { return !*session.stop; });
-  print(as_json ? json_of(path, check).dump(1) + "\n" : text_of(path, check));
+  print(as_json ? json_of(path, check).dump(1, ' ', false, Json::error_handler_t::replace) + "\n"
+                : text_of(path, check));
   return check.complaints.size();
 }
 

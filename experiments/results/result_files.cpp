@@ -226,7 +226,8 @@ void write_manifest(const ExperimentResult& result) {
   for (const auto& [phase, seconds] : result.provenance.timings) json["timings_s"][phase] = seconds;
   json["failed_runs"] = failed_runs(result.runs);
   json["runs"] = result.runs.size();
-  write_atomically(result.directory.path() / "manifest.json", json.dump(2) + "\n");
+  write_atomically(result.directory.path() / "manifest.json",
+                   json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace touchdown::experiments

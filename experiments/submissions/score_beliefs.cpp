@@ -15,6 +15,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/terminal_text.hpp"
 #include "core/yaml.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/plan/rollouts.hpp"
@@ -169,7 +170,7 @@ std::string name_of(const BeliefRequest& wanted) {
     const fs::path path = absolute_path(wanted.beliefs).lexically_normal();
     name = (path.has_filename() ? path : path.parent_path()).stem().string();
   }
-  if (!is_name_word(name)) {
+  if (!is_name_word(name) || terminal_text(name) != name) {  // JSON files hold UTF-8 only
     throw InputError(fmt::format("--name: '{}': {}", name, expected_name_word));
   }
   const std::vector<std::string> taken = estimator_names();

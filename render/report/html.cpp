@@ -107,7 +107,7 @@ std::string data_uri(std::string_view media_type, const std::filesystem::path& p
 }
 
 std::string inline_json(const nlohmann::ordered_json& data) {
-  std::string text = data.dump();
+  std::string text = data.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
     text.replace(at, 1, "\\u003c");
   }

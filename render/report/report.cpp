@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 std::string text_of(const nlohmann::ordered_json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_number_float()) return fmt::format("{:.3g}", value.get<double>());
-  return value.dump();
+  return value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 void add_rows(const nlohmann::ordered_json& manifest, const char* key, const std::string& prefix,

@@ -174,7 +174,9 @@ TEST_F(Submission, FilesThatAreWrongAreRefusedAndChangeNothing) {
        {"score run --beliefs nowhere", {"nowhere: no such file or folder"}},
        {"score run --beliefs wrong --name free_fall",
         {"'free_fall' is one of touchdown's own estimators"}},
-       {"score run --beliefs wrong --name ../x", {"--name: "}}});
+       {"score run --beliefs wrong --name ../x", {"--name: "}},
+       {"score run --beliefs wrong --name 'mine_\xe9'", {"--name: "}},
+       {"score run --beliefs wrong --name 'mine_\xe2\x80\xae'", {"--name: "}}});
   EXPECT_THAT(different_files(result_files(folder_ / "run"), before), IsEmpty());
 }
 
