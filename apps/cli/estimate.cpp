@@ -155,7 +155,8 @@ void require_valid_steps(const logs::LogReader& reader, const BeliefWriter& writ
 
 /// Runs the estimator over the log.
 Evaluation evaluate(logs::LogReader& reader, const experiments::LogEstimator& chosen,
-                    const logs::ContactIntervals* labels, BeliefWriter& writer) {
+                    const logs::ContactIntervals* labels, BeliefWriter& writer,
+                    const CliSession& session) {
   experiments::LogSteps log(reader, labels,
                             experiments::checked_robot(chosen.request.robot, reader.info()));
   const std::unique_ptr<ContactEstimator> estimator = chosen.make(log.sample_rate(), reader.info());
@@ -168,6 +169,7 @@ Evaluation evaluate(logs::LogReader& reader, const experiments::LogEstimator& ch
     writer.flush();  // the beliefs of a live stream before the error
     throw;
   }
+  if (!*session.stop) log.require_labels_within();
   std::vector<std::string> findings = log.findings();
   const std::string summary = writer.finish(reader, findings.size());
   return {fmt::format("{}: {} steps, {:.3f} s at {:.6g} Hz, {}\n", reader.name(), writer.steps(),
@@ -212,7 +214,7 @@ std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* 
           live ? "standard input" : path);
     };
     logs::LogReader reader = open();
-    const Evaluation evaluation = evaluate(reader, estimator, labels, writer);
+    const Evaluation evaluation = evaluate(reader, estimator, labels, writer, session);
     summary = evaluation.summary;
     findings = evaluation.findings.size();
     if (*session.stop && !live) throw Stopped("stopped; nothing was written");

@@ -196,6 +196,27 @@ void show_samples(const experiments::LogFitReport& report, bool with_bandwidth) 
   }
 }
 
+/// A model that agrees with wrong labels does so on its own logs: only the others count.
+void show_accuracy(const experiments::EstimatorEntry& entry,
+                   const std::vector<experiments::FitLog>& logs,
+                   const experiments::LogFitConfig& config, const Model& model) {
+  const auto can_be_read_again = [](const experiments::FitLog& log) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(log.path, ignored);
+  };
+  if (!std::all_of(logs.begin(), logs.end(), can_be_read_again)) return;
+  try {
+    const experiments::FitAccuracy accuracy =
+        experiments::accuracy_of_fit(entry, logs, config, model);
+    print("{:<12} {:.4f} on these logs, {}\n", "accuracy", accuracy.fitted,
+          accuracy.held_out
+              ? fmt::format("{:.4f} on each by a model of the others", *accuracy.held_out)
+              : "of which none can be left out to judge the model by it");
+  } catch (const Stopped&) {
+    throw Stopped("stopped; the model was written, and not judged");
+  }
+}
+
 void fit(const FitFlags& flags, const CliSession& session) {
   experiments::EstimatorEntry entry = experiments::estimator_entry(estimator_of(flags));
   const std::vector<experiments::FitLog> logs = logs_of(flags);
@@ -218,7 +239,8 @@ void fit(const FitFlags& flags, const CliSession& session) {
   require_extension(flags.output, {".npz"}, "a model");
   require_different(logs);
   experiments::LogFitReport report;
-  logs::save_model(experiments::fit_to_logs(entry, logs, config, report), flags.output);
+  const Model model = experiments::fit_to_logs(entry, logs, config, report);
+  logs::save_model(model, flags.output);
   print_warnings(report.warnings);
   if (report.unusable > 0) {
     print_message(fmt::format(
@@ -229,6 +251,7 @@ void fit(const FitFlags& flags, const CliSession& session) {
   print("{}: {}, {:.3f} s of {} {}\n", flags.output, entry.title, report.seconds, logs.size(),
         logs.size() == 1 ? "log" : "logs");
   show_samples(report, entry.fitting.torques.has_value());
+  show_accuracy(entry, logs, config, model);
   print("{:<12} touchdown estimate LOG --model {} --estimator {}\n", "next", flags.output,
         entry.name);
 }

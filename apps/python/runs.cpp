@@ -129,7 +129,7 @@ std::vector<std::string> check(const py::object& log, const std::string& robot,
   return long_call([&](const std::atomic<bool>& stop) {
     logs::LogReader reader =
         in_memory ? logs::LogReader(logs::records_of(recording, &stop), path.string())
-                  : reader_of(path, mapping, stop);
+                  : logs::open_log(path, mapping.value_or(fs::path()), &stop);
     experiments::LogSteps steps(
         reader, nullptr,
         experiments::checked_robot(experiments::robot_of_file(robot), reader.info()));

@@ -176,4 +176,9 @@ LogEstimator log_estimator(LogEstimatorRequest request) {
           std::move(request)};
 }
 
+LogEstimator log_estimator(const EstimatorEntry& entry, Model model, const LogRobot& robot) {
+  EstimatorEntry own = configured(entry, model);
+  return {std::move(own), std::move(model), {.robot = robot, .transfer = true}};
+}
+
 }  // namespace touchdown::experiments

@@ -46,4 +46,7 @@ struct LogEstimator {
 /// another estimator; for an estimator that does not run on logs.
 LogEstimator log_estimator(LogEstimatorRequest request);
 
+/// The estimator of a model that was fitted for it, at any rate and for any robot.
+LogEstimator log_estimator(const EstimatorEntry& entry, Model model, const LogRobot& robot);
+
 }  // namespace touchdown::experiments

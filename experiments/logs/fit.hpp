@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "estimator/force/wheel_loads.hpp"
 #include "experiments/estimators/entry.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
@@ -51,6 +52,12 @@ struct LogFitReport {
   std::array<std::size_t, 2> samples;  ///< of both legs
   std::array<TorqueBandwidth, 2> bandwidth;
   std::size_t unusable = 0;  ///< samples left out: beyond what a sensor measures
+  /// Of logs with a declared class: the loads on wheels that the torques give.
+  struct DeclaredLoad {
+    double sum = 0.0;  ///< N
+    double count = 0.0;
+  };
+  std::array<DeclaredLoad, 2> declared_load = {};
   std::vector<std::string> warnings;
 };
 
@@ -88,6 +95,7 @@ class FitLogSteps {
   logs::LogReader reader_;
   logs::CheckedRobot robot_;
   LogSteps steps_;
+  WheelLoads loads_;
   logs::RecordingInfo info_;
   const LogStep* step_ = nullptr;
   double last_time_ = 0.0;
@@ -112,5 +120,18 @@ class FitLogSteps {
 /// left out as during estimation. Errors: `InputError` for logs without one of the classes.
 Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
                   const LogFitConfig& config, LogFitReport& report);
+
+/// The share of right decisions about both wheels, as `touchdown estimate` prints it.
+struct FitAccuracy {
+  double fitted = 0.0;  ///< of the model on the logs that it was fitted to
+  /// On every log by a model of the others; of more than five logs some are left out together.
+  /// Nothing if a model needs them all.
+  std::optional<double> held_out = {};
+};
+
+/// Estimates the logs of a fit with its model, and with models that are fitted again. Errors: as
+/// above.
+FitAccuracy accuracy_of_fit(const EstimatorEntry& entry, std::span<const FitLog> logs,
+                            const LogFitConfig& config, const Model& model);
 
 }  // namespace touchdown::experiments

@@ -1,11 +1,14 @@
 #include "experiments/logs/log_steps.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "estimator/force/wheel_loads.hpp"
 #include "logs/sample_times.hpp"
 
 namespace touchdown::experiments {
@@ -35,6 +38,118 @@ std::optional<std::array<double, models::wheel_count>> forces(const logs::Contac
 
 }  // namespace
 
+/// Compares labels of contact with the load on each wheel that the torques of its leg give, so that
+/// labels of another log or clock, or exchanged ones, do not become a model. Only the order of
+/// loads counts, because the legs of a robot that is not known are taken for Upkie's.
+class LogSteps::LabelCheck {
+ public:
+  LabelCheck(const logs::ContactIntervals& labels, double sample_rate, const LegGeometry& legs)
+      : labels_(labels), loads_({.sample_rate = sample_rate, .geometry = legs}) {}
+
+  void add(const Signals& signals) {
+    const WheelLoads::Step step = loads_.update(signals);
+    if (!std::isfinite(signals.time)) return;
+    last_ = std::max(last_, signals.time);
+    if (!(signals.time >= next_) || !step.is_measured[0] || !step.is_measured[1]) return;
+    next_ = signals.time + interval_;
+    for (std::size_t side = 0; side < models::wheel_count; ++side) {
+      samples_.push_back({loads_.force(side), signals.time, side});
+    }
+    constexpr std::size_t most = std::size_t{1} << 15U;
+    if (samples_.size() < most) return;
+    interval_ *= 2.0;  // a long log needs fewer
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < samples_.size(); i += i % 4 == 1 ? 3 : 1) {
+      samples_[kept++] = samples_[i];
+    }
+    samples_.resize(kept);
+  }
+
+  std::optional<std::string> finding() const {
+    std::vector<Sample> ordered = samples_;
+    std::sort(ordered.begin(), ordered.end(),
+              [](const Sample& a, const Sample& b) { return a.load < b.load; });
+    const std::optional<double> agreement = agreement_of(ordered, 0.0);
+    constexpr double certain = 0.95;
+    if (!agreement || *agreement >= certain) return std::nullopt;
+    double best = *agreement;
+    double shift = 0.0;
+    constexpr int most_steps = 250;
+    constexpr double step = 0.02;    // s
+    constexpr double better = 0.01;  // of a repeated motion the nearest one counts
+    for (int i = 1; i <= most_steps; ++i) {
+      for (const double by : {step * i, -step * i}) {
+        const std::optional<double> shifted = agreement_of(ordered, by);
+        const double least_best = std::abs(by - shift) < 2.0 * step ? best : best + better;
+        if (!shifted || *shifted <= least_best) continue;
+        best = *shifted;
+        shift = by;
+      }
+    }
+    constexpr double usual = 0.7;
+    constexpr double good = 0.85;
+    constexpr double clearly = 0.1;
+    if (*agreement >= usual && best - *agreement < clearly) return std::nullopt;
+    std::string cause = "are they those of another log, or is the robot another (--robot)?";
+    if (*agreement < 1.0 - usual && 1.0 - *agreement >= best) {
+      cause = "are 1, contact, and 0 exchanged?";
+    } else if (best >= good && best - *agreement >= clearly) {
+      cause = fmt::format("{:.0f} % if they come {:.1f} s {}: is the zero of their time another?",
+                          100.0 * best, std::abs(shift), shift > 0.0 ? "earlier" : "later");
+    }
+    return fmt::format(
+        "{}: the torques give a wheel more load in contact than without at {:.0f} % of pairs of "
+        "moments, expected 90 and more: {}",
+        labels_.file, 100.0 * *agreement, cause);
+  }
+
+  void require_within(const std::string& log) const {
+    const double end = labels_.intervals.empty() ? 0.0 : labels_.intervals.back().end;
+    constexpr double tolerance = 1.0;  // s
+    if (!std::isfinite(last_) || end <= 1.1 * last_ + tolerance) return;
+    throw InputError(
+        fmt::format("{}: its last interval ends at {:.3f} s, and {} at {:.3f} s: expected seconds, "
+                    "as `touchdown estimate` prints them; are they another unit, or another log's?",
+                    labels_.file, end, log, last_));
+  }
+
+ private:
+  struct Sample {
+    double load;  ///< N
+    double time;  ///< s
+    std::size_t wheel;
+  };
+
+  /// The share of pairs, one sample in contact and one without, of which the first has more load,
+  /// if the labels were `shift` seconds earlier. Intervals that are not longer than the low-pass of
+  /// the load and the beginnings of the others do not count. Nothing for labels of one class alone.
+  std::optional<double> agreement_of(const std::vector<Sample>& ordered, double shift) const {
+    constexpr double least = 0.06;     // s
+    constexpr double settling = 0.03;  // s
+    std::array<std::int64_t, 2> samples{};
+    std::int64_t right = 0;
+    for (const Sample& sample : ordered) {
+      const double time = sample.time + shift;
+      const logs::ContactInterval* const label = labels_.at(time);
+      if (label == nullptr || label->end - label->start < least) continue;
+      if (time - label->start < settling) continue;
+      const bool contact = label->contact.at(sample.wheel);
+      ++samples.at(contact ? 1 : 0);
+      if (contact) right += samples[0];
+    }
+    constexpr std::int64_t few = 25;
+    if (std::min(samples[0], samples[1]) < few) return std::nullopt;
+    return static_cast<double>(right) / static_cast<double>(samples[0] * samples[1]);
+  }
+
+  const logs::ContactIntervals& labels_;
+  WheelLoads loads_;
+  std::vector<Sample> samples_;
+  double interval_ = 0.01;  ///< between samples (s)
+  double next_ = -std::numeric_limits<double>::infinity();
+  double last_ = -std::numeric_limits<double>::infinity();
+};
+
 LogSteps::LogSteps(logs::LogReader& reader, const logs::ContactIntervals* labels,
                    const logs::CheckedRobot& robot)
     : reader_(reader),
@@ -42,13 +157,20 @@ LogSteps::LogSteps(logs::LogReader& reader, const logs::ContactIntervals* labels
       sample_rate_(usable_rate(reader)),
       period_us_(std::llround(1e6 / sample_rate_)),
       signals_(sample_rate_),
-      plausibility_(1.0 / sample_rate_, robot) {}
+      plausibility_(1.0 / sample_rate_, robot),
+      label_check_(labels == nullptr
+                       ? nullptr
+                       : std::make_unique<LabelCheck>(*labels, sample_rate_,
+                                                      robot.legs.value_or(LegGeometry{}))) {}
+
+LogSteps::~LogSteps() = default;
 
 const LogStep* LogSteps::next() {
   const std::optional<logs::LogRow> row = reader_.next();
   if (!row) return nullptr;
   plausibility_.add(row->observation);
   step_.signals = signals_.next(row->observation, row->action);
+  if (label_check_) label_check_->add(step_.signals);
   step_.normal_force.reset();
   if (labels_ != nullptr) {
     step_.normal_force = forces(labels_->at(row->observation.time));
@@ -57,6 +179,17 @@ const LogStep* LogSteps::next() {
     if (!std::isnan(force[0]) && !std::isnan(force[1])) step_.normal_force = force;
   }
   return &step_;
+}
+
+std::vector<std::string> LogSteps::findings() const {
+  std::vector<std::string> findings = plausibility_.findings();
+  if (!label_check_) return findings;
+  if (std::optional<std::string> label = label_check_->finding()) findings.push_back(*label);
+  return findings;
+}
+
+void LogSteps::require_labels_within() const {
+  if (label_check_) label_check_->require_within(reader_.name());
 }
 
 }  // namespace touchdown::experiments

@@ -2,7 +2,10 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "logs/log/contact_intervals.hpp"
 #include "logs/log/reader.hpp"
@@ -29,6 +32,7 @@ class LogSteps {
   /// with more than 20,000.
   explicit LogSteps(logs::LogReader& reader, const logs::ContactIntervals* labels = nullptr,
                     const logs::CheckedRobot& robot = {});
+  ~LogSteps();
 
   /// The next step, valid until the next call; null at the end of the log.
   const LogStep* next();
@@ -43,16 +47,23 @@ class LogSteps {
   /// acceleration is NaN.
   std::uint64_t upside_down() const { return signals_.assembler().count(RecordFault::upside_down); }
 
-  /// What is implausible about the steps so far, one line each.
-  std::vector<std::string> findings() const { return plausibility_.findings(); }
+  /// What is implausible about the steps so far, and about labels that contradict the load that the
+  /// torques give, one line each.
+  std::vector<std::string> findings() const;
+
+  /// For the end of the log. Errors: `InputError` for labels that end clearly after it.
+  void require_labels_within() const;
 
  private:
+  class LabelCheck;
+
   logs::LogReader& reader_;
   const logs::ContactIntervals* labels_;
   double sample_rate_;
   std::int64_t period_us_;
   logs::StepSignals signals_;
   logs::PlausibilityCheck plausibility_;
+  std::unique_ptr<LabelCheck> label_check_;  ///< null without labels
   LogStep step_;
 };
 

@@ -8,6 +8,7 @@
 #include "experiments/estimators/fits.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/signals/run_signals.hpp"
+#include "logs/log/contact_intervals.hpp"
 #include "logs/log/recording_file.hpp"
 #include "logs/model_file.hpp"
 #include "program.hpp"
@@ -18,6 +19,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Not;
 
 namespace fs = std::filesystem;
@@ -99,13 +101,91 @@ TEST_F(Fit, LeavesOutUnlabelledSteps) {
   folder_.write("gap.csv",
                 "start,end,contact\n0.0,0.5995,1\n0.61,0.79,0\n0.8,1.0,1\n1.0,1.5995,1\n");
   folder_.write("late.csv", test::synthetic_labels(7, 8));
+  folder_.write("behind.csv", "start,end,contact\n4.1,4.9,1\n");
   expect_refusals({{"robot.mpack --labels gap.csv -o m.npz --estimator phase",
                     {"learn from takeoffs, and the logs hold none"}},
                    {"robot.mpack --labels late.csv -o m.npz",
+                    {"late.csv: its last interval ends at 8.000 s, and robot.mpack at 3.999 s"}},
+                   {"robot.mpack --labels behind.csv -o m.npz",
                     {"s, covers a step of robot.mpack, which ends at 3.999 s"}},
                    {"robot.mpack robot.mpack --labels robot.csv -o m.npz",
                     {"a file for each log, in their order: 1 for 2"}},
                    {"robot.mpack --labels robot.csv -o robot.csv", {"robot.csv"}}});
+}
+
+/// Labels at other times, of the other class, in another unit.
+TEST_F(Fit, NamesLabelsThatContradictTheLoadOfTheTorques) {
+  log("robot.mpack", test::robot_log(6.0));
+  folder_.write("good.csv", test::synthetic_labels(0, 6));
+  const logs::ContactIntervals good = logs::read_contact_intervals(folder_ / "good.csv");
+  const auto labels = [&](double scale, double shift, bool exchanged) {
+    logs::ContactIntervals changed = good;
+    for (logs::ContactInterval& one : changed.intervals) {
+      one.start = scale * one.start + shift;
+      one.end = scale * one.end + shift;
+      if (exchanged) one.contact = {!one.contact[0], !one.contact[1]};
+    }
+    return logs::to_csv(changed);
+  };
+  std::string alternating = "start,end,contact\n";
+  for (int i = 0; i < 16; ++i) {
+    alternating += fmt::format("{},{},{}\n", 0.37 * i, 0.37 * (i + 1), i % 2);
+  }
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {labels(1.0, 0.0, false), ""},
+      {labels(1.0, 0.02, false), ""},
+      {labels(1.0, 0.0, true), "contact, and 0 exchanged?"},
+      {labels(1.0, 0.4, false), "if they come 0.4 s earlier"},
+      {labels(1.0, -0.2, false), "if they come 0.2 s later"},
+      {alternating, "those of another log"},
+  };
+  for (const auto& [text, cause] : cases) {
+    folder_.write("labels.csv", text);
+    for (const std::string verb : {"fit -o f.npz --estimator robust ", "estimate "}) {
+      const Ended ended = folder_.run(verb + "robot.mpack --labels labels.csv");
+      EXPECT_EQ(ended.exit_code, 0);
+      EXPECT_EQ(ended.errors.empty(), cause.empty()) << verb << ended.errors;
+      EXPECT_THAT(ended.errors, HasSubstr(cause)) << verb;
+    }
+  }
+  folder_.write("labels.csv", labels(1e3, 0.0, false));
+  expect_refusals({{"robot.mpack --labels labels.csv -o m.npz", {"are they another unit"}}});
+  EXPECT_THAT(folder_.refusal_of("estimate robot.mpack --labels labels.csv"),
+              HasSubstr("are they another unit"));
+}
+
+TEST_F(Fit, NamesExchangedClassesOfWholeLogs) {
+  log("rolling.mpack", test::one_class_log(2.0, true));
+  log("hanging.mpack", test::one_class_log(2.0, false));
+  const auto errors = [&](const std::string& contact, const std::string& no_contact) {
+    return folder_
+        .run("fit -o f.npz --estimator robust --contact " + contact + " --no-contact " + no_contact)
+        .errors;
+  };
+  EXPECT_THAT(errors("rolling.mpack", "hanging.mpack"), IsEmpty());
+  EXPECT_THAT(errors("hanging.mpack", "rolling.mpack"), HasSubstr("are they exchanged?"));
+}
+
+TEST_F(Fit, JudgesTheModelOnItsLogsAndOnOthers) {
+  log("a.mpack", test::synthetic_log(3.0));
+  log("b.mpack", test::synthetic_log(4.0));
+  log("hanging.mpack", test::one_class_log(2.0, false));
+  const std::string text = fit("a.mpack b.mpack -o m.npz --estimator robust");
+  // What `estimate` counts on the log that the other model was not fitted to, by its steps.
+  const auto right = [&](const std::string& fitted, const std::string& log) {
+    fit(fitted + " -o other.npz --estimator robust");
+    const std::string truth = folder_.output_of("estimate " + log + " --model other.npz");
+    const std::size_t at = truth.find("accuracy ") + 9;
+    return std::stod(truth.substr(at, 6));
+  };
+  const double held_out =
+      (2.7 * right("b.mpack", "a.mpack") + 3.7 * right("a.mpack", "b.mpack")) / 6.4;
+  const std::size_t at = text.find("on these logs, ") + 15;
+  EXPECT_NEAR(std::stod(text.substr(at, 6)), held_out, 2e-4) << text;
+  EXPECT_THAT(text, HasSubstr("on each by a model of the others"));
+  EXPECT_THAT(fit("a.mpack -o m.npz --estimator robust"), HasSubstr("none can be left out"));
+  EXPECT_THAT(fit("a.mpack --no-contact hanging.mpack -o m.npz --estimator robust"),
+              HasSubstr("none can be left out"));
 }
 
 TEST_F(Fit, UsesLogsOfOneClassAsDeclared) {

@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "experiments/logs/fit.hpp"
+#include "experiments/signals/reserved_seeds.hpp"
+#include "logs/log/recording_file.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+logs::LogReader reader_of(const FitLog& log, const LogFitConfig& config) {
+  if (!log.recording) return logs::LogReader(log.path, config.stop);
+  return {logs::records_of(log.recording, config.stop), log.path.string()};
+}
+
+}  // namespace
+
+void stop_if_asked(const LogFitConfig& config) {
+  if (config.stop != nullptr && *config.stop) throw Stopped("stopped; no model was written");
+}
+
+FitLogSteps::FitLogSteps(const FitLog& log, const LogFitConfig& config, LogFitReport& report)
+    : log_(log),
+      config_(config),
+      report_(report),
+      reader_(reader_of(log, config)),
+      robot_(checked_robot(config.robot, reader_.info())),
+      steps_(reader_, log.labels.get(), robot_),
+      loads_({.sample_rate = steps_.sample_rate(), .geometry = legs()}),
+      info_(reader_.info()) {
+  check_may_be_fitted(info_);
+  info_.control_period_us = steps_.period_us();
+  const double fitted = report_.fitted_to.sample_rate;
+  if (fitted > 0.0 && !is_same_rate(steps_.sample_rate(), fitted)) {
+    throw InputError(fmt::format(
+        "{}: {:.6g} steps per second, and the logs before it have {:.6g}: a model is fitted at one "
+        "rate; resample the log, or fit another model",
+        log.path.string(), steps_.sample_rate(), fitted));
+  }
+  if (fitted == 0.0) report_.fitted_to.sample_rate = steps_.sample_rate();
+  report_.fitted_to.add(info_);
+}
+
+const LogStep* FitLogSteps::next() {
+  step_ = steps_.next();
+  if (step_ == nullptr) return nullptr;
+  last_time_ = step_->signals.time;
+  compare_with_declared_class();
+  return step_;
+}
+
+void FitLogSteps::require_truth() const {
+  if (log_.contact || log_.labels || step_->normal_force) return;
+  throw InputError(
+      fmt::format("{}: at {:.3f} s: no ground truth of contact: name the log after --contact or "
+                  "--no-contact if all of it is one class, or give the intervals with --labels",
+                  log_.path.string(), step_->signals.time));
+}
+
+void FitLogSteps::compare_with_declared_class() {
+  if (!log_.contact) return;
+  const WheelLoads::Step measured = loads_.update(step_->signals);
+  LogFitReport::DeclaredLoad& load = report_.declared_load.at(*log_.contact ? 1 : 0);
+  for (std::size_t side = 0; side < models::wheel_count; ++side) {
+    if (!measured.is_measured[side]) continue;
+    load.sum += loads_.force(side);
+    load.count += 1.0;
+  }
+  if (!step_->normal_force) return;
+  for (const double force : *step_->normal_force) {
+    ++compared_;
+    contradicting_ += (force > config_.labels.force_threshold) != *log_.contact ? 1 : 0;
+  }
+}
+
+void FitLogSteps::finish(std::int64_t used_steps) {
+  stop_if_asked(config_);
+  steps_.require_labels_within();
+  for (std::string& warning : reader_.warnings()) report_.warnings.push_back(std::move(warning));
+  for (const std::string& finding : steps_.findings()) {
+    report_.warnings.push_back(fmt::format("{}: {}", log_.path.string(), finding));
+  }
+  if (2 * contradicting_ > compared_) {
+    throw InputError(fmt::format(
+        "{}: is declared {}, but its own ground truth contradicts this for {:.1f} % of the steps: "
+        "are --contact and --no-contact swapped?",
+        log_.path.string(), *log_.contact ? "--contact" : "--no-contact",
+        100.0 * static_cast<double>(contradicting_) / static_cast<double>(compared_)));
+  }
+  if (log_.labels && used_steps == 0) {
+    throw InputError(fmt::format(
+        "{}: none of its intervals, from {:.3f} to {:.3f} s, covers a step of {}, which ends at "
+        "{:.3f} s: expected times as `touchdown estimate` prints them",
+        log_.labels->file, log_.labels->intervals.front().start, log_.labels->intervals.back().end,
+        log_.path.string(), last_time_));
+  }
+}
+
+}  // namespace touchdown::experiments
