@@ -76,6 +76,7 @@ Plan whole_plan(const RunRequest& request) {
   plan.kept_signals = kept_signals(request.experiment);
   keep_recordings(request.experiment, plan);
   require_served(request.experiment, plan);
+  require_distinct_runs(plan, request.experiment);
   return plan;
 }
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/fingerprint.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/run_directory/directory.hpp"
@@ -29,6 +30,57 @@ scenarios::Scenario scene_of(const RunRequest& request, const std::string& file,
   if (setup.robot.empty()) return scene;
   scene.name = fmt::format("{}_{}", scene.name, std::filesystem::path(setup.robot).stem().string());
   return scene;
+}
+
+/// What is simulated, whatever the names of the scenario and of its robot's file.
+std::string content_of(scenarios::Scenario scenario) {
+  const std::string robot = scenarios::robot_text(scenario);
+  scenario.name.clear();
+  scenario.robot.clear();
+  return Fingerprint().add(robot).add(scenarios::to_yaml(scenario)).text();
+}
+
+/// Errors: `InputError` for a scene that is listed twice: intervals would count it as two.
+void require_distinct_scenes(const RunRequest& request, RunRole role) {
+  const Experiment& experiment = request.experiment;
+  std::map<std::string, std::string> known;
+  for (const std::string& file :
+       (role == RunRole::fit ? experiment.fit : experiment.test).scenarios) {
+    const auto [same, is_new] =
+        known.emplace(content_of(scenario_of(request, file).scenario), file);
+    if (is_new) continue;
+    throw InputError(fmt::format(
+        "{}.scenarios: '{}' and '{}' are the same scene: name it once, with more `runs`",
+        to_text(role), same->second, file));
+  }
+}
+
+/// Errors: `InputError` if these equal runs, of which the first was planned before, may not both
+/// be.
+void require_distinct(const PlannedRun& first, const PlannedRun& second, const Plan& plan,
+                      const Experiment& experiment) {
+  const char* const remedy =
+      "let its scenario have a `perturbation` and the runs `perturbed: true`, or use another scene";
+  if (first.role == second.role) {
+    const bool is_counted_once =
+        first.group != second.group || first.fit != second.fit || first.sensors != second.sensors;
+    if (is_counted_once) return;
+    throw InputError(
+        fmt::format("{}: runs {} and {} in {} are the same one, and would count twice: {}",
+                    to_text(first.role), first.file, second.file, first.simulator, remedy));
+  }
+  const PlannedRun& test = first.role == RunRole::test ? first : second;
+  const PlannedRun& fit = first.role == RunRole::test ? second : first;
+  const std::vector<Condition>& conditions = plan.groups[test.group].conditions;
+  const bool is_of_its_models =
+      std::any_of(conditions.begin(), conditions.end(), [&](const Condition& condition) {
+        return condition.fit == fit.fit && condition.fit_simulator == fit.simulator &&
+               estimator_entry(experiment, condition.estimator).fits();
+      });
+  if (!is_of_its_models) return;
+  throw InputError(
+      fmt::format("test: run {} is the one that models are fitted to, {}, and would be no test: {}",
+                  test.file, fit.file, remedy));
 }
 
 }  // namespace
@@ -141,6 +193,8 @@ void plan_segments(const RunRequest& request, const RobotAndSensors& setup, Plan
 
 Plan plan_of(const RunRequest& request) {
   const Experiment& experiment = request.experiment;
+  require_distinct_scenes(request, RunRole::fit);
+  require_distinct_scenes(request, RunRole::test);
   Plan plan;
   plan.sensors.front().profile = profile_of(request.sensors, experiment.sensors);
   plan_runs(request, RunRole::fit, {}, 0, plan);
@@ -223,6 +277,17 @@ void require_served(const Experiment& experiment, const Plan& plan) {
       if (!checked.insert({condition.estimator, run.scenario.robot, period}).second) continue;
       require_served(experiment, condition.estimator, run.scenario, scenes);
     }
+  }
+}
+
+void require_distinct_runs(const Plan& plan, const Experiment& experiment) {
+  std::map<std::string, std::vector<const PlannedRun*>> same;
+  for (const PlannedRun& run : plan.runs) {
+    scenarios::Scenario scenario = run.scenario;
+    scenario.perturbation = {};  // it is drawn
+    const std::string key = run.simulator + content_of(std::move(scenario));
+    for (const PlannedRun* other : same[key]) require_distinct(*other, run, plan, experiment);
+    same[key].push_back(&run);
   }
 }
 

@@ -250,6 +250,10 @@ void require_served(const Experiment& experiment, std::string_view estimator,
 /// The same for all test runs of a plan, before one of them is simulated.
 void require_served(const Experiment& experiment, const Plan& plan);
 
+/// Errors: `InputError` for a test run that is also a fitted run of the models it tests, and for a
+/// run that would count twice, whatever the names of its scenario and of its robot's file.
+void require_distinct_runs(const Plan& plan, const Experiment& experiment);
+
 /// The size of an experiment. It is known before the plan, which may be too large itself.
 struct Needs {
   double runs = 0.0;

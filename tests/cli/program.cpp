@@ -103,6 +103,7 @@ std::string write_long_experiment(const ScratchFolder& folder) {
 terrain: {pieces: [{flat: {length: 9.0}}]}
 start: {x: 0.7}
 end: {duration: 600.0}
+perturbation: {yaw: 0.05}
 )");
   folder.write("x.yaml",
                "name: x\nfit: {scenarios: [long.yaml]}\ntest: {scenarios: [long.yaml]}\n");

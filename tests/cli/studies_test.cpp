@@ -215,6 +215,7 @@ terrain: {pieces: [{flat: {length: 3.0}}]}
 start: {x: 0.7}
 forces: [{time: 0.5, duration: 1.0, force: [0.0, 0.0, 1.0e+9]}]
 end: {duration: 2.5}
+perturbation: {yaw: 0.05}
 )");
   const std::string both = " --set test.scenarios=[step.yaml,absurd.yaml]";
   folder_.output_of(run + "good --no-pictures");

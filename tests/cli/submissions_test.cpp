@@ -27,7 +27,8 @@ namespace fs = std::filesystem;
 std::string write_benchmark(const ScratchFolder& folder) {
   write_tiny_experiment(folder);
   folder.write("roll.yaml",
-               "name: roll\nvelocity: [{time: 0.2, velocity: 0.3}]\nend: {duration: 0.8}\n");
+               "name: roll\nvelocity: [{time: 0.2, velocity: 0.3}]\nend: {duration: 0.8}\n"
+               "perturbation: {velocity: 0.1, yaw: 0.05}\n");
   folder.write("bench.yaml", R"(name: bench
 seed: 3
 simulators: [mujoco]

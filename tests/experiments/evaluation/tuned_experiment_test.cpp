@@ -54,7 +54,8 @@ class TunedExperiment : public ::testing::Test {
 TEST_F(TunedExperiment, ChoosesIndependentlyOfTestRuns) {
   const std::string tuning = ", tuning: {trials: 6}";
   const std::string stand =
-      folder_.write("stand.yaml", "name: stand\nend: {duration: 1.0}\n").string();
+      folder_.write("stand.yaml", "name: stand\nend: {duration: 1.0}\nperturbation: {yaw: 0.05}\n")
+          .string();
   const ExperimentResult result = run("one", tuned_study(folder_, tuning));
   run("other_seed", tuned_study(folder_, tuning, "seed=3"));
   run("other_scenes", tuned_study(folder_, tuning, "test.scenarios=[" + stand + "]"));

@@ -17,13 +17,13 @@ using ::testing::HasSubstr;
 /// Two scenes, in one of which every run ends early: pushed over, out of sight, or torn apart.
 Experiment with_a_lost_scene(const ScratchFolder& folder, const std::string& force) {
   const std::string step = folder.write("small_step.yaml", small_step_scene).string();
-  const std::string lost =
-      folder
-          .write("lost.yaml",
-                 "name: lost\nend: {duration: 3.0}\nforces: [{time: 0.2, duration: "
-                 "0.5, force: " +
-                     force + "}]\n")
-          .string();
+  const std::string lost = folder
+                               .write("lost.yaml",
+                                      "name: lost\nend: {duration: 3.0}\nperturbation: {yaw: "
+                                      "0.05}\nforces: [{time: 0.2, duration: "
+                                      "0.5, force: " +
+                                          force + "}]\n")
+                               .string();
   return experiment_from_yaml(YamlDocument::parse(
       "name: small\nsimulators: [mujoco, bullet]\nestimators: [free_fall, always_contact]\n"
       "fit: {scenarios: [" +

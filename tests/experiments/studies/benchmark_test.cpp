@@ -25,7 +25,8 @@ using ::testing::ThrowsMessage;
 Experiment with_benchmark(const ScratchFolder& folder, const std::string& benchmark) {
   const std::string step = folder.write("small_step.yaml", small_step_scene).string();
   const std::string stand =
-      folder.write("stand.yaml", "name: stand\nend: {duration: 1.0}\n").string();
+      folder.write("stand.yaml", "name: stand\nend: {duration: 1.0}\nperturbation: {yaw: 0.05}\n")
+          .string();
   return experiment_from_yaml(YamlDocument::parse(
       "name: small\nsimulators: [mujoco]\nestimators: [measurement_only]\nfit: {scenarios: [" +
           step + "], runs: 2, perturbed: true}\ntest: {scenarios: [" + step + ", " + stand +

@@ -56,7 +56,8 @@ TEST(OperatingPoints, ScoreOtherThresholdsThanTheEstimators) {
 TEST(OperatingPoints, ScenesHaveEqualWeightsAndTheFrontIsNotDominated) {
   const ScratchFolder folder;
   Experiment experiment = with_operating_points(folder, points_section);
-  const std::string stand = folder.write("stand.yaml", "name: stand\nend: {duration: 1.0}\n");
+  const std::string stand =
+      folder.write("stand.yaml", "name: stand\nend: {duration: 1.0}\nperturbation: {yaw: 0.05}\n");
   experiment.test.scenarios.push_back(stand);
   const ExperimentResult result = run_in(folder, experiment);
   const Table rows = result.directory.read_table("operating_points_by_scene.csv");
