@@ -14,6 +14,7 @@
 #include "core/program.hpp"
 #include "core/progress.hpp"
 #include "experiments/logs/estimator.hpp"
+#include "experiments/logs/fit.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/summary.hpp"
 #include "experiments/plan/rollouts.hpp"
@@ -118,9 +119,14 @@ class BeliefWriter {
   render::LogTrace trace_;
 };
 
-std::string model_line(const experiments::LogEstimator& chosen) {
+std::string model_line(const experiments::LogEstimator& chosen, const experiments::LogSteps& log,
+                       logs::LogReader& reader) {
   const std::string text = chosen.model_text();
-  return text.empty() ? "" : fmt::format("{:<12} {}\n", "model", text);
+  if (text.empty()) return {};
+  const bool is_fitted = experiments::was_fitted_to(chosen.model, log, reader.info());
+  return fmt::format(
+      "{:<12} {}{}\n", "model", text,
+      is_fitted ? "; it was fitted to this log, whose score is therefore no test" : "");
 }
 
 std::string gravity_line(const experiments::LogSteps& log) {
@@ -175,7 +181,7 @@ Evaluation evaluate(logs::LogReader& reader, const experiments::LogEstimator& ch
   return {fmt::format("{}: {} steps, {:.3f} s at {:.6g} Hz, {}\n", reader.name(), writer.steps(),
                       writer.duration(), log.sample_rate(), chosen.entry.title) +
               outcome_line(reader.info(), writer.duration()) + summary + gravity_line(log) +
-              model_line(chosen),
+              model_line(chosen, log, reader),
           std::move(findings)};
 }
 

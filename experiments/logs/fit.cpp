@@ -306,6 +306,7 @@ Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
         "--no-contact: are they exchanged?",
         with.sum / with.count, without.sum / without.count));
   }
+  add_digests(report.digests, model);
   if (!config.robot.name.empty()) report.fitted_to.robots = {config.robot.name};
   if (config.robot.legs) report.fitted_to.legs = *config.robot.legs;
   report.fitted_to.servo_load = config.servo_load;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -45,13 +46,17 @@ struct LogFitConfig {
 /// Throws `Stopped` once the configuration's flag is true.
 void stop_if_asked(const LogFitConfig& config);
 
+/// Adds the digests of logs to the model's provenance, if it has one.
+void add_digests(const std::map<std::string, std::string>& digests, Model& model);
+
 /// The data of a fit; index 0 is no contact, 1 is contact.
 struct LogFitReport {
   double seconds = 0.0;                ///< of all logs, without skipped parts
   FittedTo fitted_to;                  ///< for the model's metadata
   std::array<std::size_t, 2> samples;  ///< of both legs
   std::array<TorqueBandwidth, 2> bandwidth;
-  std::size_t unusable = 0;  ///< samples left out: beyond what a sensor measures
+  std::map<std::string, std::string> digests;  ///< of the logs, with their names
+  std::size_t unusable = 0;                    ///< samples left out: beyond what a sensor measures
   /// Of logs with a declared class: the loads on wheels that the torques give.
   struct DeclaredLoad {
     double sum = 0.0;  ///< N
@@ -103,9 +108,10 @@ class FitLogSteps {
   std::int64_t contradicting_ = 0;
 };
 
-/// Fits an estimator's model to logs. Errors: `InputError` for unknown hyperparameters, and for
-/// logs that are unreadable, of reserved seeds, without ground truth or a declared class, or with
-/// labels of other times.
+/// Fits an estimator's model to logs, and adds the digests of their files to its provenance.
+/// Errors: `InputError` for unknown hyperparameters, and for logs that are unreadable, of reserved
+/// seeds, without ground truth or a declared class, with labels of other times, or copies of each
+/// other.
 ///
 /// A measurement model is fitted as in experiments; only the torques of both legs are held in
 /// memory (32 kB/s at 1 kHz). A torque that is not finite, or beyond
@@ -120,6 +126,10 @@ class FitLogSteps {
 /// left out as during estimation. Errors: `InputError` for logs without one of the classes.
 Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
                   const LogFitConfig& config, LogFitReport& report);
+
+/// Whether a model was fitted to a log that was read to its end: to a copy of it, or to the same
+/// run of the same scene.
+bool was_fitted_to(const Model& model, const LogSteps& log, const logs::RecordingInfo& info);
 
 /// The share of right decisions about both wheels, as `touchdown estimate` prints it.
 struct FitAccuracy {

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "estimator/models/parameters.hpp"
 #include "experiments/logs/fit.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 #include "logs/log/recording_file.hpp"
@@ -14,7 +16,38 @@ logs::LogReader reader_of(const FitLog& log, const LogFitConfig& config) {
   return {logs::records_of(log.recording, config.stop), log.path.string()};
 }
 
+std::string provenance_text(const Model& model) {
+  const auto found = model.arrays.find(std::string(provenance_array));
+  return found == model.arrays.end() ? std::string() : text_of_array(found->second, found->first);
+}
+
+/// Whether the provenance has a line of this key with the value among others.
+bool names(const std::string& provenance, std::string_view key, const std::string& value) {
+  const std::string lines = "\n" + provenance;
+  const std::size_t begin = lines.find(fmt::format("\n{}: ", key));
+  if (begin == std::string::npos || value.empty()) return false;
+  const std::size_t values = begin + 1 + key.size() + 1;
+  const std::string line = lines.substr(values, lines.find('\n', values) - values) + ",";
+  return line.find(fmt::format(" {},", value)) != std::string::npos;
+}
+
 }  // namespace
+
+void add_digests(const std::map<std::string, std::string>& digests, Model& model) {
+  if (!model.arrays.contains(std::string(provenance_array))) return;
+  std::vector<std::string> texts;
+  for (const auto& [digest, log] : digests) texts.push_back(digest);
+  model.arrays[std::string(provenance_array)] =
+      array_of_text(fmt::format("{}logs: {}\n", provenance_text(model), fmt::join(texts, ", ")));
+}
+
+bool was_fitted_to(const Model& model, const LogSteps& log, const logs::RecordingInfo& info) {
+  const std::string provenance = provenance_text(model);
+  const bool is_run = names(provenance, "scenarios", info.scenario) &&
+                      names(provenance, "simulators", info.simulator) &&
+                      names(provenance, "seed:run", fmt::format("{}:{}", info.seed, info.run));
+  return is_run || names(provenance, "logs", log.digest());
+}
 
 void stop_if_asked(const LogFitConfig& config) {
   if (config.stop != nullptr && *config.stop) throw Stopped("stopped; no model was written");
@@ -77,6 +110,11 @@ void FitLogSteps::compare_with_declared_class() {
 void FitLogSteps::finish(std::int64_t used_steps) {
   stop_if_asked(config_);
   steps_.require_labels_within();
+  const auto [same, is_new] = report_.digests.emplace(steps_.digest(), log_.path.string());
+  if (!is_new) {
+    throw InputError(fmt::format("{} and {} are copies of one log, which would count twice",
+                                 same->second, log_.path.string()));
+  }
   for (std::string& warning : reader_.warnings()) report_.warnings.push_back(std::move(warning));
   for (const std::string& finding : steps_.findings()) {
     report_.warnings.push_back(fmt::format("{}: {}", log_.path.string(), finding));

@@ -1,6 +1,7 @@
 #include "experiments/logs/log_steps.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -170,6 +171,7 @@ const LogStep* LogSteps::next() {
   if (!row) return nullptr;
   plausibility_.add(row->observation);
   step_.signals = signals_.next(row->observation, row->action);
+  add_to_digest(step_.signals);
   if (label_check_) label_check_->add(step_.signals);
   step_.normal_force.reset();
   if (labels_ != nullptr) {
@@ -180,6 +182,19 @@ const LogStep* LogSteps::next() {
   }
   return &step_;
 }
+
+void LogSteps::add_to_digest(const Signals& signals) {
+  const auto add = [this](double number) {
+    constexpr std::uint64_t prime = 0x9e3779b97f4a7c15;
+    digest_ = std::rotl((digest_ ^ std::bit_cast<std::uint64_t>(number)) * prime, 29);
+  };
+  add(signals.vertical_acceleration);
+  for (const LegSignals& leg : signals.leg) {
+    for (const JointSignals& joint : {leg.hip, leg.knee, leg.wheel}) add(joint.torque);
+  }
+}
+
+std::string LogSteps::digest() const { return fmt::format("{:016x}", digest_); }
 
 std::vector<std::string> LogSteps::findings() const {
   std::vector<std::string> findings = plausibility_.findings();

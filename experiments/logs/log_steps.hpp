@@ -51,11 +51,17 @@ class LogSteps {
   /// torques give, one line each.
   std::vector<std::string> findings() const;
 
+  /// Sixteen hexadecimal digits that identify the torques and accelerations so far: equal for
+  /// copies of a log, whatever their format.
+  std::string digest() const;
+
   /// For the end of the log. Errors: `InputError` for labels that end clearly after it.
   void require_labels_within() const;
 
  private:
   class LabelCheck;
+
+  void add_to_digest(const Signals& signals);
 
   logs::LogReader& reader_;
   const logs::ContactIntervals* labels_;
@@ -64,6 +70,7 @@ class LogSteps {
   logs::StepSignals signals_;
   logs::PlausibilityCheck plausibility_;
   std::unique_ptr<LabelCheck> label_check_;  ///< null without labels
+  std::uint64_t digest_ = 0;
   LogStep step_;
 };
 
