@@ -69,12 +69,34 @@ experiments::Sensors sensors_of(const std::vector<std::string>& names, const std
   return sensors;
 }
 
+/// Replaces the signals of sensors that an estimator does not name, because their noise is not
+/// added for it: it would see them without noise.
+void hide_others(const experiments::Sensors& sensors, Signals& step) {
+  const auto keep = [](bool is_named, double& signal) {
+    if (!is_named) signal = NAN;
+  };
+  keep(sensors.acceleration, step.vertical_acceleration);
+  for (double& axis : step.linear_acceleration) keep(sensors.acceleration, axis);
+  for (LegSignals& leg : step.leg) {
+    keep(sensors.hip_torque, leg.hip.torque);
+    keep(sensors.knee_torque, leg.knee.torque);
+    keep(sensors.wheel_torque, leg.wheel.torque);
+    for (JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) {
+      keep(sensors.joint_position, joint->position);
+      keep(sensors.joint_velocity, joint->velocity);
+    }
+  }
+}
+
 /// Wraps `run` of a Python estimator for an experiment.
 experiments::WholeRunEstimator whole_run_of(const py::object& estimator, const std::string& name,
+                                            const experiments::Sensors& sensors,
                                             double sample_rate) {
-  return [kept = shared(estimator), name, sample_rate](std::span<const Signals> steps) {
+  return [kept = shared(estimator), name, sensors, sample_rate](std::span<const Signals> steps) {
     const py::gil_scoped_acquire locked;
-    py::dict signals = arrays_of(std::vector<Signals>(steps.begin(), steps.end()));
+    std::vector<Signals> seen(steps.begin(), steps.end());
+    for (Signals& step : seen) hide_others(sensors, step);
+    py::dict signals = arrays_of(seen);
     signals["sample_rate"] = sample_rate;
     return beliefs_of(kept->attr("run")(signals), steps.size(), name);
   };
@@ -87,10 +109,10 @@ experiments::EstimatorEntry entry_of(const py::dict& described) {
   entry.summary = described["summary"].cast<std::string>();
   entry.revision = described["revision"].cast<std::string>();
   entry.sensors = sensors_of(described["sensors"].cast<std::vector<std::string>>(), entry.name);
-  entry.making.whole_run = [make = shared(described["make"]),
-                            name = entry.name](const experiments::EstimatorSetup& setup) {
+  entry.making.whole_run = [make = shared(described["make"]), name = entry.name,
+                            sensors = entry.sensors](const experiments::EstimatorSetup& setup) {
     const py::gil_scoped_acquire locked;
-    return whole_run_of((*make)(), name, setup.sample_rate);
+    return whole_run_of((*make)(), name, sensors, setup.sample_rate);
   };
   return entry;
 }

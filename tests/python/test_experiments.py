@@ -49,6 +49,17 @@ ESTIMATORS = textwrap.dedent('''\
         def run(self, signals):
             return np.zeros(len(signals["time"]), dtype=bool)
 
+    class Sees(Never):
+        sensors, seen = ["knee_torque", "acceleration"], {}
+
+        def run(self, signals):
+            for name in ("torque", "position", "velocity", "vertical_acceleration"):
+                self.seen[name] = np.isfinite(signals[name]).reshape(len(signals["time"]), -1).all(axis=0).tolist()
+            return super().run(signals)
+
+    class SeesNothing(Sees):
+        sensors, seen = [], {}
+
     class Breaks:
         def run(self, signals):
             raise ZeroDivisionError("of the user's own")
@@ -160,6 +171,14 @@ class WrittenInPython(InExperimentFolder):
         for name, calls in per_task.items():
             self.assertIn(len(getattr(mine, name).calls) - 4 * calls, {2, 3, 4}, name)
             self.assertEqual(set(getattr(mine, name).calls), {(3201, 6)})
+
+    def test_hides_sensors_that_an_estimator_does_not_name(self):
+        import mine
+        touchdown.run("hops.yaml", overrides={"estimators": [mine.Sees, mine.SeesNothing]})
+        hip_knee_wheel = [False, True, False]
+        self.assertEqual(mine.Sees.seen, {"torque": 2 * hip_knee_wheel, "position": 6 * [False], "velocity": 6 * [False],
+                                          "vertical_acceleration": [True]})
+        self.assertFalse(any(sum(mine.SeesNothing.seen.values(), [])))
 
     def test_with_changed_source_is_evaluated_again(self):
         import mine

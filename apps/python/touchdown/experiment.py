@@ -183,7 +183,7 @@ def run(experiment: str | os.PathLike | Mapping[str, Any], *, overrides: Mapping
         class Falls:
             '''One line about it, for tables.'''
             title = "Falls"               # optional
-            sensors = ("acceleration",)   # optional: the sensors it uses; without it, all
+            sensors = ("acceleration",)   # optional: the sensors it sees, others are NaN; without it, all
             def run(self, signals):
                 '''signals: the arrays that Estimator.run takes, of steps with a record, and `sample_rate` (Hz).
                 Returns P(contact), as an array or as the dict that Estimator.run returns.'''
