@@ -72,7 +72,7 @@ std::vector<fs::path> bag_files(const fs::path& path) {
   }
   const fs::path metadata = path / "metadata.yaml";
   std::vector<fs::path> files;
-  if (is_there(metadata)) files = listed_files(metadata);
+  if (fs::is_regular_file(metadata)) files = listed_files(metadata);
   for (fs::path& file : files) {
     const fs::path named = path / file.filename();  // older versions list the folder too
     const fs::path compressed = named.string() + ".zstd";

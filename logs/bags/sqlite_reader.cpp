@@ -133,6 +133,14 @@ void SqliteReader::open(const std::filesystem::path& path) {
   }
   if (result == SQLITE_NOTADB) complain("is no SQLite database: is it compressed?");
   if (result != SQLITE_OK) complain_unreadable();
+  for (const char* suffix : {"-wal", "-journal"}) {
+    const std::uintmax_t bytes = std::filesystem::file_size(path.string() + suffix, none);
+    if (none || bytes == 0) continue;
+    note_ = fmt::format(
+        "{0}: {0}{1} is beside it: it is being recorded, or its recorder was killed; "
+        "its last messages may be missing",
+        name_, suffix);
+  }
 }
 
 /// Whether it has this table. A view or a virtual table of the name, which could run code or never

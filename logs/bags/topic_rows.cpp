@@ -264,7 +264,9 @@ std::vector<SignalTopic> find_signal_topics(const std::filesystem::path& path,
     }
     const std::string all = all_topics(bag);
     std::vector<std::string> known;
-    for (const BagTopic& topic : bag.topics()) known.push_back(topic.name);
+    for (const BagTopic& topic : bag.topics()) {
+      if (topic.name != one.name) known.push_back(topic.name);  // it may be there, without messages
+    }
     throw InputError(fmt::format("{}: has no message of topic {}{}: {}", path.string(), one.name,
                                  did_you_mean(one.name, known), all));
   }

@@ -1,6 +1,7 @@
 #include "logs/bags/bag.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -8,6 +9,7 @@
 #include <set>
 #include <sqlite3.h>
 #include <string>
+#include <sys/stat.h>
 #include <vector>
 
 #include <fmt/format.h>
@@ -29,7 +31,9 @@ using test::lines_of;
 using test::ReadBag;
 using test::TestBag;
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TestBag two_topics(std::size_t begin = 0, std::size_t end = 40) {
   return test::two_topics(begin, end, 20);
@@ -208,6 +212,98 @@ TEST_F(Bag, OtherDatabasesAreRefused) {
       HasSubstr("no table 'messages'"));
 }
 
+/// Interior pages of a table that each name the next one in all of their cells, so that a few
+/// kilobytes have more rows than anybody could read.
+std::string chained(std::string bytes, std::size_t root) {
+  const std::size_t page =
+      256 * static_cast<unsigned char>(bytes[16]) + static_cast<unsigned char>(bytes[17]);
+  std::vector<std::size_t> interior = {root};
+  for (std::size_t number = 2; number <= bytes.size() / page; ++number) {
+    if (number != root && bytes[(number - 1) * page] == 5) interior.push_back(number);
+  }
+  interior.resize(std::min<std::size_t>(interior.size(), 12));
+  const auto number_at = [&](std::size_t at) {
+    return 256 * static_cast<std::size_t>(static_cast<unsigned char>(bytes[at])) +
+           static_cast<unsigned char>(bytes[at + 1]);
+  };
+  for (std::size_t i = 0; i + 1 < interior.size(); ++i) {
+    const std::size_t begin = (interior[i] - 1) * page;
+    const auto point = [&](std::size_t at) {
+      bytes[at] = bytes[at + 1] = 0;
+      bytes[at + 2] = static_cast<char>(interior[i + 1] / 256);
+      bytes[at + 3] = static_cast<char>(interior[i + 1] % 256);
+    };
+    point(begin + 8);  // the rightmost child
+    for (std::size_t cell = 0; cell < number_at(begin + 3); ++cell) {
+      point(begin + number_at(begin + 12 + 2 * cell));
+    }
+  }
+  return bytes;
+}
+
+TEST_F(Bag, ADatabaseWithMoreRowsThanItsBytesCanHoldEnds) {
+  for (const bool has_index : {false, true}) {
+    const fs::path path = folder_ / fmt::format("small_{}.db3", has_index);
+    test::run_sql(path, "PRAGMA page_size = 512; CREATE TABLE dummy(x)");
+    test::write_db3(two_topics(0, 4000), path, false, has_index);
+    sqlite3* database = nullptr;
+    ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
+    for (const char* table : {"messages", "topics"}) {
+      sqlite3_stmt* row = nullptr;
+      const std::string sql =
+          fmt::format("SELECT rootpage FROM sqlite_master WHERE name = '{}'", table);
+      ASSERT_EQ(sqlite3_prepare_v2(database, sql.c_str(), -1, &row, nullptr), SQLITE_OK);
+      ASSERT_EQ(sqlite3_step(row), SQLITE_ROW);
+      const auto root = static_cast<std::size_t>(sqlite3_column_int64(row, 0));
+      sqlite3_finalize(row);
+      const std::string bytes = chained(read_file(path), root);
+      const ReadBag result = read_bag(write("endless.db3", bytes));
+      EXPECT_LT(result.messages.size(), 2 * bytes.size()) << table;
+      EXPECT_THAT(result.error + result.notes,
+                  AnyOf(HasSubstr("again and again"), HasSubstr("damaged"), HasSubstr("malformed")))
+          << table;
+    }
+    sqlite3_close(database);
+  }
+}
+
+TEST_F(Bag, AReaderOfAnyKindHearsAStop) {
+  const TestBag bag = two_topics();
+  const std::string mcap = test::mcap_bytes(bag);
+  const std::atomic<bool> stop = true;
+  for (const fs::path& path :
+       {write("a.mcap", mcap), write("b.mcap.zstd", test::zstd_compressed(mcap)),
+        write_db3("c.db3", two_topics(0, 4000)),
+        write("d.db3.zstd", test::zstd_compressed(read_file(write_db3("e.db3", bag))))}) {
+    BagReader reader(path, {}, &stop);
+    BagMessage message;
+    EXPECT_THROW(while (reader.next(message)), Stopped) << path;
+  }
+}
+
+TEST_F(Bag, ADatabaseThatIsBeingRecordedIsNamed) {
+  const fs::path path = write_db3("bag.db3", two_topics());
+  EXPECT_EQ(read_bag(path).notes, "");
+  for (const char* suffix : {"-journal", "-wal"}) {
+    const fs::path beside = write(std::string("bag.db3") + suffix, "unfinished");
+    const ReadBag result = read_bag(path);
+    EXPECT_EQ(result.messages, lines_of(two_topics())) << result.error;
+    EXPECT_THAT(result.notes, HasSubstr(std::string("bag.db3") + suffix + " is beside it"));
+    fs::remove(beside);
+  }
+}
+
+TEST_F(Bag, MetadataThatIsNoFileIsNotWaitedFor) {
+  const TestBag bag = two_topics();
+  write("pipe/bag_0.mcap", test::mcap_bytes(bag));
+  write("folder/bag_0.mcap", test::mcap_bytes(bag));
+  ASSERT_EQ(::mkfifo((folder_ / "pipe/metadata.yaml").c_str(), 0600), 0);
+  fs::create_directories(folder_ / "folder/metadata.yaml");
+  for (const char* name : {"pipe", "folder"}) {
+    EXPECT_EQ(read_bag(folder_ / name).messages, lines_of(bag)) << name;
+  }
+}
+
 TEST_F(Bag, ASqliteBagThatIsCutOffIsReadAsFarAsItIsWhole) {
   const TestBag bag = two_topics(0, 2000);
   const std::vector<std::string> all = lines_of(bag);
@@ -237,6 +333,7 @@ TEST_F(Bag, MissingAndOtherTopicsAreRefusedWithTheBagsTopics) {
   TestBag bag = two_topics();
   bag.topics.push_back({"/joint_states", joint_state_type});
   bag.messages.push_back({2, 5000, test::joint_state_cdr(0, {{"x"}, {1.0}, {}, {}})});
+  bag.topics.push_back({"/silent", joint_state_type});
   const fs::path path = write("bag.mcap", test::mcap_bytes(bag));
   const auto complaint = [&](const std::string& topic) {
     try {
@@ -247,6 +344,8 @@ TEST_F(Bag, MissingAndOtherTopicsAreRefusedWithTheBagsTopics) {
     return std::string("none");
   };
   EXPECT_EQ(complaint("/joint_states"), "none");
+  EXPECT_THAT(complaint("/silent"), AllOf(HasSubstr("has no message of topic /silent"),
+                                          Not(HasSubstr("did you mean '/silent'"))));
   EXPECT_THAT(
       complaint("/joint_state"),
       AllOf(HasSubstr("did you mean '/joint_states'?"), HasSubstr("/a (pkg/msg/A, 26 messages)"),
