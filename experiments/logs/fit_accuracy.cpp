@@ -13,7 +13,7 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// Adds the score of a model on a log, whose contact is known by its truth, labels or class.
+/// Adds the score of a model on a log with contact that is known by its truth, labels or class.
 void add_score(const EstimatorEntry& entry, const Model& model, const FitLog& log,
                const LogFitConfig& config, scoring::RobotScore& total) {
   LogFitReport unused;

@@ -21,7 +21,7 @@ namespace touchdown::logs {
 
 /// Reads the messages of a SQLite bag (`.db3`) by the time of recording, with or without an index
 /// of times. A damaged file is read as far as its pages are whole; `note()` describes it. Errors
-/// (`InputError`): a file that is no SQLite database, or one without a bag's tables; one whose
+/// (`InputError`): a file that is no SQLite database, or one without a bag's tables; one with
 /// pages name each other again and again, so that it has more rows than its bytes can hold.
 class SqliteReader {
  public:

@@ -173,12 +173,12 @@ TEST_F(Fit, ItsLogsAreNoTestOfTheModelAndCountOnce) {
   folder_.write("labels.csv", test::synthetic_labels(0, 3));
   folder_.write("copy.mpack", folder_.text("a.mpack"));
   fit("a.mpack --labels labels.csv -o fitted.npz --estimator force_kinematics");
-  const std::string said = "it was fitted to this log";
+  const std::string no_test = "it was fitted to this log";
   for (const std::string log : {"a.mpack", "copy.mpack"}) {
-    EXPECT_THAT(folder_.output_of("estimate --model fitted.npz " + log), HasSubstr(said)) << log;
+    EXPECT_THAT(folder_.output_of("estimate --model fitted.npz " + log), HasSubstr(no_test)) << log;
   }
-  EXPECT_THAT(folder_.run("estimate --model fitted.npz - < a.mpack").errors, HasSubstr(said));
-  EXPECT_THAT(folder_.output_of("estimate --model fitted.npz b.mpack"), Not(HasSubstr(said)));
+  EXPECT_THAT(folder_.run("estimate --model fitted.npz - < a.mpack").errors, HasSubstr(no_test));
+  EXPECT_THAT(folder_.output_of("estimate --model fitted.npz b.mpack"), Not(HasSubstr(no_test)));
   expect_refusals({{"a.mpack copy.mpack --labels labels.csv labels.csv -o m.npz",
                     {"a.mpack and copy.mpack are copies of one log"}}});
 }

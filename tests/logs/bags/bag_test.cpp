@@ -80,7 +80,7 @@ TEST_F(Bag, SqliteBagsOfAnyKindHaveTheSameMessages) {
   }
 }
 
-/// The reader decompresses in steps of 128 KiB, at whose ends a frame may end as well.
+/// The reader decompresses in steps of 128 KiB, and a frame may end where a step does.
 TEST_F(Bag, CompressedSqliteBagsOfAnySizeAreWhole) {
   const TestBag bag = two_topics();
   const fs::path path = write_db3("bag.db3", bag);
@@ -267,7 +267,7 @@ TEST_F(Bag, ADatabaseWithMoreRowsThanItsBytesCanHoldEnds) {
   }
 }
 
-TEST_F(Bag, AReaderOfAnyKindHearsAStop) {
+TEST_F(Bag, AReaderOfAnyKindEndsWhenAsked) {
   const TestBag bag = two_topics();
   const std::string mcap = test::mcap_bytes(bag);
   const std::atomic<bool> stop = true;
