@@ -11,6 +11,10 @@ namespace touchdown {
 
 std::string Fingerprint::text() const { return fmt::format("{:016x}", state_); }
 
+std::string file_fingerprint(const std::filesystem::path& file) {
+  return Fingerprint().add(read_file(file)).text();
+}
+
 std::filesystem::path own_binary() {
   Dl_info info = {};
   void* map = nullptr;
@@ -22,7 +26,7 @@ std::filesystem::path own_binary() {
 }
 
 std::string build_fingerprint() {
-  static const std::string name = Fingerprint().add(read_file(own_binary())).text();
+  static const std::string name = file_fingerprint(own_binary());
   return name;
 }
 

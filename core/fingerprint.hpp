@@ -27,6 +27,9 @@ class Fingerprint {
   std::uint64_t state_ = 0xcbf29ce484222325ULL;
 };
 
+/// The fingerprint of a file's content. Errors: those of `read_file`.
+std::string file_fingerprint(const std::filesystem::path& file);
+
 /// The path of the running program, or of the shared library that contains this code.
 std::filesystem::path own_binary();
 

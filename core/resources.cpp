@@ -100,6 +100,17 @@ std::filesystem::path find_resource(const std::filesystem::path& path) {
   throw InputError(fmt::format("{}: no such file{}", path.string(), near));
 }
 
+std::filesystem::path find_program_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  for (const std::filesystem::path& root : roots()) {
+    const std::filesystem::path own = root / path;
+    if (root == "." || !std::filesystem::is_regular_file(own, ignored)) continue;
+    // In the program's own folder the short name stays.
+    return std::filesystem::equivalent(own, path, ignored) ? path : own;
+  }
+  return find_resource(path);
+}
+
 void require_file(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::status(path, error).type() != std::filesystem::file_type::not_found) {

@@ -16,6 +16,11 @@ namespace touchdown {
 /// Errors: `InputError` that suggests the nearest existing file, or if the path is a folder.
 std::filesystem::path find_resource(const std::filesystem::path& path);
 
+/// The same for a name that the program itself uses, not its user: its default robot, its shipped
+/// models. A file of this name in the working directory does not replace the program's; it is used
+/// only where the program has none.
+std::filesystem::path find_program_file(const std::filesystem::path& path);
+
 /// The folder of the sources that this program was built from, if it is still there.
 std::optional<std::filesystem::path> source_folder();
 

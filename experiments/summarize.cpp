@@ -29,8 +29,10 @@ void require_scored_run(const Rollouts& runs) {
 ExperimentResult score(ExperimentContext& context, Computed& done) {
   const Experiment& experiment = context.request.experiment;
   const Plan& plan = context.plan;
-  ExperimentResult result{
-      experiment, context.request.id, context.directory, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  ExperimentResult result{.experiment = experiment,
+                          .id = context.request.id,
+                          .inputs = context.request.inputs,
+                          .directory = context.directory};
   result.models = std::move(done.models);
   result.cells = plan.groups.front().counted;
   const auto add = [&](const StudyResult& found) {

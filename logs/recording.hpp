@@ -34,7 +34,8 @@ struct RecordingInfo {
   std::optional<Outcome> outcome;
   /// The resolved scenario as YAML: enough to rebuild the terrain for a video.
   std::string scenario_yaml;
-  std::string robot = {};  ///< name of the robot of a robot's log, if the log states it
+  std::string robot_digest = {};  ///< of that scenario's robot, as `scenarios::robot_digest`
+  std::string robot = {};         ///< name of the robot of a robot's log, if the log states it
 };
 
 /// One run, stored by columns. Row k is the observation at time k·period and the action for it.

@@ -6,7 +6,9 @@
 
 #include "core/fields.hpp"
 #include "core/files.hpp"
+#include "core/fingerprint.hpp"
 #include "core/resources.hpp"
+#include "models/mjcf/robot_file.hpp"
 
 namespace touchdown::models {
 
@@ -184,9 +186,16 @@ RobotDescription robot_description(const std::filesystem::path& file) {
   return robot;
 }
 
-std::string robot_text(const std::filesystem::path& file) {
-  const std::filesystem::path mjcf = robot_description(file).mjcf;
-  return mjcf == file ? read_file(file) : read_file(file) + read_file(mjcf);
+std::vector<std::filesystem::path> robot_files(const std::filesystem::path& file) {
+  std::vector<std::filesystem::path> files = opened_files(robot_description(file).mjcf);
+  if (is_about_an_mjcf(file)) files.insert(files.begin(), file);
+  return files;
+}
+
+std::string robot_digest(const std::filesystem::path& file) {
+  Fingerprint all;
+  for (const std::filesystem::path& one : robot_files(file)) all.add(read_file(one));
+  return all.text();
 }
 
 }  // namespace touchdown::models

@@ -99,8 +99,10 @@ bool is_about_an_mjcf(const std::filesystem::path& file);
 /// Errors: `InputError` with file:line:column.
 RobotDescription robot_description(const std::filesystem::path& file);
 
-/// The text of the file and of the MJCF that it names, for digests of everything that the robot
-/// depends on.
-std::string robot_text(const std::filesystem::path& file);
+/// All files that the robot depends on: this one, the MJCF or URDF that it names, what that
+/// includes, and its meshes and textures; and one digest of their contents, wherever they are.
+/// Errors: `InputError` with file:line for a file that cannot be read.
+std::vector<std::filesystem::path> robot_files(const std::filesystem::path& file);
+std::string robot_digest(const std::filesystem::path& file);
 
 }  // namespace touchdown::models

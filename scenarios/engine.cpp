@@ -85,7 +85,8 @@ logs::RecordingInfo recording_info(const Scenario& scenario, std::string_view si
           .run = run,
           .control_period_us = scenario.simulation.steps.control_us,
           .outcome = std::nullopt,
-          .scenario_yaml = to_yaml(scenario)};
+          .scenario_yaml = to_yaml(scenario),
+          .robot_digest = robot_digest(scenario)};
 }
 
 logs::Recording play(const Scenario& scenario, simulators::Simulator& simulator, std::uint64_t seed,

@@ -165,8 +165,8 @@ Scenario load_scenario(const std::filesystem::path& path) {
   return scenario_from_yaml(YamlDocument::load(path));
 }
 
-std::string robot_text(const Scenario& scenario) {
-  return models::robot_text(find_resource(scenario.robot));
+std::string robot_digest(const Scenario& scenario) {
+  return models::robot_digest(find_resource(scenario.robot));
 }
 
 std::string to_yaml(const Scenario& scenario) {

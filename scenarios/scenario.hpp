@@ -84,8 +84,8 @@ Scenario load_scenario(const std::filesystem::path& path);
 /// The keys of a scenario file.
 std::vector<Key> scenario_keys();
 
-/// The text of all files that describe its robot, for digests.
-std::string robot_text(const Scenario& scenario);
+/// The digest of all files that describe its robot.
+std::string robot_digest(const Scenario& scenario);
 
 /// The scenario as YAML that `scenario_from_yaml` reads back to the same scenario.
 std::string to_yaml(const Scenario& scenario);

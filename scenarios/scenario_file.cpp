@@ -168,7 +168,10 @@ Scenario complete_scenario(const YamlDocument& document) {
   wanted = scenario_from_yaml(document, wanted,
                               [](const policies::WheelBalancerConfig& config) { return config; });
   Scenario defaults;
-  Fields(document).check("robot", [&] { defaults.robot = find_resource(wanted.robot); });
+  const bool names_robot = document.root()["robot"].IsDefined();
+  Fields(document).check("robot", [&] {
+    defaults.robot = names_robot ? find_resource(wanted.robot) : find_program_file(wanted.robot);
+  });
   DescribedRobot robot(defaults.robot);
   (void)robot.model();  // complaints about the robot come before those about its scenario
   const models::Stance stance = stance_of(robot);

@@ -31,14 +31,25 @@ std::vector<scenarios::GeneratedScenario> draw(const scenarios::Generation& gene
 
 void generate(const GenerateFlags& flags, const CliSession& session) {
   const std::filesystem::path folder = flags.output;
+  const auto file_of = [&](const scenarios::GeneratedScenario& drawn) {
+    return folder / (drawn.name + ".yaml");
+  };
+  const std::vector<scenarios::GeneratedScenario> all = draw(flags.generation, session);
+  for (const scenarios::GeneratedScenario& drawn : all) {
+    if (!is_there(file_of(drawn)) || read_file(file_of(drawn)) == drawn.text) continue;
+    throw InputError(fmt::format(
+        "{}: is there already, and was edited or drawn by another version of touchdown: move it, "
+        "or choose another -o; nothing was written",
+        file_of(drawn).string()));
+  }
   std::size_t written = 0;
-  for (const scenarios::GeneratedScenario& drawn : draw(flags.generation, session)) {
+  for (const scenarios::GeneratedScenario& drawn : all) {
     if (*session.stop) {
       throw Stopped(fmt::format("stopped; {} of {} scenarios are written in {}", written,
                                 flags.generation.count, folder.string()));
     }
     ++written;
-    const std::filesystem::path path = folder / (drawn.name + ".yaml");
+    const std::filesystem::path path = file_of(drawn);
     write_atomically(path, drawn.text);
     print("{}\n", path.string());
     for (const std::string& reason : drawn.rejected) {

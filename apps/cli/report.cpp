@@ -43,6 +43,12 @@ void add_report(CLI::App& program, const CliSession& session) {
       lock.emplace(flags->directory, experiments::Access::alone, session.command);
     }
     const render::ReportSubject subject = render::read_subject(flags->directory);
+    for (const std::string& name : subject.edited_tables) {
+      print_warnings(
+          {fmt::format("{}/tables/{}: was edited since the run wrote it: the report shows "
+                       "it as it is now, `touchdown run` writes it anew",
+                       flags->directory, name)});
+    }
     std::vector<render::FilmedRun> filmed;
     if (subject.experiment.video.enabled && !(flags->no_video && flags->no_replay)) {
       filmed = render::filmed_runs(subject);

@@ -287,6 +287,7 @@ py::dict dict_of(const logs::RecordingInfo& info) {
   dict["control_period_us"] = info.control_period_us;
   dict["outcome"] = info.outcome ? py::cast(logs::to_text(*info.outcome)) : py::none();
   dict["scenario_yaml"] = info.scenario_yaml;
+  dict["robot_digest"] = info.robot_digest;
   return dict;
 }
 
@@ -301,6 +302,7 @@ logs::RecordingInfo info_of(const py::dict& dict) {
     info.outcome = logs::outcome_from_text(dict["outcome"].cast<std::string>());
   }
   info.scenario_yaml = dict["scenario_yaml"].cast<std::string>();
+  if (dict.contains("robot_digest")) info.robot_digest = dict["robot_digest"].cast<std::string>();
   return info;
 }
 

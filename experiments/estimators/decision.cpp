@@ -50,7 +50,7 @@ bool are_alike(const LegGeometry& one, const LegGeometry& other) {
 
 /// A shipped model. Errors: `InputError` for a rate or a robot that it does not serve.
 Model shipped_model_for(const EstimatorEntry& entry, const EstimatorSetup& setup) {
-  const std::filesystem::path path = find_resource(shipped_file(entry.name));
+  const std::filesystem::path path = find_program_file(entry.making.model_file);
   Model model = load_model(path);
   if (!model.metadata || setup.transfer) return model;
   const bool is_own_robot = !setup.legs || are_alike(*setup.legs, LegGeometry{});
@@ -111,7 +111,9 @@ EstimatorEntry shipped_entry(const char* name, EstimatorEntry entry) {
   entry.reason += ", without labels";
   entry.hyperparameters = {};
   entry.fitting = {.trained_by = "scripts/fit_shipped_model.sh"};
-  entry.making = {.by_step = make_shipped, .require_served = require_shipped_serves};
+  entry.making = {.model_file = shipped_file(name),
+                  .by_step = make_shipped,
+                  .require_served = require_shipped_serves};
   return entry;
 }
 

@@ -107,6 +107,8 @@ struct FitMethod {
 
 /// How the estimator is made for a run: step by step as on a robot, or for the whole run at once.
 struct MakeMethod {
+  /// The model that comes with the program, for `find_program_file`; empty for other estimators.
+  std::string model_file = {};
   std::unique_ptr<ContactEstimator> (*by_step)(const EstimatorEntry& entry,
                                                const EstimatorSetup& setup) = nullptr;
   /// Replaces `by_step`.

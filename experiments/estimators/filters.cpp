@@ -83,10 +83,10 @@ Model fit_phase(const EstimatorEntry& entry, const FitRuns& runs) {
 
 /// The network that comes with the project.
 Model network(const EstimatorEntry& entry) {
-  const std::string file = fmt::format("models/{}.npz", entry.name);
+  const std::string& file = entry.making.model_file;
   std::filesystem::path path;
   try {
-    path = find_resource(file);
+    path = find_program_file(file);
   } catch (const InputError&) {
     throw InputError(fmt::format(
         "{0}: {1} is missing; 'touchdown train experiments/{0}.yaml -o {1}' makes it in less than "
@@ -207,13 +207,14 @@ EstimatorEntry neural_entry() {
           .sensors = {.acceleration = true, .joint_position = true, .joint_velocity = true},
           .hyperparameters = {between("threshold", NeuralEstimatorConfig{}.threshold, 0.2, 0.95)},
           .fitting = {.trained_by = "touchdown train"},
-          .making = {.by_step = make_network},
+          .making = {.model_file = "models/nmn.npz", .by_step = make_network},
           .batching = neural_batch};
 }
 
 EstimatorEntry retrained_neural_entry() {
   EstimatorEntry entry = neural_entry();
   entry.name = "nmn_retrained";
+  entry.making.model_file = "models/nmn_retrained.npz";
   entry.title = "NMN, retrained";
   entry.summary =
       "Runs the paper's network, retrained on the benchmark's fit scenes with sensor noise";

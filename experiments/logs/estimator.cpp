@@ -145,7 +145,7 @@ LogEstimator log_estimator(LogEstimatorRequest request) {
         estimator_entry(request.name.empty() ? "shipped" : request.name);
     const char* const file = shipped_file(shipped.name);
     request.name.clear();  // the model's own
-    request.model = file;
+    request.model = find_program_file(file);
     LogEstimator estimator = log_estimator(std::move(request));
     estimator.entry.title = fmt::format("{} ({})", shipped.title, file);
     return estimator;

@@ -162,7 +162,9 @@ LogSteps::LogSteps(logs::LogReader& reader, const logs::ContactIntervals* labels
       label_check_(labels == nullptr
                        ? nullptr
                        : std::make_unique<LabelCheck>(*labels, sample_rate_,
-                                                      robot.legs.value_or(LegGeometry{}))) {}
+                                                      robot.legs.value_or(LegGeometry{}))) {
+  if (!robot.doubt.empty()) reader.warn(fmt::format("{}: {}", reader.name(), robot.doubt));
+}
 
 LogSteps::~LogSteps() = default;
 

@@ -27,9 +27,9 @@ struct LogStep {
 class LogSteps {
  public:
   /// `reader` and `labels` must outlive this. `labels`, if given, replace the log's own ground
-  /// truth. `robot` is for the findings. Errors: those of the reader; `InputError` for a log with
-  /// fewer than 100 steps per second, where every step would be a gap (`SignalGuardConfig`), or
-  /// with more than 20,000.
+  /// truth. `robot` is for the findings; a doubt about it becomes a warning of the reader. Errors:
+  /// those of the reader; `InputError` for a log with fewer than 100 steps per second, where every
+  /// step would be a gap (`SignalGuardConfig`), or with more than 20,000.
   explicit LogSteps(logs::LogReader& reader, const logs::ContactIntervals* labels = nullptr,
                     const logs::CheckedRobot& robot = {});
   ~LogSteps();

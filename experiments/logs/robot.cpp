@@ -75,17 +75,24 @@ LogRobot robot_of_file(const std::string& file) {
 }
 
 logs::CheckedRobot checked_robot(const LogRobot& requested, const logs::RecordingInfo& log) {
-  LogRobot robot = requested;
-  if (!robot.legs) {
-    try {
-      if (const std::filesystem::path file = robot_file_of(log); !file.empty()) {
-        robot = robot_in_file(file);
-      }
-    } catch (const InputError&) {
-      robot.legs.reset();  // the file is elsewhere: the checks assume Upkie
-    }
+  if (requested.legs) return {requested.legs, requested.ranges};
+  const std::filesystem::path file = robot_file_of(log);
+  if (file.empty()) return {};
+  constexpr const char* advice = "the robot's file as it was then, after --robot, is used instead";
+  try {
+    const LogRobot robot = robot_in_file(file);
+    const bool is_same =
+        log.robot_digest.empty() || log.robot_digest == models::robot_digest(find_resource(file));
+    return {robot.legs, robot.ranges,
+            is_same ? ""
+                    : fmt::format("its robot {}, or a file that this reads, was changed since the "
+                                  "recording: the legs are those of today ({})",
+                                  file.string(), advice)};
+  } catch (const InputError& error) {
+    return {.doubt = fmt::format("the legs are assumed to be Upkie's, because its robot cannot be "
+                                 "read: {} ({})",
+                                 error.what(), advice)};
   }
-  return {robot.legs, robot.ranges};
 }
 
 std::string robot_text(const std::string& name) {

@@ -26,7 +26,8 @@ LogRobot robot_called(const std::string& name_or_file);
 LogRobot robot_of_file(const std::string& file);
 
 /// What the checks of a log know about its robot: the requested one, else the one that a simulated
-/// log names, if its file is there.
+/// log names. There is a doubt if that robot's files cannot be read, or were changed since the
+/// recording.
 logs::CheckedRobot checked_robot(const LogRobot& requested, const logs::RecordingInfo& log);
 
 /// A model's robot for messages: its name in quotes, or "an unnamed robot".

@@ -34,7 +34,7 @@ scenarios::Scenario scene_of(const RunRequest& request, const std::string& file,
 
 /// What is simulated, whatever the names of the scenario and of its robot's file.
 std::string content_of(scenarios::Scenario scenario) {
-  const std::string robot = scenarios::robot_text(scenario);
+  const std::string robot = scenarios::robot_digest(scenario);
   scenario.name.clear();
   scenario.robot.clear();
   return Fingerprint().add(robot).add(scenarios::to_yaml(scenario)).text();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,6 +18,7 @@
 #include "experiments/config/experiment_yaml.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/run_directory/own_files.hpp"
+#include "models/robot_description.hpp"
 #include "noise/reported_signals.hpp"
 #include "scenarios/generation/generate.hpp"
 
@@ -28,27 +31,6 @@ std::filesystem::path kept_file(const std::filesystem::path& run_directory, std:
 }
 
 namespace fs = std::filesystem;
-
-/// The digest of a request. Scenarios are added one by one.
-class Digest {
- public:
-  Digest(const Experiment& experiment, const std::vector<NamedSensors>& sensors) {
-    fingerprint_.add(to_yaml(experiment));
-    for (const NamedSensors& named : sensors) fingerprint_.add(noise::to_yaml(named.profile));
-    for (const std::string& name : experiment.estimators) {
-      const std::string& revision = estimator_entry(experiment, name).revision;
-      if (!revision.empty()) fingerprint_.add(revision);
-    }
-  }
-  /// Includes the robot's path as the scenario gives it, and the content of its file.
-  void add(const scenarios::Scenario& scenario) {
-    fingerprint_.add(scenarios::to_yaml(scenario)).add(scenarios::robot_text(scenario));
-  }
-  std::string text() const { return fingerprint_.text(); }
-
- private:
-  Fingerprint fingerprint_;
-};
 
 std::vector<NamedScenario>::const_iterator find_named(const std::vector<NamedScenario>& scenarios,
                                                       const std::string& file,
@@ -74,6 +56,99 @@ std::vector<NamedScenario> scenarios_of(const Experiment& experiment, const Read
 }
 
 std::string scenario_file(std::size_t number) { return fmt::format("scenario_{:03}.yaml", number); }
+
+fs::path inputs_file(const fs::path& run_directory) {
+  return run_directory / "state" / "inputs.yaml";
+}
+
+/// Lists the inputs of a request with scenarios and sensors. What is resolved from other files
+/// comes after them, so that the first difference between two lists is its cause.
+std::vector<RequestInput> inputs_of(const RunRequest& request) {
+  std::vector<RequestInput> inputs;
+  std::set<fs::path> listed;
+  const auto add_text = [&](const std::string& file, std::string_view text) {
+    inputs.push_back({file, Fingerprint().add(text).text()});
+  };
+  const auto add_file = [&](const fs::path& file) {
+    if (listed.insert(file).second) inputs.push_back({file.string(), file_fingerprint(file)});
+  };
+  for (const NamedScenario& named : request.scenarios) {
+    for (const fs::path& file : models::robot_files(named.scenario.robot)) add_file(file);
+  }
+  for (const std::string& name : request.experiment.estimators) {
+    const EstimatorEntry& entry = estimator_entry(request.experiment, name);
+    if (!entry.revision.empty()) add_text(name, entry.revision);
+    const std::string& model = entry.making.model_file;
+    if (model.empty()) continue;
+    try {
+      add_file(find_program_file(model));
+    } catch (const InputError&) {
+      // The estimator complains, with advice on how to make its model.
+    }
+  }
+  for (const NamedSensors& named : request.sensors) {
+    add_text(named.file, noise::to_yaml(named.profile));
+  }
+  for (const NamedScenario& named : request.scenarios) {
+    add_text(named.file, scenarios::to_yaml(named.scenario));
+  }
+  add_text("config.yaml", to_yaml(request.experiment));
+  return inputs;
+}
+
+/// Names do not count: paths depend on the working directory.
+std::string id_of(const std::vector<RequestInput>& inputs) {
+  Fingerprint all;
+  for (const RequestInput& input : inputs) all.add(input.digest);
+  return all.text();
+}
+
+std::string to_yaml(const std::vector<RequestInput>& inputs) {
+  YAML::Node document;
+  for (const RequestInput& input : inputs) {
+    YAML::Node node;
+    node["file"] = input.file;
+    node["digest"] = input.digest;
+    document["inputs"].push_back(node);
+  }
+  return YAML::Dump(document) + "\n";
+}
+
+std::vector<RequestInput> written_inputs(const fs::path& directory) {
+  std::vector<RequestInput> inputs;
+  if (!is_there(inputs_file(directory))) return inputs;
+  const auto list = YamlDocument::load(inputs_file(directory));
+  for (const YAML::Node& node : list.root()["inputs"]) {
+    inputs.push_back({node["file"].as<std::string>(""), node["digest"].as<std::string>("")});
+  }
+  return inputs;
+}
+
+/// The first of these inputs that is not among the others.
+const RequestInput* first_missing(const std::vector<RequestInput>& inputs,
+                                  const std::vector<RequestInput>& others) {
+  const auto found = std::find_if(inputs.begin(), inputs.end(), [&](const RequestInput& input) {
+    return std::none_of(others.begin(), others.end(),
+                        [&](const RequestInput& other) { return other.digest == input.digest; });
+  });
+  return found == inputs.end() ? nullptr : &*found;
+}
+
+/// Names the first input in which a request differs from the one of a run directory.
+std::string difference_text(const fs::path& directory, const std::vector<RequestInput>& now) {
+  const std::vector<RequestInput> then = written_inputs(directory);
+  if (then.empty()) return "its state/inputs.yaml is missing: an older program wrote it";
+  const RequestInput* const input = first_missing(now, then);
+  if (input == nullptr) {
+    const RequestInput* const left_out = first_missing(then, now);
+    return left_out == nullptr ? "its inputs have another order"
+                               : fmt::format("{} was read then, and is not now", left_out->file);
+  }
+  const bool was_read = std::any_of(then.begin(), then.end(), [&](const RequestInput& other) {
+    return fs::path(other.file).filename() == fs::path(input->file).filename();
+  });
+  return fmt::format("{} was {} since", input->file, was_read ? "changed" : "added");
+}
 
 /// Identifies the results of a directory: the request, and the build that computes it.
 std::string state_key(const RunRequest& request) { return key_of(request.id, build_fingerprint()); }
@@ -131,15 +206,15 @@ std::string setup_caption(const Experiment& experiment) {
 }
 
 RunRequest request_of(const Experiment& experiment) {
-  RunRequest request{experiment, {}, {}, {}};
+  RunRequest request;
+  request.experiment = experiment;
   request.scenarios = scenarios_of(
       experiment, [&](const std::string& file, const std::string& robot, std::size_t /*n*/) {
         return scenarios::find_scenario(file, robot.empty() ? experiment.robot : robot);
       });
   request.sensors = read_sensors(request.experiment);
-  Digest digest(request.experiment, request.sensors);
-  for (const NamedScenario& named : request.scenarios) digest.add(named.scenario);
-  request.id = digest.text();
+  request.inputs = inputs_of(request);
+  request.id = id_of(request.inputs);
   return request;
 }
 
@@ -156,10 +231,14 @@ void require_place(const RunRequest& request, const fs::path& directory, bool ov
     owner = owner_of(directory);  // another process may own it now
   }
   if (!owner || owner->request == request.id || overwrite) return;
+  const std::string difference = owner->name == request.experiment.name
+                                     ? "; " + difference_text(directory, request.inputs)
+                                     : "";
   throw InputError(fmt::format(
-      "{}: holds experiment '{}' (request {}), and this is '{}' (request {}): choose another --out "
-      "or replace it with --overwrite",
-      directory.string(), owner->name, owner->request, request.experiment.name, request.id));
+      "{}: holds experiment '{}' (request {}), and this is '{}' (request {}){}: choose another "
+      "--out or replace it with --overwrite",
+      directory.string(), owner->name, owner->request, request.experiment.name, request.id,
+      difference));
 }
 
 bool is_written(const RunRequest& request, const fs::path& directory) {
@@ -182,6 +261,7 @@ void write_request(const RunRequest& request, const RunDirectory& directory, boo
   for (std::size_t i = 0; i < request.sensors.size(); ++i) {
     write_atomically(kept_file(directory.path(), i), noise::to_yaml(request.sensors[i].profile));
   }
+  write_atomically(inputs_file(directory.path()), to_yaml(request.inputs));
   write_atomically(directory.path() / "config.yaml", to_yaml(request.experiment));
 }
 
@@ -199,21 +279,19 @@ RunRequest read_request(const fs::path& directory, std::vector<StudySection> sec
   request.experiment =
       experiment_from_yaml(YamlDocument::load(directory / "config.yaml"), std::move(sections), {});
   request.sensors = read_sensors(request.experiment, directory);
-  Digest digest(request.experiment, request.sensors);
   request.scenarios = scenarios_of(
       request.experiment,
       [&](const std::string& /*file*/, const std::string& /*robot*/, std::size_t number) {
-        scenarios::Scenario scenario = scenarios::scenario_from_yaml(
+        return scenarios::scenario_from_yaml(
             YamlDocument::load(directory / "state" / scenario_file(number)));
-        digest.add(scenario);
-        return scenario;
       });
-  request.id = digest.text();
+  request.inputs = inputs_of(request);
+  request.id = id_of(request.inputs);
   if (request.id != owner->request) {
     throw InputError(fmt::format(
-        "{}: config.yaml, a scenario{} in state or the robot was changed since: they make request "
-        "{}, expected {}; undo the change, or run the changed experiment elsewhere",
-        directory.string(), request.sensors.empty() ? "" : ", the sensors", request.id,
+        "{}: {}: its inputs make request {}, expected {}; undo the change, or run the changed "
+        "experiment elsewhere",
+        directory.string(), difference_text(directory, request.inputs), request.id,
         owner->request));
   }
   return request;

@@ -47,12 +47,22 @@ struct NamedScenario {
   scenarios::Scenario scenario;
 };
 
+/// A file that a request reads, and a digest of its content. Experiments, scenarios and sensor
+/// profiles count as they are resolved, so that comments and the order of their keys do not count.
+struct RequestInput {
+  std::string file;
+  std::string digest;
+};
+
 /// An experiment with all inputs that determine its results.
 struct RunRequest {
   Experiment experiment;
   std::vector<NamedScenario> scenarios;  ///< in the order of first use
   std::vector<NamedSensors> sensors;     ///< likewise
-  std::string id;                        ///< digest of all of these
+  /// All files that it reads: the experiment, its sensors and scenarios, their robots with included
+  /// files and meshes, and models that come with the program.
+  std::vector<RequestInput> inputs;
+  std::string id;  ///< digest of all of these
 };
 
 /// Reads the scenarios and sensors of an experiment. Errors: `InputError` for files that are
@@ -63,8 +73,9 @@ RunRequest request_of(const Experiment& experiment);
 const NamedScenario& scenario_of(const RunRequest& request, const std::string& file,
                                  std::string_view robot = {});
 
-/// Errors: `InputError`, with the other request, when the directory holds another experiment and
-/// `overwrite` is false; also when it holds untracked files where a run would write.
+/// Errors: `InputError`, with the other request and the first input in which they differ, when the
+/// directory holds another experiment and `overwrite` is false; also when it holds untracked files
+/// where a run would write.
 void require_place(const RunRequest& request, const std::filesystem::path& directory,
                    bool overwrite);
 
@@ -77,8 +88,8 @@ bool is_written(const RunRequest& request, const std::filesystem::path& director
 void write_request(const RunRequest& request, const RunDirectory& directory, bool overwrite);
 
 /// Reads the request of a directory, which may have these studies' sections. Errors: `InputError`
-/// when the directory holds none, one of another build, or a request that was changed after it was
-/// written.
+/// when the directory holds none, one of another build, or a request with an input that was changed
+/// after it was written, which is named.
 RunRequest read_request(const std::filesystem::path& directory, std::vector<StudySection> sections);
 
 }  // namespace touchdown::experiments

@@ -168,7 +168,7 @@ std::string simulation_key(const PlannedRun& run) {
   return Fingerprint()
       .add(build_fingerprint())
       .add(scenarios::to_yaml(scenario))
-      .add(scenarios::robot_text(run.scenario))
+      .add(scenarios::robot_digest(run.scenario))
       .add(run.simulator)
       .add(fmt::format("{} {}", run.seed, run.run))
       .text();

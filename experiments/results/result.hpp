@@ -7,6 +7,7 @@
 #include "experiments/evaluation/summary.hpp"
 #include "experiments/figures/figure_spec.hpp"
 #include "experiments/fitting/fitting.hpp"
+#include "experiments/plan/request.hpp"
 #include "experiments/plan/rollouts.hpp"
 #include "experiments/results/scores.hpp"
 
@@ -23,17 +24,18 @@ struct Provenance {
 struct ExperimentResult {
   Experiment experiment;
   std::string id;
+  std::vector<RequestInput> inputs;
   RunDirectory directory;
-  std::vector<Rollout> runs;
-  FittedModels models;
-  std::vector<noise::NoiseCell> cells;
-  std::vector<CellSummary> summaries;       ///< of every noise cell
-  std::vector<ScoreSummary> scores;         ///< of the highlighted ones
-  std::vector<Difference> differences;      ///< likewise
-  std::vector<std::string> studies;         ///< terminal text of each study
-  std::vector<FigureSpec> figures;          ///< of the studies' tables
-  std::vector<std::string> failed_demands;  ///< estimators that fail a demanded verdict
-  Provenance provenance;
+  std::vector<Rollout> runs = {};
+  FittedModels models = {};
+  std::vector<noise::NoiseCell> cells = {};
+  std::vector<CellSummary> summaries = {};       ///< of every noise cell
+  std::vector<ScoreSummary> scores = {};         ///< of the highlighted ones
+  std::vector<Difference> differences = {};      ///< likewise
+  std::vector<std::string> studies = {};         ///< terminal text of each study
+  std::vector<FigureSpec> figures = {};          ///< of the studies' tables
+  std::vector<std::string> failed_demands = {};  ///< estimators that fail a demanded verdict
+  Provenance provenance = {};
 };
 
 }  // namespace touchdown::experiments

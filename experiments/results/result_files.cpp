@@ -25,6 +25,7 @@
 #include "experiments/results/scores.hpp"
 #include "experiments/results/summary_file.hpp"
 #include "experiments/results/text_tables.hpp"
+#include "experiments/run_directory/own_files.hpp"
 #include "logs/model_file.hpp"
 
 namespace touchdown::experiments {
@@ -208,6 +209,15 @@ void write_result_files(const ExperimentResult& result) {
   write_summary(summary_of(result), result.directory.path());
 }
 
+std::map<std::string, std::string> table_digests(const std::filesystem::path& run_directory) {
+  std::map<std::string, std::string> digests;
+  for (const std::filesystem::path& name : own_files(run_directory)) {
+    if (name.parent_path() != "tables") continue;
+    digests[name.filename().string()] = file_fingerprint(run_directory / name);
+  }
+  return digests;
+}
+
 void write_manifest(const ExperimentResult& result) {
   const Experiment& experiment = result.experiment;
   Json json;
@@ -226,6 +236,11 @@ void write_manifest(const ExperimentResult& result) {
   for (const auto& [phase, seconds] : result.provenance.timings) json["timings_s"][phase] = seconds;
   json["failed_runs"] = failed_runs(result.runs);
   json["runs"] = result.runs.size();
+  json["inputs"] = Json::array();
+  for (const RequestInput& input : result.inputs) {
+    json["inputs"].push_back({{"file", input.file}, {"digest", input.digest}});
+  }
+  json["tables"] = table_digests(result.directory.path());
   write_atomically(result.directory.path() / "manifest.json",
                    json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }

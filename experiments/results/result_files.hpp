@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <map>
 #include <string>
 
 #include "experiments/results/result.hpp"
@@ -18,8 +20,11 @@ Table evidence_table(const FittedModels& models);
 /// Writes an experiment's result into its run directory: `tables/` and `models/`.
 void write_result_files(const ExperimentResult& result);
 
-/// Writes `manifest.json`: versions, seeds, host, timings, failed runs. Call it again to add later
-/// timings.
+/// The digests of the files in `tables/` that a run made, by their names.
+std::map<std::string, std::string> table_digests(const std::filesystem::path& run_directory);
+
+/// Writes `manifest.json`: versions, seeds, host, timings, failed runs, inputs, digests of the
+/// tables. Call it again to add later timings.
 void write_manifest(const ExperimentResult& result);
 
 }  // namespace touchdown::experiments

@@ -112,9 +112,9 @@ struct FixedNames {
   const char* folder;
   const char* shape;
 };
-constexpr std::array fixed_names = {FixedNames{"state", R"((scenario|sensors)_\d{3,}\.yaml)"},
-                                    FixedNames{"state/shards", R"(\d+_of_\d+)"},
-                                    FixedNames{"videos", R"(report\.(mp4|jpg))"}};
+constexpr std::array fixed_names = {
+    FixedNames{"state", R"((scenario|sensors)_\d{3,}\.yaml|inputs\.yaml)"},
+    FixedNames{"state/shards", R"(\d+_of_\d+)"}, FixedNames{"videos", R"(report\.(mp4|jpg))"}};
 
 /// Every folder that a run creates beside `state`.
 constexpr std::array result_folders = {"recordings", "models",       "tables",      "figures",

@@ -49,7 +49,7 @@ void pack_info(LogPacker& packer, const RecordingInfo& info) {
   text("config");
   packer.pack_map(1);
   text("touchdown");
-  packer.pack_map(info.outcome ? 7 : 6);
+  packer.pack_map(6U + (info.outcome ? 1U : 0U) + (info.robot_digest.empty() ? 0U : 1U));
   text("scenario"), text(info.scenario);
   text("simulator"), text(info.simulator);
   text("seed"), packer.pack_uint64(info.seed);
@@ -57,6 +57,7 @@ void pack_info(LogPacker& packer, const RecordingInfo& info) {
   text("control_period_us"), packer.pack_int64(info.control_period_us);
   if (info.outcome) text("outcome"), text(to_text(*info.outcome));
   text("scenario_yaml"), text(info.scenario_yaml);
+  if (!info.robot_digest.empty()) text("robot_digest"), text(info.robot_digest);
 }
 
 void pack_robot(LogPacker& packer, std::string_view robot) {
@@ -88,6 +89,7 @@ std::optional<RecordingInfo> unpack_info(std::string_view record, std::string_vi
     take(*info_map, "run", info.run);
     take(*info_map, "control_period_us", info.control_period_us);
     take_text(*info_map, "scenario_yaml", info.scenario_yaml);
+    take_text(*info_map, "robot_digest", info.robot_digest);
     std::string outcome;
     take(*info_map, "outcome", outcome);
     if (!outcome.empty()) info.outcome = outcome_from_text(outcome);

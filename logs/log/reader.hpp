@@ -58,9 +58,11 @@ class LogReader {
   std::string_view record() const { return current_.record; }
   std::string_view skipped() const { return current_.skipped; }
 
-  /// One line per problem that was not fatal: of the records, then of their values. Complete at the
-  /// end of the log.
+  /// One line per problem that was not fatal: of the log as a whole, of the records, then of their
+  /// values. Complete at the end of the log.
   std::vector<std::string> warnings() const;
+  /// Adds a problem of the log as a whole.
+  void warn(std::string problem) { problems_.push_back(std::move(problem)); }
 
  private:
   class Cleaning;
@@ -86,6 +88,7 @@ class LogReader {
   std::vector<double> first_times_;  ///< of a log that states its period
   std::deque<Entry> ahead_;
   Entry current_;
+  std::vector<std::string> problems_;
 };
 
 }  // namespace touchdown::logs

@@ -87,6 +87,7 @@ using JointRanges = std::array<JointRange, models::servo_count>;
 struct CheckedRobot {
   std::optional<LegGeometry> legs = {};
   std::optional<JointRanges> ranges = {};  ///< wheels have none, and are not checked
+  std::string doubt = {};  ///< why this may not be the robot of the log; empty without a doubt
 };
 
 /// Checks every value of a record against the largest that a sensor can report (`SignalBounds`).

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <charconv>
@@ -147,6 +148,25 @@ std::string fault_of_mesh(const std::filesystem::path& file) {
     }
   }
   return "";
+}
+
+std::vector<std::filesystem::path> opened_files(const std::filesystem::path& file) {
+  const MjcfDocument document = MjcfDocument::load(file);
+  std::vector<std::filesystem::path> files = document.files();
+  document.visit([&](const XMLElement& element) {
+    std::vector<std::filesystem::path> candidates;
+    if (element.Attribute("filename") != nullptr) {
+      candidates = {urdf_asset(attribute(element, "filename"), document.file())};
+    } else if (element.Attribute("file") != nullptr) {
+      candidates = {file_of(document, element, "meshdir"),
+                    file_of(document, element, "texturedir")};
+    }
+    for (const std::filesystem::path& candidate : candidates) {
+      const bool is_listed = std::find(files.begin(), files.end(), candidate) != files.end();
+      if (!is_listed && !is_missing(candidate)) files.push_back(candidate);
+    }
+  });
+  return files;
 }
 
 std::vector<std::string> drop_missing_assets(MjcfDocument& document) {

@@ -141,8 +141,8 @@ MjcfDocument MjcfDocument::load(const std::filesystem::path& file) {
   document.file_ = file;
   document.document_ = parsed(read_file(file), file);
   document.add_places(document.root(), file);
-  std::vector<std::filesystem::path> included = {file.lexically_normal()};
-  document.expand(document.root(), file.parent_path(), included);
+  document.files_ = {file.lexically_normal()};
+  document.expand(document.root(), file.parent_path());
   return document;
 }
 
@@ -175,12 +175,11 @@ void MjcfDocument::add_places(const XMLElement& element, const std::filesystem::
   }
 }
 
-void MjcfDocument::expand(XMLElement& element, const std::filesystem::path& folder,
-                          std::vector<std::filesystem::path>& included) {
+void MjcfDocument::expand(XMLElement& element, const std::filesystem::path& folder) {
   for (XMLElement* child = element.FirstChildElement(); child != nullptr;) {
     XMLElement* const next = child->NextSiblingElement();
     if (std::string_view(child->Name()) != "include") {
-      expand(*child, folder, included);
+      expand(*child, folder);
       child = next;
       continue;
     }
@@ -190,10 +189,10 @@ void MjcfDocument::expand(XMLElement& element, const std::filesystem::path& fold
     if (!std::filesystem::is_regular_file(file, ignored)) {
       fail(*child, fmt::format("include: {}: no such file", file.string()));
     }
-    if (std::find(included.begin(), included.end(), file) != included.end()) {
+    if (std::find(files_.begin(), files_.end(), file) != files_.end()) {
       fail(*child, fmt::format("include: {} is included already", file.string()));
     }
-    included.push_back(file);
+    files_.push_back(file);
     const auto other = parsed(read_file(file), file);
     // Clones have no line numbers, so those of the original are kept for them.
     const std::function<void(const XMLElement&, const XMLElement&)> keep_places =

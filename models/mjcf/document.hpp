@@ -26,6 +26,8 @@ class MjcfDocument {
   tinyxml2::XMLElement& root() { return *document_->RootElement(); }
   const tinyxml2::XMLElement& root() const { return *document_->RootElement(); }
   const std::filesystem::path& file() const { return file_; }
+  /// This file, then those that it includes, in the order of reading.
+  const std::vector<std::filesystem::path>& files() const { return files_; }
 
   /// "file:line:1" of an element.
   std::string place_of(const tinyxml2::XMLElement& element) const;
@@ -62,10 +64,10 @@ class MjcfDocument {
 
   void inherit_places(const tinyxml2::XMLElement& element, const MjcfDocument& urdf, Place place);
   void add_places(const tinyxml2::XMLElement& element, const std::filesystem::path& file);
-  void expand(tinyxml2::XMLElement& element, const std::filesystem::path& folder,
-              std::vector<std::filesystem::path>& included);
+  void expand(tinyxml2::XMLElement& element, const std::filesystem::path& folder);
 
   std::filesystem::path file_;
+  std::vector<std::filesystem::path> files_;
   std::unique_ptr<tinyxml2::XMLDocument> document_;
   std::unordered_map<const tinyxml2::XMLElement*, Place> place_;
 };

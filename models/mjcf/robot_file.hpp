@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "models/mjcf/document.hpp"
@@ -28,6 +29,14 @@ std::vector<std::string> drop_missing_assets(MjcfDocument& document);
 /// more vertices, normals or texture points than there are. With the file's line; empty if all is
 /// well.
 std::string fault_of_mesh(const std::filesystem::path& file);
+
+/// The file that the address of a URDF's mesh means. A package is a folder of this name, or any
+/// folder, above the URDF; MuJoCo itself searches beside the URDF. Empty if there is no such file.
+std::filesystem::path urdf_asset(std::string_view address, const std::filesystem::path& urdf);
+
+/// The files that are opened for an MJCF or a URDF: itself, what it includes, and its meshes and
+/// textures as far as they exist. Errors: those of `MjcfDocument::load`.
+std::vector<std::filesystem::path> opened_files(const std::filesystem::path& file);
 
 /// A URDF as MJCF, with a free joint on its base link.
 struct ConvertedUrdf {

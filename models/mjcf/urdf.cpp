@@ -38,32 +38,6 @@ std::vector<std::string> links_of(const XMLElement& robot) {
   return names;
 }
 
-/// The file that a `filename` of a URDF means. A package is a folder of this name, or any folder,
-/// above the URDF; MuJoCo itself searches beside the URDF. Empty if there is no such file.
-std::filesystem::path file_at(std::string_view address, const std::filesystem::path& urdf) {
-  constexpr std::string_view package = "package://";
-  constexpr std::string_view plain = "file://";
-  std::vector<std::filesystem::path> candidates;
-  const std::filesystem::path folder = absolute_path(urdf).parent_path();
-  if (address.starts_with(package)) {
-    const std::filesystem::path path(address.substr(package.size()));
-    const std::filesystem::path inside = path.lexically_relative(*path.begin());
-    for (std::filesystem::path above = folder;; above = above.parent_path()) {
-      candidates.insert(candidates.end(), {above / path, above / inside});
-      if (above == above.parent_path()) break;
-    }
-  } else {
-    candidates.push_back(folder /
-                         (address.starts_with(plain) ? address.substr(plain.size()) : address));
-  }
-  candidates.push_back(folder / std::filesystem::path(address).filename());
-  for (const std::filesystem::path& file : candidates) {
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(file, ignored)) return file.lexically_normal();
-  }
-  return {};
-}
-
 /// Removes what is only drawn, and writes the addresses of meshes as files.
 void prepare(MjcfDocument& urdf) {
   for_each_element(urdf.root(), [&](XMLElement& element) {
@@ -80,7 +54,7 @@ void prepare(MjcfDocument& urdf) {
     }
     if (tag != "mesh" || element.Attribute("filename") == nullptr) return;
     const std::string_view address = attribute(element, "filename");
-    const std::filesystem::path file = file_at(address, urdf.file());
+    const std::filesystem::path file = urdf_asset(address, urdf.file());
     if (file.empty()) {
       urdf.fail(element, fmt::format("mesh '{}': no such file; it is a collider", address));
     }
@@ -134,6 +108,30 @@ void let_float(MjcfDocument& mjcf, const std::string& base) {
 }
 
 }  // namespace
+
+std::filesystem::path urdf_asset(std::string_view address, const std::filesystem::path& urdf) {
+  constexpr std::string_view package = "package://";
+  constexpr std::string_view plain = "file://";
+  std::vector<std::filesystem::path> candidates;
+  const std::filesystem::path folder = absolute_path(urdf).parent_path();
+  if (address.starts_with(package)) {
+    const std::filesystem::path path(address.substr(package.size()));
+    const std::filesystem::path inside = path.lexically_relative(*path.begin());
+    for (std::filesystem::path above = folder;; above = above.parent_path()) {
+      candidates.insert(candidates.end(), {above / path, above / inside});
+      if (above == above.parent_path()) break;
+    }
+  } else {
+    candidates.push_back(folder /
+                         (address.starts_with(plain) ? address.substr(plain.size()) : address));
+  }
+  candidates.push_back(folder / std::filesystem::path(address).filename());
+  for (const std::filesystem::path& file : candidates) {
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(file, ignored)) return file.lexically_normal();
+  }
+  return {};
+}
 
 ConvertedUrdf converted_urdf(const std::filesystem::path& file, const std::string& base) {
   MjcfDocument urdf = MjcfDocument::load(file);

@@ -53,6 +53,9 @@ ReportSection reproduce_section(const ReportSubject& subject) {
   for (const char* key : {"id", "finished_at"}) {
     if (manifest.contains(key)) table.rows.push_back({key, text_of(manifest[key])});
   }
+  for (const std::string& name : subject.edited_tables) {
+    table.rows.push_back({"edited since the run", "tables/" + name});
+  }
   add_rows(manifest, "versions", "version: ", table);
   add_rows(manifest, "seeds", "seed: ", table);
   add_rows(manifest, "host", "", table);

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "experiments/results/json_table.hpp"
+#include "experiments/results/result_files.hpp"
 #include "experiments/studies/experiment_file.hpp"
 
 namespace touchdown::render {
@@ -25,10 +26,19 @@ ReportSubject read_subject(const std::filesystem::path& run_directory) {
     throw InputError(fmt::format("{}: {}", (run_directory / "manifest.json").string(),
                                  experiments::reason_of(error)));
   }
+  if (!subject.manifest.is_object()) {
+    throw InputError((run_directory / "manifest.json").string() + ": expected an object");
+  }
   subject.experiment =
       experiments::experiment_from_yaml(YamlDocument::load(run_directory / "config.yaml"));
   subject.config_text = read_file(run_directory / "config.yaml");
   subject.summary = experiments::read_summary(run_directory);
+  const std::map<std::string, std::string> digests = experiments::table_digests(run_directory);
+  const auto written = subject.manifest.value("tables", nlohmann::ordered_json::object());
+  for (const auto& [name, digest] : written.items()) {
+    const auto now = digests.find(name);
+    if (now != digests.end() && digest != now->second) subject.edited_tables.push_back(name);
+  }
   return subject;
 }
 

@@ -17,6 +17,9 @@ struct ReportSubject {
   std::string config_text;
   experiments::Experiment experiment;
   experiments::Summary summary;
+  /// The files in `tables/` that differ from what the run wrote. None for runs of older programs:
+  /// their manifests hold no digests.
+  std::vector<std::string> edited_tables;
 };
 
 /// Reads a run directory. Errors: `InputError` when it is not a run directory or one of its files

@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/files.hpp"
 #include "estimator/npz/load_estimator.hpp"
 #include "estimator/npz/npz.hpp"
 #include "logs/log/recording_file.hpp"
 #include "logs/model_file.hpp"
+#include "models/robot_description.hpp"
 #include "program.hpp"
 #include "synthetic_log.hpp"
 
@@ -13,6 +15,7 @@ namespace touchdown::cli {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -121,6 +124,38 @@ TEST_F(Metadata, OfASimulatedLogsRobotHasTheLegsOfItsFile) {
     EXPECT_EQ(folder_.text("named.npz"), model);
     EXPECT_EQ(load_metadata(folder_ / "own.npz").robot, robot);
   }
+}
+
+TEST_F(Metadata, OfARecordingStatesWhetherItsRobotIsStillTheSame) {
+  folder_.write("upkie.xml", read_file(TOUCHDOWN_SOURCE_DIR "/models/upkie.xml"));
+  folder_.write("own.yaml", "mjcf: upkie.xml\nmass: 1.1\n");
+  logs::Recording simulated = test::synthetic_log(3.0);
+  simulated.info.scenario_yaml = "name: x\nrobot: own.yaml\n";
+  log("old.mpack", simulated);  // of a program that recorded no digest
+  simulated.info.robot_digest = models::robot_digest(folder_ / "own.yaml");
+  log("own.mpack", simulated);
+  const std::string changed = "own.yaml, or a file that this reads, was changed since";
+  const std::string assumed =
+      "the legs are assumed to be Upkie's, because its robot cannot be read";
+  const std::vector<std::string> uses = {"estimate own.mpack --estimator support_force",
+                                         "check own.mpack", "fit own.mpack -o own.npz"};
+  const auto expect = [&](const auto& matcher) {
+    for (const std::string& use : uses) EXPECT_THAT(folder_.run(use).errors, matcher) << use;
+  };
+  expect(Not(AnyOf(HasSubstr(changed), HasSubstr(assumed))));
+  for (const std::string file : {"upkie.xml", "own.yaml"}) {
+    const std::string before = folder_.text(file);
+    folder_.write(file, before + "\n");
+    expect(HasSubstr("touchdown: own.mpack: its robot " + changed));
+    EXPECT_THAT(folder_.run("estimate old.mpack").errors, Not(HasSubstr(changed)));
+    EXPECT_THAT(folder_.run(uses[0] + " --robot own.yaml").errors, Not(HasSubstr(changed)));
+    folder_.write(file, before);
+  }
+  std::filesystem::remove(folder_ / "upkie.xml");
+  expect(HasSubstr("touchdown: own.mpack: " + assumed));
+  std::filesystem::remove(folder_ / "own.yaml");
+  expect(HasSubstr("touchdown: own.mpack: " + assumed));
+  EXPECT_THAT(folder_.run("estimate old.mpack").errors, HasSubstr(assumed));
 }
 
 TEST_F(Metadata, OfAModelExportedForAnotherRobotHasItsLegs) {

@@ -234,15 +234,15 @@ using Merge = RunDirectory;
 
 TEST_F(Merge, RefusesAnExperimentThatWasChangedSinceItsPartsWereComputed) {
   folder_.output_of(run + "a --shard 1/1");
-  for (const auto& [file, from, to] :
-       {std::tuple{"a/config.yaml", "seed: 3", "seed: 7"},
-        std::tuple{"a/config.yaml", "resamples: 100", "resamples: 99"},
-        std::tuple{"a/state/scenario_000.yaml", "length: 3", "length: 4"}}) {
+  for (const auto& [file, from, to, named] :
+       {std::tuple{"a/config.yaml", "seed: 3", "seed: 7", "a: config.yaml"},
+        std::tuple{"a/config.yaml", "resamples: 100", "resamples: 99", "a: config.yaml"},
+        std::tuple{"a/state/scenario_000.yaml", "length: 3", "length: 4", "step.yaml"}}) {
     const std::string before = folder_.text(file);
     replace_in(folder_ / file, from, to);
     folder_.expect_refusals(
         {{"merge a --no-pictures",
-          {"a: config.yaml, a scenario in state or the robot was changed", "expected "}}});
+          {fmt::format("{} was changed since: its inputs make request ", named), "expected "}}});
     write_atomically(folder_ / file, before);
   }
   EXPECT_FALSE(folder_.has("a/tables"));
@@ -250,6 +250,21 @@ TEST_F(Merge, RefusesAnExperimentThatWasChangedSinceItsPartsWereComputed) {
   replace_in(folder_ / "a/config.yaml", "name: tiny", "name: tiny  # of mine");
   fs::create_directory(folder_ / "elsewhere");
   EXPECT_EQ(folder_.run("merge ../a --no-pictures", "cd elsewhere &&").exit_code, 0);
+}
+
+TEST_F(Merge, LetsTheReportNameTablesThatWereEditedSince) {
+  folder_.output_of(run + "a");
+  const std::string report = "report a --no-video --no-replay";
+  EXPECT_EQ(folder_.run(report).errors, "");
+  for (const std::string table : {"results.csv", "summary.json"}) {
+    const std::string before = folder_.text("a/tables/" + table);
+    folder_.write("a/tables/" + table, before + "\n");
+    EXPECT_THAT(folder_.run(report).errors,
+                HasSubstr("a/tables/" + table + ": was edited since the run wrote it"));
+    EXPECT_THAT(folder_.text("a/report.html"), HasSubstr("tables/" + table));
+    folder_.write("a/tables/" + table, before);
+  }
+  EXPECT_EQ(folder_.run(report).errors, "");
 }
 
 TEST_F(Merge, RefusesPartsOfOtherTasksByName) {

@@ -70,6 +70,27 @@ TEST(RequiredFile, ThatIsNotThereBringsTheNearestOfItsKindToMind) {
   EXPECT_THAT([] { require_file("/dev/null"); }, complains("/dev/null: is not a regular file"));
 }
 
+TEST(Resources, OfTheProgramAreNotReplacedByTheWorkingDirectory) {
+  namespace fs = std::filesystem;
+  const ScratchFolder folder;
+  const fs::path before = fs::current_path();
+  const fs::path own = fs::path(TOUCHDOWN_SOURCE_DIR) / "models/upkie.xml";
+  folder.write("models/upkie.xml", "mine");
+  folder.write("models/mine.npz", "mine");
+  fs::current_path(folder.path());
+  const fs::path named_by_user = find_resource("models/upkie.xml");
+  const fs::path named_by_program = find_program_file("models/upkie.xml");
+  const fs::path only_here = find_program_file("models/mine.npz");
+  fs::current_path(TOUCHDOWN_SOURCE_DIR);
+  const fs::path in_its_folder = find_program_file("models/upkie.xml");
+  fs::current_path(before);
+  EXPECT_EQ(named_by_user, "models/upkie.xml");
+  EXPECT_EQ(named_by_program, own);
+  EXPECT_EQ(only_here, "models/mine.npz");
+  EXPECT_EQ(in_its_folder, "models/upkie.xml");
+  EXPECT_THROW(find_program_file("models/nowhere.npz"), InputError);
+}
+
 TEST(RequiredResources, ThatAreOverriddenAreReportedAtTheOverride) {
   EXPECT_THAT(missing_in("robot: models/upkie_actuated.yaml\n", "robot=models/upkei.xml"),
               StartsWith("--set robot=models/upkei.xml: robot: models/upkei.xml: no such file"));

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
@@ -11,6 +12,8 @@
 
 namespace touchdown::models {
 namespace {
+
+using ::testing::ElementsAre;
 
 class RobotFile : public ::testing::Test {
  protected:
@@ -59,10 +62,48 @@ TEST_F(RobotFile, TakesFrictionFromTheJointsOfAnMjcf) {
 
 TEST_F(RobotFile, CountsWithTheMjcfThatItNamesWhereContentCounts) {
   const std::filesystem::path file = with("mjcf: upkie.xml\n");
-  const std::string before = robot_text(file);
+  const std::string before = robot_digest(file);
   write_atomically(folder_ / "upkie.xml", read_file(upkie_mjcf) + "\n");
-  EXPECT_NE(robot_text(file), before);
-  EXPECT_EQ(robot_text(upkie_mjcf), read_file(upkie_mjcf));
+  EXPECT_NE(robot_digest(file), before);
+}
+
+TEST_F(RobotFile, ListsEveryFileThatItOpens) {
+  std::string text = read_file(upkie_mjcf);
+  text.insert(text.rfind("</mujoco>"), "<include file=\"outer.xml\"/>");
+  folder_.write("upkie.xml", text);
+  folder_.write("outer.xml", "<mujoco><include file=\"parts/inner.xml\"/></mujoco>");
+  folder_.write("parts/inner.xml",
+                "<mujoco><compiler meshdir=\"shapes\"/><asset>"
+                "<mesh name=\"torso\" file=\"torso.stl\"/><mesh file=\"gone.obj\"/>"
+                "<texture type=\"2d\" file=\"wood.png\"/></asset></mujoco>");
+  folder_.write("shapes/torso.stl", "t");
+  folder_.write("wood.png", "w");
+  folder_.write("shapes/unused.stl", "u");
+  folder_.write("made/robot.urdf",
+                "<robot name=\"r\"><link name=\"base\"><collision><geometry>"
+                "<mesh filename=\"package://shapes/torso.stl\"/></geometry></collision></link>"
+                "</robot>");
+  const auto names = [&](const std::filesystem::path& file) {
+    std::vector<std::string> all;
+    for (const auto& one : robot_files(file)) {
+      all.push_back(one.lexically_relative(folder_.path()).string());
+    }
+    return all;
+  };
+  const std::filesystem::path file = with("mjcf: upkie.xml\n");
+  EXPECT_THAT(names(file), ElementsAre("robot.yaml", "upkie.xml", "outer.xml", "parts/inner.xml",
+                                       "shapes/torso.stl", "wood.png"));
+  EXPECT_THAT(names(folder_ / "made/robot.urdf"),
+              ElementsAre("made/robot.urdf", "shapes/torso.stl"));
+  const std::string before = robot_digest(file);
+  for (const std::string name : {"outer.xml", "parts/inner.xml", "shapes/torso.stl", "wood.png"}) {
+    const std::string content = read_file(folder_ / name);
+    folder_.write(name, content + "\n");
+    EXPECT_NE(robot_digest(file), before) << name;
+    folder_.write(name, content);
+  }
+  folder_.write("shapes/unused.stl", "v");
+  EXPECT_EQ(robot_digest(file), before);
 }
 
 TEST_F(RobotFile, MayHaveIncludesAndDefaults) {

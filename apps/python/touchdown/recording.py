@@ -60,7 +60,7 @@ class Recording(dict):
     def __init__(self, arrays: Mapping[str, np.ndarray], info: Mapping[str, Any]):
         super().__init__(arrays)
         #: `scenario`, `simulator`, `seed`, `run`, `control_period_us`, `outcome` ("finished",
-        #: "timed_out", "fell", "diverged", "left_terrain", or None), `scenario_yaml`.
+        #: "timed_out", "fell", "diverged", "left_terrain", or None), `scenario_yaml`, `robot_digest`.
         self.info: dict[str, Any] = dict(info)
 
     @classmethod

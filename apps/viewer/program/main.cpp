@@ -102,7 +102,8 @@ scenarios::Scenario scenario_of(const WatchRequest& request, SubjectKind kind) {
 /// The robot that a log's recording contains, else the named one on flat ground.
 models::RobotModel robot_of(const logs::Recording& recording, const std::string& named) {
   if (recording.info.scenario_yaml.empty() || !named.empty()) {
-    return models::compile_robot_model(find_resource(named.empty() ? usual_robot : named), {});
+    return models::compile_robot_model(
+        named.empty() ? find_program_file(usual_robot) : find_resource(named), {});
   }
   return render::recorded_robot(recording);
 }

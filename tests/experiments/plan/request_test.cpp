@@ -1,5 +1,6 @@
 #include "experiments/plan/request.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,7 +12,9 @@
 namespace touchdown::experiments {
 namespace {
 
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
 using ::testing::ThrowsMessage;
 
 RunRequest shipped(const std::string& name) {
@@ -73,6 +76,47 @@ TEST(Request, IsRefusedAfterAChange) {
   folder.write("config.yaml", to_yaml(other));
   EXPECT_THAT([&] { read_request(folder.path()); },
               ThrowsMessage<InputError>(HasSubstr("expected " + request.id)));
+}
+
+/// The request of `stairs` with the robot of a folder, which has parts in two files.
+RunRequest with_robot_in(const ScratchFolder& folder) {
+  YamlDocument document = YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/experiments/stairs.yaml");
+  document.override_value("robot=" + (folder / "robot.yaml").string());
+  document.override_value("estimators=[shipped, nmn]");
+  document.override_value("video.estimators=[shipped, nmn]");
+  return request_of(experiment_from_yaml(document));
+}
+
+TEST(Request, NamesTheFileThatWasChanged) {
+  const ScratchFolder folder;
+  std::string robot = read_file(TOUCHDOWN_SOURCE_DIR "/models/upkie.xml");
+  const std::size_t begin = robot.find("<actuator>");
+  const std::size_t end = robot.find("</actuator>") + 11;
+  folder.write("motors.xml", "<mujoco>" + robot.substr(begin, end - begin) + "</mujoco>");
+  folder.write("upkie.xml", robot.replace(begin, end - begin, "<include file=\"motors.xml\"/>"));
+  folder.write("robot.yaml", "mjcf: upkie.xml\n");
+  const RunRequest request = with_robot_in(folder);
+  std::vector<std::string> files;
+  for (const RequestInput& input : request.inputs) files.push_back(input.file);
+  EXPECT_THAT(files, IsSupersetOf({EndsWith("/motors.xml"), EndsWith("models/nmn.npz"),
+                                   EndsWith("models/evidence_curves.npz"),
+                                   EndsWith("scenarios/stairs.yaml")}));
+
+  const std::filesystem::path run = folder / "run";
+  write_request(request, RunDirectory("stairs", request.id, run), false);
+  EXPECT_EQ(read_request(run).id, request.id);
+  for (const auto& [name, more] :
+       {std::pair{"motors.xml", "<!-- -->"}, std::pair{"upkie.xml", "\n"},
+        std::pair{"robot.yaml", "mass: 1.1\n"}}) {
+    const std::string content = read_file(folder / name);
+    folder.write(name, content + more);
+    const auto names_it = ThrowsMessage<InputError>(
+        HasSubstr(fmt::format("{} was changed since: ", (folder / name).string())));
+    EXPECT_THAT([&] { read_request(run); }, names_it);
+    EXPECT_THAT([&] { require_place(with_robot_in(folder), run, false); }, names_it);
+    folder.write(name, content);
+  }
+  EXPECT_EQ(with_robot_in(folder).id, request.id);
 }
 
 RunRequest request_with(const std::string& sensors) {

@@ -60,6 +60,7 @@ void expect_same(const Recording& a, const Recording& b) {
   EXPECT_EQ(a.info.control_period_us, b.info.control_period_us);
   EXPECT_EQ(a.info.outcome, b.info.outcome);
   EXPECT_EQ(a.info.scenario_yaml, b.info.scenario_yaml);
+  EXPECT_EQ(a.info.robot_digest, b.info.robot_digest);
   ASSERT_EQ(a.steps(), b.steps());
   ASSERT_EQ(a.action.size(), b.action.size());
   ASSERT_EQ(a.truth.size(), b.truth.size());
