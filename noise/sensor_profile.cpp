@@ -50,7 +50,6 @@ constexpr std::array sensors = {
     Sensor{"orientation", &SensorProfile::orientation, SensorKind::attitude, "rad",
            "Error of the IMU's attitude, about its axes."}};
 
-/// The sensors that can have a disturbance.
 enum class Affects { all, imu, all_but_attitude };
 
 /// A disturbance that a study can vary, with the number that sets its size.
@@ -177,7 +176,6 @@ void describe_low_pass(Fields& fields, double& time_constant) {
       .doc("First-order low-pass of the instrument.");
 }
 
-/// Disturbances of the value.
 void describe_values(Fields& fields, SensorChannel& channel, const Sensor& sensor) {
   const SensorKind kind = sensor.kind;
   const std::string unit = sensor.unit;
@@ -237,7 +235,6 @@ void describe_values(Fields& fields, SensorChannel& channel, const Sensor& senso
   fields("resolution", channel.resolution, 0.0, largest).doc(unit, "Step of the values; 0: none.");
 }
 
-/// Disturbances of the timing.
 void describe_clock(Fields& fields, SensorChannel& channel) {
   fields("rate", channel.rate, 0.0, 1e6)
       .doc("Hz", "Sample rate; samples are held; 0: one per step.");

@@ -97,7 +97,6 @@ void describe_robot(Fields& fields, models::RobotDescription& body,
       .doc("Gains of the balancer, unless the scenario specifies them.");
 }
 
-/// The balancer that the robot's file specifies.
 policies::WheelBalancerConfig balancer_of(const std::filesystem::path& robot,
                                           const policies::LqrGains& lqr) {
   policies::WheelBalancerConfig balancer;

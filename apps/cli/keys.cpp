@@ -132,7 +132,6 @@ std::string reference_markdown(const FileKind& kind) {
   return text;
 }
 
-/// The document docs/reference/keys.md.
 std::string reference_document() {
   std::string text =
       "# Every key of every file\n\n"

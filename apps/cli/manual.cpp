@@ -53,7 +53,6 @@ std::vector<std::string> choices_in(const std::string& type) {
   return choices;
 }
 
-/// Replaces line ends by blanks.
 std::string on_one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;

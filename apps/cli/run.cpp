@@ -24,7 +24,6 @@ namespace touchdown::cli {
 
 namespace {
 
-/// Which pictures are drawn of a result.
 struct ShownPictures {
   bool none = false;      ///< tables only
   bool no_video = false;  ///< figures and the report, without films
@@ -55,7 +54,6 @@ std::string last_screen(const experiments::ExperimentResult& result, const CliSe
                             session.program, next);
 }
 
-/// Adds the flags `--no-pictures` and `--no-video`.
 void add_picture_flags(Verb& verb, ShownPictures* pictures) {
   verb.flag("--no-pictures", &pictures->none, "Write tables only, without figures and videos");
   verb.flag("--no-video", &pictures->no_video,

@@ -24,7 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The signals that an estimator uses.
 SignalNeeds needs_of(const experiments::EstimatorEntry& entry) {
   const experiments::Sensors& sensors = entry.sensors;
   const bool is_neural = entry.name.starts_with("nmn");

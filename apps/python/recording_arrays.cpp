@@ -86,7 +86,6 @@ constexpr std::array<std::pair<const char*, double models::ServoReading::*>, 3> 
      {"held_velocity", &models::ServoReading::velocity},
      {"held_torque", &models::ServoReading::torque}}};
 
-/// Adds the held joints, for robots that have some.
 void add_held_joints(py::dict& arrays, const logs::Recording& recording) {
   const std::size_t count = recording.truth.front().held.size();
   if (count == 0) return;

@@ -58,7 +58,6 @@ scoring::ContactSequence robot_contact(const logs::Recording& recording,
                                                    : scoring::both_wheels(wheels);
 }
 
-/// The noise levels of one run.
 noise::SensorNoise levels_of(const RolloutConfig& config, const noise::NoiseKey& key) {
   constexpr std::uint64_t share_stream = 0x7368617265;  // "share"
   const double share = std::lerp(config.noise_share[0], config.noise_share[1],

@@ -89,7 +89,6 @@ double per_second(std::int64_t steps, double seconds) {
   return seconds > 0.0 ? static_cast<double>(steps) / seconds : 0.0;
 }
 
-/// Times of a training in this process.
 struct TrainingTimes {
   double rollout = 0.0;   ///< s
   double training = 0.0;  ///< s, validation included

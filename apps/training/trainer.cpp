@@ -199,7 +199,6 @@ struct SequenceLoss {
   LossSum sum;
 };
 
-/// Loss of sequence `s` of a part.
 SequenceLoss loss_of(const Tensor& outputs, const Part& part, std::int64_t s) {
   const Tensor logit = outputs.narrow(2, 0, 1);
   const Tensor contact = part.rows(part.contact, s);

@@ -54,7 +54,6 @@ std::string wrong_estimators(const LiveControls& controls, const LiveState& stat
   return names;
 }
 
-/// The labels over the scene of a live run.
 std::vector<Chip> live_chips(const LiveControls& controls, const LiveState& state) {
   const double time = state.period * static_cast<double>(state.steps);
   std::vector<Chip> chips = {{controls.scene().engine == "mujoco" ? "MuJoCo" : "Bullet", dark},
@@ -202,7 +201,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double standard_gravity = 9.81;  // m/s²
 constexpr double vector_length = 0.01;     // m per N
 
-/// A window in which a user watches and drives a live run.
 class LiveWindow {
  public:
   explicit LiveWindow(LiveRequest request)

@@ -59,7 +59,6 @@ namespace {
 constexpr int time_line_height = 22;
 constexpr double lead_in = 0.3;  // s: a jump stops before its event
 
-/// A window that plays a run.
 class LogWindow {
  public:
   LogWindow(const LoggedRun& run, int width, int height)

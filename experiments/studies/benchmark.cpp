@@ -123,7 +123,6 @@ Measure extended_scores() {
 
 namespace {
 
-/// Number of refits of the fit with this name.
 int refits_of(const BenchmarkConfig& benchmark, const std::string& fit) {
   return fit.empty() || benchmark.refits_everywhere ? benchmark.refits : 0;
 }
@@ -189,7 +188,6 @@ double common_part(const MeasurementModel& first, const MeasurementModel& second
   return scoring::overlap(p, q);
 }
 
-/// The overlap of the densities that are fitted on two setups.
 struct OverlapRow {
   std::string simulator;
   std::string estimator;

@@ -39,7 +39,6 @@ BenchmarkRow without_scores(BenchmarkRow row) {
   return row;
 }
 
-/// The rows of the estimators of an evaluation.
 std::vector<BenchmarkRow> rows_of(const Evaluation& evaluation) {
   const Experiment& experiment = evaluation.request.experiment;
   const std::vector<std::string>& scenes = experiment.test.scenarios;
@@ -96,7 +95,6 @@ std::vector<BenchmarkRow> rows_of(const Evaluation& evaluation) {
 
 constexpr const char* submission_parts = "submissions";
 
-/// The saved scores of all submissions, by name.
 std::vector<SubmissionScores> saved_submissions(const Store& store) {
   using CountsByCell = std::vector<std::map<std::string, TaskCounts>>;
   std::vector<SubmissionScores> all;

@@ -149,7 +149,6 @@ std::vector<Standings::Entry> entries_of(const Rows& rows, const std::vector<Nam
   return entries;
 }
 
-/// Marks estimators that are not significantly worse than the best.
 void mark_not_significantly_worse(std::vector<Standings::Entry>& entries,
                                   const std::vector<Standings::Difference>& means) {
   const auto first = std::find_if_not(entries.begin(), entries.end(), is_upper_bound_entry);

@@ -139,7 +139,6 @@ Columns<Standings> setup_columns() {
       .part(&Standings::noise, noise_columns());
 }
 
-/// A part of standings, and what it belongs to.
 template <typename Part>
 struct PartOfStandings {
   const Standings* all;

@@ -26,7 +26,6 @@ constexpr const char* closed_loop_name = "closed_loop";
 /// Sources side by side in a film: more would not be readable.
 constexpr std::size_t most_panels = 4;
 
-/// The number of points of a scene's survival curve.
 std::size_t points_of(const ClosedLoopScene& scene) {
   return std::max<std::size_t>(1, scene.values.size()) * scene.noise.size() * scene.delay.size();
 }

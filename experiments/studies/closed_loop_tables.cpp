@@ -25,7 +25,6 @@ std::string varied_quantity(const ClosedLoopScene& scene) {
   return scene.noise.size() > 1 ? "noise" : "";
 }
 
-/// One point of a survival curve.
 struct SurvivalRow {
   ClosedLoopCell cell;
   std::string scene;               ///< the scenario's name
@@ -45,7 +44,6 @@ std::string stem(const std::string& file, const char* none) {
   return file.empty() ? none : std::filesystem::path(file).stem().string();
 }
 
-/// The metrics of the runs of a cell.
 std::vector<ClosedLoopMetrics> metrics_of(std::size_t cell, const Evaluation& evaluation) {
   const ModelTasks& tasks = evaluation.plan.model_tasks_called("closed_loop");
   const auto runs =
@@ -189,7 +187,6 @@ std::string survival_text(const std::vector<SurvivalRow>& rows, const Experiment
   return text;
 }
 
-/// The varied quantity as an axis.
 FigureAxis axis_of(const std::string& varied) {
   if (varied == "delay") return {"delay_ms", "delay of contact feedback", "ms"};
   if (varied == "noise") return {"torque_noise_nm", "torque noise", "N·m"};

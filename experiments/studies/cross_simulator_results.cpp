@@ -275,7 +275,6 @@ std::vector<std::string> failed_demands(const std::vector<Verdict>& verdicts) {
 
 namespace {
 
-/// The experiment's test runs of one engine.
 std::vector<const Rollout*> test_runs(const Evaluation& evaluation, const std::string& simulator) {
   std::vector<const Rollout*> found;
   for (const std::size_t index : evaluation.plan.runs_in(0)) {

@@ -200,7 +200,6 @@ FigureGroups directions(const Experiment& experiment) {
   return groups;
 }
 
-/// What each fitted estimator loses in the other engine.
 FigureSpec transfer_figure(const Table& transfer, const Experiment& experiment) {
   FigureSpec spec{.name = "transfer", .table = "transfer.csv"};
   spec.where = {{"is_fitted", "1"}};

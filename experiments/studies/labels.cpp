@@ -88,7 +88,6 @@ std::vector<LabelRow> label_rows(const Evaluation& evaluation) {
   return rows;
 }
 
-/// The columns of `labels.csv`.
 Columns<LabelRow> label_columns() {
   using Row = LabelRow;
   return Columns<Row>()

@@ -77,7 +77,6 @@ void require_segments(const RunRequest& request, Plan& plan) {
   }
 }
 
-/// The name of the fit to training sets of this size.
 std::string fit_of_size(int size) { return fmt::format("~set{}", size); }
 
 /// One estimator, fitted to training sets of one size, in one engine and noise setting.

@@ -138,7 +138,6 @@ double overlap(const std::vector<TorqueSegment>& a, const std::vector<TorqueSegm
 
 namespace {
 
-/// The torques of one engine's runs.
 struct EngineTorques {
   std::string simulator;
   /// Knee and wheel in contact, knee and wheel in the air.

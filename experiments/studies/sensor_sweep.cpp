@@ -45,7 +45,6 @@ void describe(Fields& fields, SensorSweepConfig& config, const Experiment& /*exp
   }
 }
 
-/// One value of one disturbance of the sensors.
 struct SensorVariation {
   std::string key;
   double value = 0.0;

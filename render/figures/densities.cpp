@@ -139,7 +139,6 @@ constexpr double density_width = 268.0, density_height = 216.0, density_left = 7
                  density_gap_x = 62.0;
 constexpr double density_gap_y = 104.0, density_bar = 12.0, density_top = 46.0;
 
-/// One column of the figure.
 struct DensityColumn {
   const char* title;
   const char* palette;

@@ -84,7 +84,6 @@ PlotColumns detail_columns(const experiments::DropDetail& detail,
   return columns;
 }
 
-/// One column of panels.
 struct DetailColumn {
   const experiments::DropDetail& detail;
   const PanelGrid& grid;

@@ -43,7 +43,6 @@ std::string reliability_data(const ScoreFigure& figure) {
   return text;
 }
 
-/// The plot of all curves of a panel.
 std::string curves(const ScorePanel& panel, const std::string& file, std::size_t first_block,
                    const char* columns, const char* with, bool named) {
   std::string text;

@@ -76,7 +76,6 @@ class MemoryFile {
   int descriptor_;
 };
 
-/// Frees FFmpeg's objects with FFmpeg's functions.
 struct FfmpegFree {
   void operator()(AVFormatContext* context) const {
     if (context->pb) avio_closep(&context->pb);
@@ -91,7 +90,6 @@ using CodecHandle = std::unique_ptr<AVCodecContext, FfmpegFree>;
 using FrameHandle = std::unique_ptr<AVFrame, FfmpegFree>;
 using PacketHandle = std::unique_ptr<AVPacket, FfmpegFree>;
 
-/// FFmpeg's reason for a negative result.
 std::string ffmpeg_reason(int result) {
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text = {};
   av_strerror(result, text.data(), text.size());
@@ -145,7 +143,6 @@ CodecHandle start_encoder(const VideoFormat& format, bool global_header) {
   return handle;
 }
 
-/// A frame for the encoder's pictures.
 FrameHandle make_frame(const AVCodecContext& codec) {
   FrameHandle frame(av_frame_alloc());
   if (!frame) throw Error("video: no memory for a frame");

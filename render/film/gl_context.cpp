@@ -18,7 +18,6 @@ namespace touchdown::render {
 
 namespace {
 
-/// The error for a library that is not installed on this machine.
 class MissingLibrary : public Error {
  public:
   using Error::Error;

@@ -87,7 +87,6 @@ class FilmFile {
 
   void open() { writer_.emplace(film_.path, film_.options); }
 
-  /// Stores a painted frame.
   void store(int frame, const cv::Mat& bgr, std::uint8_t* shared) const {
     const VideoOptions& format = film_.options;
     cv::Mat i420(format.height * 3 / 2, format.width, CV_8UC1, shared + place_);
@@ -95,7 +94,6 @@ class FilmFile {
     if (frame == still_frame_) std::memcpy(shared + picture_place(), bgr.data, 2 * encoded_bytes());
   }
 
-  /// Encodes a stored frame.
   void encode(int frame, const std::uint8_t* shared) {
     writer_->write(shared + place_);
     if (frame != still_frame_) return;

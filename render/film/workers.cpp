@@ -54,7 +54,6 @@ class Workers {
     return true;
   }
 
-  /// Whether a worker has exited.
   bool has_exited(std::size_t worker) {
     if (pids_[worker] < 0) return true;
     if (::waitpid(pids_[worker], nullptr, WNOHANG) == 0) return false;
@@ -119,7 +118,6 @@ class SharedFrames {
   std::uint8_t* memory_ = nullptr;
 };
 
-/// The main function of a worker process; it never returns.
 [[noreturn]] void work(std::size_t worker, int frames, SharedFrames& shared,
                        const std::function<PaintFrame()>& prepare) {
   Channel& channel = shared.channel(worker);

@@ -59,7 +59,6 @@ namespace {
 
 constexpr double shown = 2.0;  ///< length of a film (s)
 
-/// The runs of a standing's worst scene.
 std::vector<experiments::PlannedRun> worst_runs(const experiments::ExperimentResult& result,
                                                 const TableRow& standing) {
   std::vector<experiments::PlannedRun> runs;

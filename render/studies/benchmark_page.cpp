@@ -35,7 +35,6 @@ std::string accuracy_text(const Interval& accuracy) {
                      accuracy_text(accuracy.low), accuracy_text(accuracy.high));
 }
 
-/// The text that a cell shows when the user points at it.
 std::string tooltip(const TableRow& score) {
   return fmt::format(
       "{}; flight F1 {}; {} extra switches per minute; {} false takeoffs per minute; median "

@@ -57,7 +57,6 @@ std::string columns(const logs::Recording& recording, const DropOverlay& what) {
   return text;
 }
 
-/// The alternative text.
 std::string described(const std::array<const logs::Recording*, 2>& recordings,
                       const DropOverlay& what) {
   std::string text = "Height, normal force, torques and acceleration through one drop.";
@@ -108,7 +107,6 @@ Figure draw_drop_overlay(const logs::Recording& first, const logs::Recording& se
   return grid.draw(stem, commands, data);
 }
 
-/// One drop of one test run in both engines.
 static Figure draw_overlay(const experiments::ExperimentResult& result) {
   const experiments::Experiment& experiment = result.experiment;
   const experiments::OverlayConfig& overlay =

@@ -68,7 +68,6 @@ Scenario crouching(const Draws& draws, Bend bend, Extend extend) {
   return scenario;
 }
 
-/// Random commands and crouches, always in contact.
 Scenario draw_drives(const Draws& draws) {
   Scenario scenario;
   scenario.terrain.width = 20.0;
@@ -91,14 +90,12 @@ Scenario draw_drives(const Draws& draws) {
   return scenario;
 }
 
-/// Legs that bend quickly: the torso falls.
 Scenario draw_squats(const Draws& draws) {
   return crouching(
       draws, [](const Draws& squat) { return squat.log_between("bend_rate", 1.0, 6.5); },
       [](const Draws& squat) { return squat.log_between("extend_rate", 0.5, 1.5); });
 }
 
-/// Legs that extend quickly: small hops.
 Scenario draw_hops(const Draws& draws) {
   return crouching(
       draws, [](const Draws& squat) { return squat.log_between("bend_rate", 0.8, 2.0); },

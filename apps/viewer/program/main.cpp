@@ -32,7 +32,6 @@ namespace touchdown::viewer {
 
 namespace {
 
-/// What is watched.
 enum class SubjectKind : int {
   scenario,  ///< a scenario file, or the name of a drawn scenario
   robot,     ///< a robot's MJCF, URDF or YAML file, on flat ground
@@ -40,7 +39,6 @@ enum class SubjectKind : int {
   run        ///< an experiment's run directory
 };
 
-/// The request of the command line.
 struct WatchRequest {
   std::string subject;
   std::vector<std::string> estimators;  ///< NAME or NAME=MODEL; empty: the default ones
