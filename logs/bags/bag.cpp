@@ -72,7 +72,8 @@ std::vector<fs::path> bag_files(const fs::path& path) {
   }
   const fs::path metadata = path / "metadata.yaml";
   std::vector<fs::path> files;
-  if (fs::is_regular_file(metadata)) files = listed_files(metadata);
+  std::error_code ignored;
+  if (fs::is_regular_file(metadata, ignored)) files = listed_files(metadata);
   for (fs::path& file : files) {
     const fs::path named = path / file.filename();  // older versions list the folder too
     const fs::path compressed = named.string() + ".zstd";
@@ -122,16 +123,17 @@ BagReader::BagReader(const fs::path& path, TopicFilter wanted, const std::atomic
 void BagReader::close() {
   mcap_.reset();
   sqlite_.reset();
-  temporary_.reset();
 }
 
 void BagReader::open_next() {
   const fs::path& named = files_[next_file_++];
   fs::path file = named;
+  // It is removed as soon as its reader has it open, so that a killed process leaves none.
+  std::optional<TemporaryFile> plain;
   if (is_zstd(first_bytes(file))) {
-    const fs::path& plain = temporary_.emplace().path();
-    decompress_file(file, plain, stop_);
-    file = plain;
+    plain.emplace();
+    decompress_file(file, plain->path(), stop_);
+    file = plain->path();
   }
   const std::string bytes = first_bytes(file);
   if (bytes.starts_with("#ROSBAG")) {

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,7 +48,6 @@ class BagReader {
   const std::atomic<bool>* stop_;
   std::vector<std::filesystem::path> files_;
   std::size_t next_file_ = 0;
-  std::optional<TemporaryFile> temporary_;  ///< the current file, decompressed
   std::unique_ptr<McapReader> mcap_;
   std::unique_ptr<SqliteReader> sqlite_;
   std::vector<std::size_t> topic_of_;  ///< of each topic of the current file

@@ -52,8 +52,7 @@ SqliteReader::SqliteReader(const std::filesystem::path& path, const TopicFilter&
                            const std::string& name, const std::atomic<bool>* stop)
     : name_(name.empty() ? path.string() : name), stop_(stop) {
   require_file(path);
-  steps_left_ =
-      (steps_per_byte * std::filesystem::file_size(path) + steps_at_start) / steps_at_once;
+  steps_left_ = (steps_per_byte * RandomFile(path, name_).size() + steps_at_start) / steps_at_once;
   open(path);
   for (const char* table : {"topics", "messages"}) {
     if (!has_table(table)) complain(fmt::format("is no ROS 2 bag: it has no table '{}'", table));
@@ -103,9 +102,9 @@ std::uint64_t SqliteReader::page_bytes(const RandomFile& file) {
 }
 
 /// SQLite would take the missing bytes of the last page for zeros, and those for messages.
-void SqliteReader::copy_whole_pages(const std::filesystem::path& path, const RandomFile& file) {
+void SqliteReader::copy_whole_pages(const std::filesystem::path& path, const RandomFile& file,
+                                    const std::filesystem::path& copy) const {
   const std::uint64_t page = page_bytes(file);
-  const std::filesystem::path& copy = copy_.emplace().path();
   std::error_code wrong;
   std::filesystem::copy_file(path, copy, std::filesystem::copy_options::overwrite_existing, wrong);
   if (!wrong) std::filesystem::resize_file(copy, file.size() / page * page, wrong);
@@ -128,8 +127,10 @@ void SqliteReader::open(const std::filesystem::path& path) {
   const RandomFile file(path, name_);
   const bool is_cut = file.size() % page_bytes(file) != 0;
   if (result == SQLITE_CORRUPT || (result == SQLITE_OK && is_cut)) {
-    copy_whole_pages(path, file);
-    result = try_open(uri_of(copy_->path(), "?mode=ro"), true);
+    const TemporaryFile copy;
+    copy_whole_pages(path, file, copy.path());
+    is_copy_ = true;
+    result = try_open(uri_of(copy.path(), "?mode=ro"), true);
   }
   if (result == SQLITE_NOTADB) complain("is no SQLite database: is it compressed?");
   if (result != SQLITE_OK) complain_unreadable();
@@ -199,7 +200,7 @@ bool SqliteReader::next(BagMessage& message) {
   if (order_) {
     try {
       if (next_in_order(message)) return true;
-      if (copy_) {
+      if (is_copy_) {
         note_ = fmt::format("{}: cut off: {} messages were read", name_, messages_);
       }
       return false;

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,7 +46,8 @@ class SqliteReader {
   int try_open(const std::string& uri, bool salvages);
   void open(const std::filesystem::path& path);
   static std::uint64_t page_bytes(const RandomFile& file);
-  void copy_whole_pages(const std::filesystem::path& path, const RandomFile& file);
+  void copy_whole_pages(const std::filesystem::path& path, const RandomFile& file,
+                        const std::filesystem::path& copy) const;
   bool has_table(std::string_view name);
   void read_topics(const TopicFilter& wanted);
   Statement prepare(const std::string& sql);
@@ -60,8 +60,8 @@ class SqliteReader {
 
   std::string name_;
   const std::atomic<bool>* stop_;
-  std::uint64_t steps_left_ = 0;       ///< of SQLite's virtual machine, in hundreds
-  std::optional<TemporaryFile> copy_;  ///< the whole pages of a file that is cut off
+  std::uint64_t steps_left_ = 0;  ///< of SQLite's virtual machine, in hundreds
+  bool is_copy_ = false;          ///< of the whole pages of a file that is cut off
   std::unique_ptr<sqlite3, Close> database_;
   std::vector<BagTopic> topics_;
   std::map<std::int64_t, std::size_t> index_of_id_;  ///< of the wanted topics

@@ -3,7 +3,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 #include <string>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -220,18 +219,10 @@ TEST_F(Files, WithoutADescriptorLeftAreNoFaultOfTheRequest) {
 }
 
 TEST(TemporaryFolder, ThatIsNoneIsNamed) {
-  const char* const before = std::getenv("TMPDIR");
-  const std::optional<std::string> kept =
-      before == nullptr ? std::nullopt : std::optional<std::string>(before);
   for (const char* const wrong : {"/nonexistent/tmp", "/dev/null", "/etc/passwd"}) {
-    ::setenv("TMPDIR", wrong, 1);
+    const TemporaryFilesIn there(wrong);
     EXPECT_THAT(complaint_of([] { (void)temporary_folder(); }),
                 ::testing::StartsWith(std::string(wrong) + ": no folder"));
-  }
-  if (kept) {
-    ::setenv("TMPDIR", kept->c_str(), 1);
-  } else {
-    ::unsetenv("TMPDIR");
   }
 }
 

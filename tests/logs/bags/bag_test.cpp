@@ -281,6 +281,25 @@ TEST_F(Bag, AReaderOfAnyKindEndsWhenAsked) {
   }
 }
 
+TEST_F(Bag, AKilledReaderOfAnyKindLeavesNoTemporaryFile) {
+  const TestBag bag = two_topics();
+  const std::string database = read_file(write_db3("whole.db3", bag));
+  const fs::path temporary = folder_ / "temporary";
+  fs::create_directory(temporary);
+  const TemporaryFilesIn there(temporary);
+  for (const fs::path& path :
+       {write("a.mcap.zstd", test::zstd_compressed(test::mcap_bytes(bag))),
+        write("b.db3.zstd", test::zstd_compressed(database)),
+        write("cut.db3", database.substr(0, database.size() - 100)),
+        write("cut.db3.zstd", test::zstd_compressed(database.substr(0, database.size() - 100)))}) {
+    BagReader reader(path);
+    BagMessage message;
+    for (int n = 0; reader.next(message); ++n) {
+      EXPECT_TRUE(fs::is_empty(temporary)) << path << " message " << n;
+    }
+  }
+}
+
 TEST_F(Bag, ADatabaseThatIsBeingRecordedIsNamed) {
   const fs::path path = write_db3("bag.db3", two_topics());
   EXPECT_EQ(read_bag(path).notes, "");

@@ -128,9 +128,7 @@ TEST_F(JoinedLog, ReadingABagLeavesNoFileInTheTemporaryFolder) {
   const fs::path bag = write_bag(robot_bag(1.0));
   const fs::path map = write("map.yaml", bag_mapping);
   const ScratchFolder temporary;
-  const char* const before = std::getenv("TMPDIR");
-  const std::string kept = before == nullptr ? "" : before;
-  ::setenv("TMPDIR", temporary.path().c_str(), 1);
+  const TemporaryFilesIn there(temporary.path());
   LogReader reader(mapped_records(bag, map), "bag");
   std::size_t rows = 0;
   while (reader.next()) {
@@ -140,7 +138,6 @@ TEST_F(JoinedLog, ReadingABagLeavesNoFileInTheTemporaryFolder) {
   }
   EXPECT_TRUE(fs::is_empty(temporary.path()));
   EXPECT_EQ(rows, 499U);
-  before == nullptr ? ::unsetenv("TMPDIR") : ::setenv("TMPDIR", kept.c_str(), 1);
 }
 
 /// What messages may differ in: the order of joints, the byte order, the length of the frame's name
