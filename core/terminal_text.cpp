@@ -4,11 +4,31 @@
 
 #include <fmt/format.h>
 
-#include "core/yaml.hpp"
-
 namespace touchdown {
 
 namespace {
+
+/// Bytes of the first UTF-8 character of the text; 0 if it is invalid (RFC 3629).
+std::size_t character_size(std::string_view text) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+  };
+  const auto follow = [&](std::size_t count) {
+    for (std::size_t i = 1; i <= count; ++i) {
+      if ((byte(i) & 0xc0U) != 0x80U) return std::size_t{0};
+    }
+    return count + 1;
+  };
+  const unsigned first = byte(0);
+  if (first < 0x80U) return 1;
+  if (first >= 0xc2U && first <= 0xdfU) return follow(1);
+  if (first == 0xe0U && byte(1) < 0xa0U) return 0;   // overlong encoding
+  if (first == 0xedU && byte(1) >= 0xa0U) return 0;  // UTF-16 surrogate
+  if (first >= 0xe0U && first <= 0xefU) return follow(2);
+  if (first == 0xf0U && byte(1) < 0x90U) return 0;
+  if (first == 0xf4U && byte(1) >= 0x90U) return 0;  // beyond Unicode
+  return first >= 0xf0U && first <= 0xf4U ? follow(3) : 0;
+}
 
 /// Control characters of one byte, as a programmer would write them.
 std::string escaped(unsigned char byte) {
@@ -47,6 +67,16 @@ std::size_t sequence_size(unsigned char lead) {
 }
 
 }  // namespace
+
+std::size_t utf8_size(std::string_view text) {
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t size = character_size(text.substr(at));
+    if (size == 0) break;
+    at += size;
+  }
+  return at;
+}
 
 std::string terminal_text(std::string_view text, std::string_view kept) {
   std::string result;

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 namespace touchdown {
+
+/// The number of bytes of the longest valid UTF-8 prefix; all bytes if the whole text is valid.
+std::size_t utf8_size(std::string_view text);
 
 /// A text from a file or a command line for a terminal, with nothing in it that a terminal obeys:
 /// control characters (C0 and C1, so no escape sequence remains), marks that change the direction

@@ -14,6 +14,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/terminal_text.hpp"
 
 namespace touchdown {
 
@@ -23,28 +24,6 @@ constexpr std::size_t most_levels = 64;
 constexpr std::size_t most_values = 1'000'000;
 
 using MarkFormatter = std::function<std::string(const YAML::Mark&)>;
-
-/// Bytes of the first UTF-8 character of the text; 0 if it is invalid (RFC 3629).
-std::size_t character_size(std::string_view text) {
-  const auto byte = [&](std::size_t i) {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
-  };
-  const auto follow = [&](std::size_t count) {
-    for (std::size_t i = 1; i <= count; ++i) {
-      if ((byte(i) & 0xc0U) != 0x80U) return std::size_t{0};
-    }
-    return count + 1;
-  };
-  const unsigned first = byte(0);
-  if (first < 0x80U) return 1;
-  if (first >= 0xc2U && first <= 0xdfU) return follow(1);
-  if (first == 0xe0U && byte(1) < 0xa0U) return 0;   // overlong encoding
-  if (first == 0xedU && byte(1) >= 0xa0U) return 0;  // UTF-16 surrogate
-  if (first >= 0xe0U && first <= 0xefU) return follow(2);
-  if (first == 0xf0U && byte(1) < 0x90U) return 0;
-  if (first == 0xf4U && byte(1) >= 0x90U) return 0;  // beyond Unicode
-  return first >= 0xf0U && first <= 0xf4U ? follow(3) : 0;
-}
 
 YAML::Mark mark_behind(std::string_view text) {
   const std::size_t line_end = text.rfind('\n');
@@ -90,6 +69,9 @@ class Checker : public YAML::EventHandler {
       complain(mark, fmt::format("{0}: a number has no leading zero; a text needs quotes: "
                                  "\"{0}\"",
                                  value));
+    }
+    if (const std::string shown = terminal_text(value, "\n\t"); shown != value) {
+      complain(mark, fmt::format("'{}': a text has no control characters", shown));
     }
     end_value(mark, anchor, {});
   }
@@ -169,7 +151,8 @@ class Checker : public YAML::EventHandler {
 /// - more than 64 levels or a million values, aliases expanded;
 /// - a key that is not a name;
 /// - a number with a leading zero, such as 010, which some parsers read as octal and others as
-///   decimal. In quotes it is a text.
+///   decimal. In quotes it is a text;
+/// - a text that a terminal would obey, because names go into tables and pages.
 /// Malformed YAML throws yaml-cpp's `ParserException`.
 void check_yaml_text(const std::string& text, const MarkFormatter& place) {
   const std::size_t valid = utf8_size(text);
@@ -252,16 +235,6 @@ bool has_leading_zero(std::string_view number) {
   if (number.starts_with('-') || number.starts_with('+')) number.remove_prefix(1);
   return number.size() > 1 && number.starts_with('0') &&
          std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
-
-std::size_t utf8_size(std::string_view text) {
-  std::size_t at = 0;
-  while (at < text.size()) {
-    const std::size_t size = character_size(text.substr(at));
-    if (size == 0) break;
-    at += size;
-  }
-  return at;
 }
 
 YamlDocument YamlDocument::load(const std::filesystem::path& path) {

@@ -12,9 +12,6 @@
 
 namespace touchdown {
 
-/// The number of bytes of the longest valid UTF-8 prefix; all bytes if the whole text is valid.
-std::size_t utf8_size(std::string_view text);
-
 /// Whether a text is a whole number with a leading zero, which some parsers read as octal.
 bool has_leading_zero(std::string_view number);
 

@@ -10,6 +10,7 @@
 #include "apps/cli/verb.hpp"
 #include "core/error.hpp"
 #include "core/program.hpp"
+#include "core/terminal_text.hpp"
 #include "core/yaml.hpp"
 
 namespace touchdown::cli {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/yaml.hpp"
+#include "core/terminal_text.hpp"
 
 namespace touchdown::logs {
 

@@ -205,15 +205,19 @@ TEST(YamlText, IsRefusedWithThePlaceInTheText) {
                   {"a: 1\n...\n---\n[x", {"a.yaml:"}},
                   {"a: 1\nb: 010\n", {"^a.yaml:2:4: 010: a number has no leading"}},
                   {"a: [1, -08]\n", {"^a.yaml:1:8: -08"}},
-                  {"a: +00\n", {"+00"}}},
+                  {"a: +00\n", {"+00"}},
+                  {"a: 1\nb: \"x\\e[31m\"\n", {"^a.yaml:2:4: 'x\\x1b[31m': a text has no"}},
+                  {"a: [gnp\xe2\x80\xae.exe]\n", {"^a.yaml:1:5: 'gnp\\u202e.exe'"}},
+                  {"\"a\\a\": 1\n", {"^a.yaml:1:1: 'a\\x07'"}}},
                  [](const std::string& text) { return YamlDocument::parse(text, "a.yaml"); });
 }
 
 TEST(YamlText, IsTakenWhereItOnlyLooksUnusual) {
-  for (const char* text : {"1: a\n\"b c\": d\n? e\n: f\n", "%YAML 1.2\n---\na: 1\n...\n",
-                           "\xef\xbb\xbf"
-                           "a: 1\n",
-                           "a: &x [1, 2]\nb: *x\nc: &x 3\nd: *x\n"}) {
+  for (const char* text :
+       {"1: a\n\"b c\": d\n? e\n: f\n", "%YAML 1.2\n---\na: 1\n...\n",
+        "\xef\xbb\xbf"
+        "a: 1\n",
+        "a: &x [1, 2]\nb: *x\nc: &x 3\nd: *x\n", "a: |\n  x\n  \ty\nb: \"Ü\\n∠\"\n"}) {
     EXPECT_EQ(complaint_about(text), "no complaint") << text;
   }
   for (const char* number : {"0", "-0", "0.10", "00.5", "10", "0x10", "\"010\"", "'007'", "01a",
