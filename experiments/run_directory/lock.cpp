@@ -19,6 +19,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/progress.hpp"
 
 namespace touchdown::experiments {
 
@@ -117,6 +118,12 @@ LockResult wait_for_lock(const fs::path& file, int descriptor, Access access,
                          std::chrono::steady_clock::time_point until) {
   for (;;) {
     const LockResult result = try_lock(descriptor, access);
+    if (result == LockResult::no_locks) {
+      print_message(
+          fmt::format("touchdown: {}: cannot be locked: {}: start no other command on this "
+                      "directory meanwhile\n",
+                      file.string(), std::generic_category().message(errno)));
+    }
     if (result != LockResult::busy) return result;
     const auto now = std::chrono::steady_clock::now();
     if (now >= until && (now >= until + dying || living_holder(file))) return result;

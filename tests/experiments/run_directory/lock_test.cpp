@@ -1,7 +1,9 @@
 #include "experiments/run_directory/lock.hpp"
 
+#include <cerrno>
 #include <csignal>
 #include <optional>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -12,6 +14,16 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "tests/scratch_folder.hpp"
+
+/// A file system without locks, such as some of clusters, for one thread.
+static thread_local bool has_no_locks = false;
+
+/// Replaces that of the C library.
+extern "C" int flock(int descriptor, int operation) {
+  if (!has_no_locks) return static_cast<int>(::syscall(SYS_flock, descriptor, operation));
+  errno = ENOLCK;
+  return -1;
+}
 
 namespace touchdown::experiments {
 namespace {
@@ -159,6 +171,21 @@ TEST_F(Lock, ForReadingMakesNoFileAndIsRefusedDuringWrites) {
   const DirectoryLock reading = DirectoryLock::for_reading(folder.path(), "touchdown render");
   EXPECT_THAT([&] { take(Access::alone); }, ThrowsMessage<Error>(HasSubstr("render")));
   EXPECT_TRUE(is_free(Access::shared));
+}
+
+TEST_F(Lock, ThatAFileSystemDoesNotKnowIsAWarning) {
+  take(Access::alone);  // makes the file
+  for (const bool reads : {false, true}) {
+    testing::internal::CaptureStderr();
+    has_no_locks = true;
+    const DirectoryLock lock =
+        reads ? DirectoryLock::for_reading(folder.path(), "x") : take(Access::alone);
+    has_no_locks = false;
+    EXPECT_THAT(testing::internal::GetCapturedStderr(),
+                AllOf(HasSubstr("state/lock: cannot be locked: No locks available"),
+                      HasSubstr("start no other command")));
+    EXPECT_TRUE(lock.is_in_place());
+  }
 }
 
 TEST_F(Lock, IsNotTakenThroughALink) {
