@@ -300,7 +300,10 @@ static void describe(Fields& fields, Experiment& experiment) {
       .doc("The run that is plotted and filmed for every engine.");
   describe_drop_figures(fields, experiment);
   fields.choose("recordings", {"all", "pictured", "none"}, experiment.recordings)
-      .doc("Recordings that the run directory keeps.");
+      .doc(
+          "Recordings that the run directory keeps. Without any, a run that was stopped or is "
+          "repeated "
+          "simulates again.");
   fields("paper_tables", experiment.paper_tables)
       .doc("Whether the paper's Tables I to III are printed for every highlight.");
   if (fields.reading()) {
