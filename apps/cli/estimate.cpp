@@ -124,9 +124,8 @@ std::string model_line(const experiments::LogEstimator& chosen, const experiment
   const std::string text = chosen.model_text();
   if (text.empty()) return {};
   const bool is_fitted = experiments::was_fitted_to(chosen.model, log, reader.info());
-  return fmt::format(
-      "{:<12} {}{}\n", "model", text,
-      is_fitted ? "; it was fitted to this log, so that its score is no test" : "");
+  return fmt::format("{:<12} {}{}\n", "model", text,
+                     is_fitted ? "; it was fitted to this log, so that its score is no test" : "");
 }
 
 std::string gravity_line(const experiments::LogSteps& log) {

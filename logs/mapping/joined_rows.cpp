@@ -347,10 +347,11 @@ class JoinedBag final : public JoinedSource {
       rows_.emplace_back(topics_[i], wanted, TopicRows::Config{lacks_stamps_, stale_after()});
     }
     messages_.resize(rows_.size());
-    reader_.emplace(log_, [this](std::string_view topic) {
+    const auto is_named = [this](std::string_view topic) {
       return std::any_of(names_.begin(), names_.end(),
                          [&](const SourceNames& one) { return one.file == topic; });
-    });
+    };
+    reader_.emplace(log_, is_named, stop_);
   }
 
   bool add_next(SourceJoin& join) override {

@@ -154,7 +154,7 @@ TEST_F(RunDirectory, IsNotMadeOfARunThatExceedsTheMemory) {
 
 TEST_F(RunDirectory, IsNotLeftByTheNameOfAScenarioOrAnExperiment) {
   const std::vector<std::string> before = files_below(folder_.path());
-  for (const std::string name : {"'../../../x'", "a/b", "''", "'a b'", "\"a\\x1b[31mb\"", "."}) {
+  for (const std::string name : {"'../../../x'", "a/b", "''", "'a b'", "."}) {
     folder_.write("evil.yaml", "name: " + name + "\nterrain: {pieces: [{flat: {length: 3.0}}]}\n");
     folder_.expect_refusals({{"run tiny.yaml --out b/c/d --set test.scenarios=[evil.yaml]",
                               {"evil.yaml:1:7: name: expected a word that can name a folder"}},

@@ -305,7 +305,7 @@ TEST_F(Export, ThatIsInterruptedLeavesNothing) {
 
 TEST_F(Export, ThatExceedsTheDiskIsRefusedBeforeItBegins) {
   write_benchmark(folder_);
-  folder_.write("roll.yaml", "name: roll\nend: {duration: 100000}\n");
+  folder_.write("roll.yaml", "name: roll\nend: {duration: 100000}\nperturbation: {yaw: 0.05}\n");
   folder_.write("bench.yaml", std::regex_replace(folder_.text("bench.yaml"), std::regex("runs: 2"),
                                                  "runs: 1000"));
   folder_.expect_refusals(

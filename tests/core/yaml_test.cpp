@@ -214,9 +214,7 @@ TEST(YamlText, IsRefusedWithThePlaceInTheText) {
 
 TEST(YamlText, IsTakenWhereItOnlyLooksUnusual) {
   for (const char* text :
-       {"1: a\n\"b c\": d\n? e\n: f\n", "%YAML 1.2\n---\na: 1\n...\n",
-        "\xef\xbb\xbf"
-        "a: 1\n",
+       {"1: a\n\"b c\": d\n? e\n: f\n", "%YAML 1.2\n---\na: 1\n...\n", "\xef\xbb\xbfkey: 1\n",
         "a: &x [1, 2]\nb: *x\nc: &x 3\nd: *x\n", "a: |\n  x\n  \ty\nb: \"Ü\\n∠\"\n"}) {
     EXPECT_EQ(complaint_about(text), "no complaint") << text;
   }

@@ -1,4 +1,5 @@
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/error.hpp"
 #include "core/files.hpp"
 #include "logs/bags/sensor_messages.hpp"
 #include "logs/log/reader.hpp"
@@ -138,6 +140,15 @@ TEST_F(JoinedLog, ReadingABagLeavesNoFileInTheTemporaryFolder) {
   }
   EXPECT_TRUE(fs::is_empty(temporary.path()));
   EXPECT_EQ(rows, 499U);
+}
+
+TEST_F(JoinedLog, ReadingABagEndsWhenAsked) {
+  const fs::path bag = write_bag(robot_bag(1.0));
+  std::atomic<bool> stop = false;
+  LogReader reader(mapped_records(bag, write("map.yaml", bag_mapping), {.stop = &stop}), "bag");
+  ASSERT_TRUE(reader.next());
+  stop = true;
+  EXPECT_THROW(while (reader.next()){}, Stopped);
 }
 
 /// What messages may differ in: the order of joints, the byte order, the length of the frame's name
