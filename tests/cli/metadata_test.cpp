@@ -155,7 +155,7 @@ TEST_F(Metadata, OfARecordingStatesWhetherItsRobotIsStillTheSame) {
   expect(HasSubstr("touchdown: own.mpack: " + assumed));
   std::filesystem::remove(folder_ / "own.yaml");
   expect(HasSubstr("touchdown: own.mpack: " + assumed));
-  EXPECT_THAT(folder_.run("estimate old.mpack").errors, HasSubstr(assumed));
+  EXPECT_THAT(folder_.run("check old.mpack").errors, HasSubstr(assumed));
 }
 
 TEST_F(Metadata, OfAModelExportedForAnotherRobotHasItsLegs) {

@@ -13,6 +13,7 @@ terrain: {pieces: [{flat: {length: 3.0}}]}
 start: {clearance: 2.0}
 end: {duration: 0.7}
 simulation: {control_step_us: 5000}
+perturbation: {yaw: 0.05}
 )");
   folder.write("small.yaml", R"(name: small
 seed: 3
