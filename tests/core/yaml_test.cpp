@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/fields.hpp"
+#include "core/terminal_text.hpp"
 #include "tests/complaint.hpp"
 
 namespace touchdown {
