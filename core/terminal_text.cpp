@@ -60,12 +60,6 @@ bool is_obeyed(unsigned point) {
          (point >= 0x2028 && point <= 0x202e) || (point >= 0x2066 && point <= 0x2069);
 }
 
-std::size_t sequence_size(unsigned char lead) {
-  if (lead < 0xc0) return 1;
-  if (lead < 0xe0) return 2;
-  return lead < 0xf0 ? 3 : 4;
-}
-
 }  // namespace
 
 std::size_t utf8_size(std::string_view text) {
@@ -80,13 +74,12 @@ std::size_t utf8_size(std::string_view text) {
 
 std::string terminal_text(std::string_view text, std::string_view kept) {
   std::string result;
-  std::size_t valid = utf8_size(text);  // where the valid UTF-8 that begins before `at` ends
   for (std::size_t at = 0; at < text.size();) {
     const auto byte = static_cast<unsigned char>(text[at]);
-    if (at == valid) {
+    const std::string_view sequence = text.substr(at, character_size(text.substr(at)));
+    if (sequence.empty()) {
       result += fmt::format("\\x{:02x}", byte);
       ++at;
-      valid = at + utf8_size(text.substr(at));
       continue;
     }
     if (byte < 0x80) {
@@ -100,7 +93,6 @@ std::string terminal_text(std::string_view text, std::string_view kept) {
       ++at;
       continue;
     }
-    const std::string_view sequence = text.substr(at, sequence_size(byte));
     const unsigned point = code_point(sequence);
     if (is_obeyed(point)) {
       result += fmt::format("\\u{:04x}", point);

@@ -302,8 +302,7 @@ static void describe(Fields& fields, Experiment& experiment) {
   fields.choose("recordings", {"all", "pictured", "none"}, experiment.recordings)
       .doc(
           "Recordings that the run directory keeps. Without any, a run that was stopped or is "
-          "repeated "
-          "simulates again.");
+          "repeated simulates again.");
   fields("paper_tables", experiment.paper_tables)
       .doc("Whether the paper's Tables I to III are printed for every highlight.");
   if (fields.reading()) {

@@ -9,7 +9,6 @@
 #include "estimator/models/configuration.hpp"
 #include "estimator/npz/load_estimator.hpp"
 #include "estimator/numerics/number_text.hpp"
-#include "experiments/estimators/entries.hpp"
 #include "experiments/estimators/registry.hpp"
 
 namespace touchdown::experiments {
@@ -143,7 +142,7 @@ LogEstimator log_estimator(LogEstimatorRequest request) {
   if (is_shipped && request.model.empty()) {
     const EstimatorEntry& shipped =
         estimator_entry(request.name.empty() ? "shipped" : request.name);
-    const char* const file = shipped_file(shipped.name);
+    const std::string& file = shipped.making.model_file;
     request.name.clear();  // the model's own
     request.model = find_program_file(file);
     LogEstimator estimator = log_estimator(std::move(request));

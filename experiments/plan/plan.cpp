@@ -32,9 +32,13 @@ scenarios::Scenario scene_of(const RunRequest& request, const std::string& file,
   return scene;
 }
 
+/// Digests of robots by their files: many runs have one robot, and its meshes may be large.
+using RobotDigests = std::map<std::string, std::string>;
+
 /// What is simulated, whatever the names of the scenario and of its robot's file.
-std::string content_of(scenarios::Scenario scenario) {
-  const std::string robot = scenarios::robot_digest(scenario);
+std::string content_of(scenarios::Scenario scenario, RobotDigests& digests) {
+  std::string& robot = digests[scenario.robot];
+  if (robot.empty()) robot = scenarios::robot_digest(scenario);
   scenario.name.clear();
   scenario.robot.clear();
   return Fingerprint().add(robot).add(scenarios::to_yaml(scenario)).text();
@@ -43,11 +47,12 @@ std::string content_of(scenarios::Scenario scenario) {
 /// Errors: `InputError` for a scene that is listed twice: intervals would count it as two.
 void require_distinct_scenes(const RunRequest& request, RunRole role) {
   const Experiment& experiment = request.experiment;
+  RobotDigests digests;
   std::map<std::string, std::string> known;
   for (const std::string& file :
        (role == RunRole::fit ? experiment.fit : experiment.test).scenarios) {
     const auto [same, is_new] =
-        known.emplace(content_of(scenario_of(request, file).scenario), file);
+        known.emplace(content_of(scenario_of(request, file).scenario, digests), file);
     if (is_new) continue;
     throw InputError(fmt::format(
         "{}.scenarios: '{}' and '{}' are the same scene: name it once, with more `runs`",
@@ -281,11 +286,12 @@ void require_served(const Experiment& experiment, const Plan& plan) {
 }
 
 void require_distinct_runs(const Plan& plan, const Experiment& experiment) {
+  RobotDigests digests;
   std::map<std::string, std::vector<const PlannedRun*>> same;
   for (const PlannedRun& run : plan.runs) {
     scenarios::Scenario scenario = run.scenario;
     scenario.perturbation = {};  // it is drawn
-    const std::string key = run.simulator + content_of(std::move(scenario));
+    const std::string key = run.simulator + content_of(std::move(scenario), digests);
     for (const PlannedRun* other : same[key]) require_distinct(*other, run, plan, experiment);
     same[key].push_back(&run);
   }

@@ -52,7 +52,6 @@ SqliteReader::SqliteReader(const std::filesystem::path& path, const TopicFilter&
                            const std::string& name, const std::atomic<bool>* stop)
     : name_(name.empty() ? path.string() : name), stop_(stop) {
   require_file(path);
-  steps_left_ = (steps_per_byte * RandomFile(path, name_).size() + steps_at_start) / steps_at_once;
   open(path);
   for (const char* table : {"topics", "messages"}) {
     if (!has_table(table)) complain(fmt::format("is no ROS 2 bag: it has no table '{}'", table));
@@ -117,6 +116,8 @@ void SqliteReader::copy_whole_pages(const std::filesystem::path& path, const Ran
 /// Only a journal (`-wal`) beside the database is a reason to write beside it: SQLite then needs a
 /// file of its own. In a folder that cannot be written the database is read without its journal.
 void SqliteReader::open(const std::filesystem::path& path) {
+  const RandomFile file(path, name_);
+  steps_left_ = (steps_per_byte * file.size() + steps_at_start) / steps_at_once;
   std::error_code none;
   const std::uintmax_t journal = std::filesystem::file_size(path.string() + "-wal", none);
   int result = SQLITE_CANTOPEN;
@@ -124,7 +125,6 @@ void SqliteReader::open(const std::filesystem::path& path) {
   if (result == SQLITE_CANTOPEN || result == SQLITE_READONLY) {
     result = try_open(uri_of(path, "?mode=ro&immutable=1"), false);
   }
-  const RandomFile file(path, name_);
   const bool is_cut = file.size() % page_bytes(file) != 0;
   if (result == SQLITE_CORRUPT || (result == SQLITE_OK && is_cut)) {
     const TemporaryFile copy;
