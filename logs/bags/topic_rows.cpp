@@ -20,8 +20,6 @@ constexpr std::array<const char*, 10> imu_fields = {
     "orientation.x",         "orientation.y",        "orientation.z",      "orientation.w",
     "angular_velocity.x",    "angular_velocity.y",   "angular_velocity.z", "linear_acceleration.x",
     "linear_acceleration.y", "linear_acceleration.z"};
-/// A header without a stamp was sent now, unless the clock is a simulation's, which starts at zero.
-constexpr double longest_delay = 60.0;
 
 double seconds(std::int64_t nanoseconds) {
   constexpr std::int64_t second = 1'000'000'000;
@@ -213,9 +211,10 @@ void look_at(const BagMessage& message, SignalTopic& topic) {
   }
   look_at(state, topic);
   ++topic.messages;
-  if (topic.has_stamps || state.stamp.is_zero()) return;
+  if (state.stamp.is_zero()) return;
+  const double delay = 1e-9 * static_cast<double>(message.time - state.stamp.time());
+  topic.stamp_delay = topic.has_stamps ? std::min(topic.stamp_delay, delay) : delay;
   topic.has_stamps = true;
-  topic.stamp_delay = 1e-9 * static_cast<double>(message.time - state.stamp.time());
 }
 
 void check_readable(const BagTopic& topic, BagReader& bag, const std::filesystem::path& path) {

@@ -20,6 +20,9 @@ namespace touchdown::logs {
 inline constexpr const char* stamp_column = "header.stamp";
 inline constexpr const char* log_time_column = "log_time";
 
+/// A header without a stamp was sent now, unless the clock is a simulation's, which starts at zero.
+inline constexpr double longest_delay = 60.0;  // s
+
 /// A topic of sensor_msgs/msg/JointState or sensor_msgs/msg/Imu as the beginning of a bag shows it.
 struct SignalTopic {
   std::string name;
@@ -29,7 +32,7 @@ struct SignalTopic {
   bool has_effort = false;          ///< of JointState
   bool has_orientation = false;     ///< of Imu
   bool has_stamps = false;          ///< whether a header has a stamp that is not zero
-  double stamp_delay = 0.0;         ///< time of recording − stamp of the first such header (s)
+  double stamp_delay = 0.0;         ///< the least time of recording − stamp of such headers (s)
   std::uint64_t messages = 0;       ///< decoded so far
 
   /// Names of all numbers of a message: `stamp_column`, `log_time_column`; NAME/position,

@@ -323,6 +323,7 @@ class JoinedBag final : public JoinedSource {
     if (lacks_stamps_) {
       notes.emplace_back("stamps are zero: the times of recording are used instead");
     }
+    for (std::size_t i = 0; i < topics_.size() && !uses_log_time_; ++i) note_delay(i, notes);
     for (const TopicRows& one : rows_) {
       for (std::string& note : one.notes()) notes.push_back(std::move(note));
     }
@@ -339,6 +340,8 @@ class JoinedBag final : public JoinedSource {
 
   void open(const LogMapping& mapping) override {
     check_given(log_, mapping, topics_);
+    uses_log_time_ = std::any_of(mapping.columns.begin(), mapping.columns.end(),
+                                 [](const auto& one) { return one.name == log_time_column; });
     lacks_stamps_ = std::any_of(topics_.begin(), topics_.end(),
                                 [](const SignalTopic& topic) { return !topic.has_stamps; });
     for (std::size_t i = 0; i < topics_.size(); ++i) {
@@ -369,8 +372,23 @@ class JoinedBag final : public JoinedSource {
     return true;
   }
 
+  /// Messages of one robot are recorded about as long after their stamps, whatever their topic.
+  void note_delay(std::size_t i, std::vector<std::string>& notes) const {
+    constexpr double most = SignalGuardConfig{}.maximum_gap;
+    const double delay = topics_[clock()].stamp_delay;
+    const double ahead = delay - topics_[i].stamp_delay;
+    // A simulation's clock has another rate, too.
+    if (lacks_stamps_ || !(std::abs(delay) < longest_delay) || !(std::abs(ahead) > most)) return;
+    notes.push_back(fmt::format(
+        "{}: its stamps are {:.3g} s {} those of {} by the times of recording: are they of another "
+        "computer's clock? `time: {{from: log_time}}` takes the times of recording",
+        names_[i].file, std::abs(ahead), ahead > 0.0 ? "ahead of" : "behind",
+        names_[clock()].file));
+  }
+
   const std::atomic<bool>* stop_;
   std::vector<SignalTopic> topics_;
+  bool uses_log_time_ = false;
   bool lacks_stamps_ = false;
   std::vector<TopicRows> rows_;
   std::vector<std::uint64_t> messages_;  ///< of each topic so far

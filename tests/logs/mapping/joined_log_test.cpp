@@ -387,6 +387,27 @@ TEST_F(JoinedLog, TopicsWithoutACommonTimeAreRefusedWithTheirTimes) {
   EXPECT_GE(rows.size(), 95U);
 }
 
+/// Stamps of one robot are recorded about as late, whatever their topic; 5 ms differ here.
+TEST_F(JoinedLog, AClockAheadOrBehindIsNamedByTheTimesOfRecording) {
+  const auto notes = [&](double ahead, const std::string& more = "") {
+    TestBag bag = robot_bag(2.0);
+    for (auto& message : bag.messages) {
+      if (message.topic != 1) continue;
+      const std::int64_t measured = message.time - 8 * ms;
+      message.data = bags::imu_cdr(measured + std::llround(1e9 * ahead), {});
+    }
+    convert(write_bag(bag), bag_mapping + more);
+    return fmt::format("{}", fmt::join(converted_.notes, "\n"));
+  };
+  EXPECT_THAT(notes(1.0), HasSubstr("/imu: its stamps are 0.995 s ahead of those of /joint_states"));
+  EXPECT_THAT(notes(0.2), HasSubstr("ahead of those of /joint_states"));
+  EXPECT_THAT(notes(-0.2), HasSubstr("behind those of /joint_states"));
+  for (const double small : {0.0, 0.012, -0.012}) {
+    EXPECT_THAT(notes(small), ::testing::Not(HasSubstr("its stamps are"))) << small;
+  }
+  EXPECT_THAT(notes(0.2, "time: {from: log_time}\n"), ::testing::Not(HasSubstr("its stamps are")));
+}
+
 // Files ------------------------------------------------------------------------------------------
 
 struct Csv {
