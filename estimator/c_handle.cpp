@@ -11,7 +11,7 @@ namespace touchdown {
 
 namespace {
 
-static_assert(static_cast<unsigned>(RecordFault::clock_rate) == TOUCHDOWN_CLOCK_RATE &&
+static_assert(static_cast<unsigned>(RecordFault::signal_stopped) == TOUCHDOWN_SIGNAL_STOPPED &&
               static_cast<unsigned>(RecordFault::upside_down) == TOUCHDOWN_UPSIDE_DOWN &&
               static_cast<int>(SignalStatus::frozen) == TOUCHDOWN_FROZEN &&
               static_cast<int>(SignalStatus::degraded) == TOUCHDOWN_DEGRADED);

@@ -1,5 +1,7 @@
 #include "estimator/contact_estimator.hpp"
 
+#include <bit>
+
 namespace touchdown {
 
 namespace {
@@ -19,11 +21,19 @@ bool is_belief(const Belief& belief) noexcept {
 
 const Belief& ContactEstimator::update(const Signals& signals) noexcept {
   const SignalIndex unusable = check_.first_unusable(signals);
-  if (unusable == SignalIndex::none) {
+  if (unusable == SignalIndex::none && stopped_.update(signals) == 0) {
     const Belief& belief = estimate(signals);
     return is_belief(belief) ? belief : reported(belief, unusable);
   }
-  return reported(estimate(check_.without_unusable(signals)), unusable);
+  const std::uint32_t stopped = stopped_.update(check_.without_unusable(signals));
+  const Belief& belief = reported(estimate(check_.without_unusable(signals, stopped)), unusable);
+  const int first = std::countr_zero(stopped);
+  if (stopped == 0 || (unusable != SignalIndex::none && first > static_cast<int>(unusable))) {
+    return belief;
+  }
+  reported_.unusable = static_cast<SignalIndex>(first);
+  if (reported_.status == SignalStatus::invalid) reported_.status = SignalStatus::frozen;
+  return belief;
 }
 
 const Belief& ContactEstimator::reported(const Belief& belief, SignalIndex unusable) noexcept {

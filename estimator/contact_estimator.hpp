@@ -6,6 +6,7 @@
 
 #include "estimator/signal_bounds.hpp"
 #include "estimator/signals.hpp"
+#include "estimator/stopped_signals.hpp"
 
 namespace touchdown {
 
@@ -59,8 +60,8 @@ struct Belief {
   /// P(both wheels are in contact).
   double p_both_wheels = 0.5;
   SignalStatus status = SignalStatus::good;
-  /// The first signal of the step that is NaN or beyond its bound. The status stays good if the
-  /// estimator does not use this signal.
+  /// The first signal of the step that is NaN, beyond its bound, or stopped. The status stays good
+  /// if the estimator does not use this signal.
   SignalIndex unusable = SignalIndex::none;
 };
 
@@ -119,9 +120,9 @@ struct Evidence {
 /// The seam for contact estimators. The caller calls `update` once per time step. Neither `reset`
 /// nor `update` allocates, locks or throws, so an estimator can run in a robot's control loop.
 ///
-/// `update` checks all signals before any estimator gets them: a value beyond `SignalBounds`
-/// becomes NaN, which an estimator treats as a failed sensor. It checks the belief, too: an
-/// estimator with probabilities outside [0, 1], or NaN, starts anew.
+/// `update` checks all signals before any estimator gets them: a value beyond `SignalBounds`, or of
+/// a signal that stopped (`StoppedSignals`), becomes NaN, which means a failed sensor. It checks
+/// the belief, too: an estimator with probabilities outside [0, 1], or NaN, starts anew.
 class ContactEstimator {
  public:
   virtual ~ContactEstimator() = default;
@@ -145,6 +146,7 @@ class ContactEstimator {
   const Belief& reported(const Belief& belief, SignalIndex unusable) noexcept;
 
   SignalCheck check_;
+  StoppedSignals stopped_;
   Belief reported_;
 };
 

@@ -103,7 +103,8 @@ struct AssemblyConfig {
   /// points back, row 1 left and row 2 down, in the axes of the robot's IMU (`signed_axes`).
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   /// A servo that repeats position, velocity and torque to the bit for this long (s) is stale, and
-  /// its torque counts as not reported. 0 = never, for simulators without noise.
+  /// its torque counts as not reported. 0 = never, for simulators without noise. The same time is
+  /// for a single signal that stops while the robot moves (`StoppedSignals`).
   double stale_after = 0.25;
   /// A step longer than this (s) is a gap, as for estimators.
   double maximum_gap = 0.02;

@@ -48,11 +48,14 @@ std::string_view to_text(RecordFault fault) noexcept {
       return "clock gap";
     case RecordFault::clock_rate:
       return "clock rate";
+    case RecordFault::signal_stopped:
+      return "signal stopped";
   }
   return "";
 }
 
-SignalAssembler::SignalAssembler(const AssemblyConfig& config) : config_(config) {
+SignalAssembler::SignalAssembler(const AssemblyConfig& config)
+    : config_(config), stopped_(config.stale_after) {
   check_assembly_config(config);
   gravity_gain_ = exact_low_pass_gain(config.gravity_memory, config.sample_rate);
 }
@@ -65,6 +68,7 @@ void SignalAssembler::reset() noexcept {
   steps_ = 0;
   is_rate_wrong_ = false;
   upward_ = 0.0;
+  stopped_.reset();
   repeated_ = {};
 }
 
@@ -77,6 +81,7 @@ const Signals& SignalAssembler::assemble(const RobotRecord& record) noexcept {
   signals_ = signals_of(record, config_, imu);
   faults_ = {};
   watch_clock();
+  if (stopped_.update(signals_) != 0) faults_.add(RecordFault::signal_stopped);
   watch_joints();
   watch_imu(imu);
   started_ = true;

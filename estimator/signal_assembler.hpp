@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "estimator/record.hpp"
+#include "estimator/stopped_signals.hpp"
 
 namespace touchdown {
 
@@ -19,8 +20,9 @@ enum class RecordFault : std::uint32_t {
   clock_back = 1U << 6U,            ///< time went back
   clock_gap = 1U << 7U,             ///< records were lost
   clock_rate = 1U << 8U,            ///< the records' rate is not the configured one
+  signal_stopped = 1U << 9U,        ///< a signal repeats itself to the bit (`StoppedSignals`)
 };
-inline constexpr std::size_t record_fault_count = 9;
+inline constexpr std::size_t record_fault_count = 10;
 
 /// "joint missing", "upside down", …
 std::string_view to_text(RecordFault fault) noexcept;
@@ -75,6 +77,7 @@ class SignalAssembler {
   int steps_ = 0;               ///< … and their number
   bool is_rate_wrong_ = false;  ///< as of the last check
   double upward_ = 0.0;         ///< low-passed proper acceleration along the vertical (m/s²)
+  StoppedSignals stopped_;
   std::array<JointSignals, 6> last_{};
   std::array<double, 6> repeated_{};  ///< for how long each servo has repeated itself (s)
 };

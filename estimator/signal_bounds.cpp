@@ -80,11 +80,15 @@ SignalIndex SignalCheck::first_unusable(const Signals& signals) const noexcept {
   return static_cast<SignalIndex>(first);
 }
 
-Signals SignalCheck::without_unusable(const Signals& signals) const noexcept {
+Signals SignalCheck::without_unusable(const Signals& signals,
+                                      std::uint32_t stopped) const noexcept {
+  constexpr std::uint32_t acceleration = 7U << 18U;
+  if ((stopped & acceleration) != 0) stopped |= 1U << 24U;
   std::array<double, signal_count> values{};
   for (std::size_t i = 0; i < signal_count; ++i) {
     const double value = value_of(signals, i);
-    values[i] = is_within(value, largest_[i]) ? value : std::numeric_limits<double>::quiet_NaN();
+    const bool usable = is_within(value, largest_[i]) && (stopped >> i & 1U) == 0;
+    values[i] = usable ? value : std::numeric_limits<double>::quiet_NaN();
   }
   Signals usable;
   usable.time = signals.time;

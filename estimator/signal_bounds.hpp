@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 
 #include "estimator/signals.hpp"
@@ -43,8 +44,10 @@ class SignalCheck {
   /// The first signal that is NaN or beyond its bound; `none` if all are usable.
   [[nodiscard]] SignalIndex first_unusable(const Signals& signals) const noexcept;
 
-  /// The same signals with NaN in place of every value beyond its bound.
-  [[nodiscard]] Signals without_unusable(const Signals& signals) const noexcept;
+  /// The same signals with NaN in place of every value beyond its bound, and of the `stopped` ones,
+  /// one bit each by `SignalIndex`. The vertical acceleration follows from all three axes.
+  [[nodiscard]] Signals without_unusable(const Signals& signals,
+                                         std::uint32_t stopped = 0) const noexcept;
 
  private:
   std::array<double, signal_count> largest_;

@@ -108,7 +108,8 @@ enum touchdown_fault {
   TOUCHDOWN_CLOCK_MISSING = 32,        /* the time is not finite */
   TOUCHDOWN_CLOCK_BACK = 64,           /* time went back */
   TOUCHDOWN_CLOCK_GAP = 128,           /* records were lost */
-  TOUCHDOWN_CLOCK_RATE = 256           /* the records' rate is not the configured one */
+  TOUCHDOWN_CLOCK_RATE = 256,          /* the records' rate is not the configured one */
+  TOUCHDOWN_SIGNAL_STOPPED = 512       /* one signal repeats itself while the robot moves */
 };
 
 /* The estimate after one record. Arrays hold the left wheel, then the right wheel. */
@@ -119,7 +120,7 @@ typedef struct touchdown_belief {
   double p_both_wheels; /* P(both wheels are in contact) */
   int status;           /* enum touchdown_status */
   unsigned faults;      /* bits of enum touchdown_fault */
-  int unusable;         /* the first signal that is NaN or beyond its bound; -1: none */
+  int unusable;         /* the first that is NaN, beyond its bound or stopped; -1: none */
 } touchdown_belief;
 
 /* Returns a record to fill in: all its measurements are NaN, the command is 0. */

@@ -229,6 +229,24 @@ TEST(SignalAssembler, ReportsMissingAndStaleServos) {
   EXPECT_EQ(assembler.count(RecordFault::joint_missing), 1U);
 }
 
+TEST(SignalAssembler, ReportsATorqueThatStopsAlone) {
+  SignalAssembler assembler;
+  Robot robot;
+  for (int k = 0; k < 1000; ++k) {
+    RobotRecord record = robot.record(1e-3 * k);
+    for (JointSignals& joint : robot.joints()) {
+      joint.velocity = std::cos(1e-3 * k);
+      joint.torque = 1.0 + 0.1 * std::sin(100.0 * k);
+    }
+    if (k >= 700) robot.joints()[3].torque = 0.0;
+    const Signals& signals = assembler.assemble(record);
+    EXPECT_EQ(signals.leg[1].hip.torque, robot.joints()[3].torque) << "estimators leave it out";
+  }
+  EXPECT_TRUE(assembler.faults().has(RecordFault::signal_stopped));
+  EXPECT_NEAR(static_cast<double>(assembler.count(RecordFault::signal_stopped)), 45.0, 15.0);
+  EXPECT_EQ(assembler.count(RecordFault::joint_stale), 0U);
+}
+
 TEST(SignalAssembler, ReportsFaultsOfTheClock) {
   SignalAssembler assembler;
   Robot robot;
