@@ -171,8 +171,8 @@ LogSteps::~LogSteps() = default;
 const LogStep* LogSteps::next() {
   const std::optional<logs::LogRow> row = reader_.next();
   if (!row) return nullptr;
-  plausibility_.add(row->observation);
   step_.signals = signals_.next(row->observation, row->action);
+  plausibility_.add(row->observation, step_.signals.target);
   add_to_digest(step_.signals);
   if (label_check_) label_check_->add(step_.signals);
   step_.normal_force.reset();

@@ -30,15 +30,17 @@ PlausibilityCheck::PlausibilityCheck(double period, const CheckedRobot& robot)
       joint_range_(robot),
       load_(robot.legs.value_or(LegGeometry{}), robot.legs.has_value()) {}
 
-void PlausibilityCheck::add(const models::Observation& reported) {
+void PlausibilityCheck::add(const models::Observation& reported, const ServoTargets& targets) {
   clock_.add(reported.time);
   constant_.add(reported);
+  stopped_.add(reported);
   // One value beyond its sensor's range would be the mean of a whole window.
   const models::Observation record = sensor_range_.add(reported);
   joint_range_.add(record);
-  const std::optional<CheckedWindow> window = windows_.add(record);
+  const std::optional<CheckedWindow> window = windows_.add(record, targets);
   if (!window) return;
   motion_.add(*window);
+  servo_law_.add(*window);
   turning_.add(*window);
   driving_.add(*window);
   load_.add(*window);
@@ -52,9 +54,11 @@ std::vector<std::string> PlausibilityCheck::findings() const {
   Findings findings;
   clock_.report(findings);
   constant_.report(findings);
+  stopped_.report(findings);
   sensor_range_.report(findings);
   const bool has_positions = joint_range_.report(findings);
   motion_.report(findings);
+  servo_law_.report(findings);
   turning_.report(findings);
   const std::size_t before = findings.lines().size();
   gravity_.report(findings);

@@ -17,7 +17,8 @@ class PlausibilityCheck {
   /// `period`: between two records (s).
   explicit PlausibilityCheck(double period, const CheckedRobot& robot = {});
 
-  void add(const models::Observation& reported);
+  /// `targets`: the commands of the step before.
+  void add(const models::Observation& reported, const ServoTargets& targets = {});
 
   /// One line per finding so far.
   std::vector<std::string> findings() const;
@@ -27,9 +28,11 @@ class PlausibilityCheck {
   StillStretches still_;
   ClockCheck clock_;
   ConstantChannels constant_;
+  StoppedChannels stopped_;
   SensorRangeCheck sensor_range_;
   JointRangeCheck joint_range_;
   JointMotionCheck motion_;
+  ServoLawCheck servo_law_;
   TurningCheck turning_;
   DrivingCheck driving_;
   GravityCheck gravity_;

@@ -170,7 +170,7 @@ void LoadCheck::add_still(const CheckedWindow& stretch) {
 void LoadCheck::report(Findings& findings, bool drives) const {
   report_small_torques(findings);
   report_pose(findings);
-  if (!report_misfit(findings) && drives) report_small_load(findings);
+  if (!report_misfit(findings)) report_small_load(findings, drives);
 }
 
 bool LoadCheck::report_misfit(Findings& findings) const {
@@ -192,7 +192,7 @@ bool LoadCheck::report_misfit(Findings& findings) const {
   return true;
 }
 
-void LoadCheck::report_small_load(Findings& findings) const {
+void LoadCheck::report_small_load(Findings& findings, bool drives) const {
   constexpr int few = 3;
   const double weight = gravity_at_rest * geometry_.robot_mass;
   const double least = (is_known_ ? 0.6 : 0.4) * weight;
@@ -201,6 +201,9 @@ void LoadCheck::report_small_load(Findings& findings) const {
   const auto carries = [&](double load) {
     return std::abs(load / stretches_ - weight) < 0.3 * weight;
   };
+  // The legs of a robot that hangs carry nothing.
+  const bool hangs = load_[0] <= tolerance_ + 0.05 * weight * stretches_;
+  if (!drives && (hangs || !is_known_)) return;
   const auto* const found = std::find_if(load_.begin() + 1, load_.end(), carries);
   const std::string cause =
       found == load_.end()
@@ -208,8 +211,8 @@ void LoadCheck::report_small_load(Findings& findings) const {
           : fmt::format("probably {}",
                         all_hypotheses.at(static_cast<std::size_t>(found - load_.begin())).cause);
   findings.add("load of both legs while the robot is still",
-               fmt::format("at most {:.0f} N although the wheels drive it, expected {:.0f} N{}: {}",
-                           largest_load_, weight,
+               fmt::format("at most {:.0f} N although {}, expected {:.0f} N{}: {}", largest_load_,
+                           drives ? "the wheels drive it" : "it does not hang", weight,
                            is_known_ ? "" : " (Upkie's weight; --robot names another)", cause));
 }
 

@@ -12,9 +12,14 @@
 #include <Eigen/Geometry>
 
 #include "estimator/force/leg_geometry.hpp"
+#include "estimator/signal_bounds.hpp"
+#include "estimator/stopped_signals.hpp"
 #include "models/robot.hpp"
 
 namespace touchdown::logs {
+
+/// The commands that the servos executed when a record was measured. NaN: not known.
+using ServoTargets = std::array<LegTargets, 2>;
 
 /// What is implausible about a log: one line per finding. Subjects with the same finding share its
 /// line: "left_knee, right_knee: torque is 0 throughout".
@@ -44,6 +49,9 @@ struct CheckedWindow {
     double velocity = 0.0;         ///< rad/s, as reported
     double torque = 0.0;           ///< N·m
     double position_change = 0.0;  ///< rad, over the window; half turns count the short way
+    double kp = 0.0;               ///< position gain of the target (N·m/rad)
+    /// By the servo's law (N·m): of the target as it is, negated, the other leg's, in degrees.
+    std::array<double, 4> law = {};
   };
   std::array<Joint, models::servo_count> joint = {};
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< as reported, IMU frame (rad/s)
@@ -60,7 +68,7 @@ class WindowCollector {
   explicit WindowCollector(double period);
 
   /// Adds a record. Returns the window that it completes, if any.
-  std::optional<CheckedWindow> add(const models::Observation& record);
+  std::optional<CheckedWindow> add(const models::Observation& record, const ServoTargets& targets);
 
  private:
   void begin(const models::Observation& record);
@@ -177,6 +185,32 @@ class ConstantChannels {
   std::array<Channel, 3> linear_acceleration_;
 };
 
+/// Finds channels that stop within a log: they repeat themselves although the robot moves.
+class StoppedChannels {
+ public:
+  void add(const models::Observation& record);
+  void report(Findings& findings) const;
+
+ private:
+  /// The stretches in which a channel stands still.
+  struct Channel {
+    double first = 0.0;  ///< begin of the first of them (s)
+    double value = 0.0;
+    int stretches = 0;
+    bool is_stopped = false;
+
+    void add(bool stops, double since, double at);
+  };
+
+  StoppedSignals stopped_;
+  std::array<Channel, 24> channels_ = {};  ///< of joints and IMU
+  Channel orientation_;
+  Eigen::Quaterniond last_ = Eigen::Quaterniond::Identity();
+  double since_ = 0.0;                                ///< the orientation repeats itself (s)
+  double time_ = 0.0;                                 ///< of the last record (s)
+  Eigen::Vector3d turned_ = Eigen::Vector3d::Zero();  ///< by the gyroscope since then (rad)
+};
+
 /// Checks the times of a log: stretches at another rate, repeated times, steps back, jumps.
 class ClockCheck {
  public:
@@ -219,6 +253,22 @@ class JointMotionCheck {
   Matrix products_ = Matrix::Zero();  ///< Σ velocity i · derivative of position j
   Vector velocity_squares_ = Vector::Zero();
   Vector derivative_squares_ = Vector::Zero();
+};
+
+/// Checks the targets of hips and knees: by the servo's law, they give the measured torques.
+class ServoLawCheck {
+ public:
+  void add(const CheckedWindow& window);
+  void report(Findings& findings) const;
+
+ private:
+  struct Joint {
+    int windows = 0;
+    std::array<int, 4> apart = {};  ///< windows in which the torques differ, as `CheckedWindow`
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();  ///< of the law's and the measured torque
+    Eigen::Matrix2d products = Eigen::Matrix2d::Zero();
+  };
+  std::array<Joint, models::servo_count> joints_ = {};
 };
 
 /// The angular velocity of a gyroscope and that of the orientation, compared in windows in which
@@ -339,7 +389,7 @@ class LoadCheck {
   static constexpr std::size_t hypotheses = 9;
 
   bool report_misfit(Findings& findings) const;
-  void report_small_load(Findings& findings) const;
+  void report_small_load(Findings& findings, bool drives) const;
   void report_small_torques(Findings& findings) const;
   void report_pose(Findings& findings) const;
 

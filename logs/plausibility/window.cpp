@@ -16,6 +16,26 @@ double step_between(double before, double after) {
   return std::abs(step) > std::numbers::pi ? std::remainder(step, 2.0 * std::numbers::pi) : step;
 }
 
+/// Left hip, knee, wheel, then right.
+const JointTarget& target_of(const ServoTargets& targets, std::size_t i) {
+  const LegTargets& leg = targets[i / 3];
+  return i % 3 == 0 ? leg.hip : i % 3 == 1 ? leg.knee : leg.wheel;
+}
+
+/// Adds the torques of the servo's law. `other`: the target of the same joint of the other leg.
+void add_law(const models::ServoReading& servo, const JointTarget& own, const JointTarget& other,
+             CheckedWindow::Joint& joint) {
+  const auto law = [&](const JointTarget& target, double factor) {
+    return own.kp * (factor * target.position - servo.position) +
+           own.kd * (factor * target.velocity - servo.velocity) + own.feedforward_torque;
+  };
+  constexpr double degree = std::numbers::pi / 180.0;
+  const std::array<double, 4> laws = {law(own, 1.0), law(own, -1.0), law(other, 1.0),
+                                      law(own, degree)};
+  for (std::size_t i = 0; i < laws.size(); ++i) joint.law[i] += laws[i];
+  joint.kp += own.kp;
+}
+
 /// The rotation vector (rad) from one orientation to the next, in the IMU's frame. NaN for a
 /// quaternion that is none.
 Eigen::Vector3d rotation_between(const Eigen::Quaterniond& before,
@@ -34,7 +54,8 @@ WindowCollector::WindowCollector(double period)
       length_(std::max<std::size_t>(
           2, static_cast<std::size_t>(std::llround(window_length / period)))) {}
 
-std::optional<CheckedWindow> WindowCollector::add(const models::Observation& record) {
+std::optional<CheckedWindow> WindowCollector::add(const models::Observation& record,
+                                                  const ServoTargets& targets) {
   if (!std::isfinite(record.time)) return std::nullopt;
   constexpr double longest_step = 5.0;  // periods
   const double step = record.time - previous_.time;
@@ -45,6 +66,7 @@ std::optional<CheckedWindow> WindowCollector::add(const models::Observation& rec
     sum_.joint[i].position += servo.position;
     sum_.joint[i].velocity += servo.velocity;
     sum_.joint[i].torque += servo.torque;
+    add_law(servo, target_of(targets, i), target_of(targets, (i + 3) % 6), sum_.joint[i]);
     if (count_ > 0) change_[i] += step_between(previous_.servo[i].position, servo.position);
   }
   sum_.angular_velocity += record.imu.angular_velocity;
@@ -73,6 +95,8 @@ CheckedWindow WindowCollector::finish(const models::Observation& record) const {
     window.joint[i].position *= share;
     window.joint[i].velocity *= share;
     window.joint[i].torque *= share;
+    window.joint[i].kp *= share;
+    for (double& law : window.joint[i].law) law *= share;
     window.joint[i].position_change = change_[i];
   }
   window.angular_velocity *= share;

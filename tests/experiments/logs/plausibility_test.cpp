@@ -14,6 +14,7 @@
 
 #include "core/resources.hpp"
 #include "logs/plausibility/check.hpp"
+#include "logs/signals_from.hpp"
 #include "models/robot_model.hpp"
 #include "noise/reported_signals.hpp"
 #include "noise/sensor_profile.hpp"
@@ -297,6 +298,21 @@ std::vector<Damage> damages() {
       {"times in pairs",
        [](O& o, std::size_t k) { o.time = 1e-3 * static_cast<double>(k - k % 2); },
        "time: is that of the record before"},
+      {"a torque that stops",
+       [](O& o, std::size_t k) {
+         if (k > 2500) o.servo[1].torque = 0.0;
+       },
+       "left knee torque: repeats 0 from 2.5"},
+      {"torques that stop",
+       [](O& o, std::size_t k) {
+         for (models::ServoReading& servo : o.servo) servo.torque = k > 2500 ? 0.0 : servo.torque;
+       },
+       "right knee torque, right wheel torque: repeats 0 from 2.5"},
+      {"an accelerometer that stops",
+       [](O& o, std::size_t k) {
+         if (k > 2500) o.imu.linear_acceleration.z() = 0.125;
+       },
+       "acceleration z: repeats 0.125 from 2.5"},
       {"a step back",
        [](O& o, std::size_t k) {
          if (k > 2500) o.time -= 0.2;
@@ -396,6 +412,55 @@ TEST(PlausibilityCheck, NamesALoadThatIsTooSmallForARobotThatDrives) {
         check.add(record);
       }
       EXPECT_THAT(check.findings(), Contains(HasSubstr(finding))) << robot;
+    }
+  }
+}
+
+/// Legs that crouch while the robot drives, so that gains show, too.
+TEST(PlausibilityCheck, NamesTargetsThatDoNotGiveTheMeasuredTorques) {
+  using Targets = ServoTargets;
+  const auto of_legs = [](const std::function<void(JointTarget&)>& change) {
+    return [=](Targets& targets) {
+      for (LegTargets& leg : targets) {
+        change(leg.hip);
+        change(leg.knee);
+      }
+    };
+  };
+  const std::vector<std::pair<std::string, std::function<void(Targets&)>>> cases = {
+      {"", [](Targets&) {}},
+      {"probably have the other sign", of_legs([](JointTarget& t) { t.position *= -1.0; })},
+      {"in degrees", of_legs([](JointTarget& t) { t.position /= degree; })},
+      {"of the other leg",
+       [](Targets& targets) {
+         // Legs that mirror each other would have the other sign.
+         targets[0].hip.position += 0.5;
+         std::swap(targets[0], targets[1]);
+       }},
+      {"times the measured torques", of_legs([](JointTarget& t) {
+         t.kp *= 10.0;
+         t.kd *= 10.0;
+       })}};
+  for (const std::string simulator : {"mujoco", "bullet"}) {
+    for (const std::string sensors : {"ideal", "harsh"}) {
+      Recording run = scenarios::play(scenarios::find_scenario("scenarios/stairs.yaml"), simulator);
+      noise::report_through(noise::find_sensor_profile("noise/profiles/" + sensors + ".yaml"),
+                            {.seed = 7, .run = 0}, run.period(), run.observation);
+      for (const auto& [finding, change] : cases) {
+        PlausibilityCheck check(run.period());
+        StepSignals steps(1e3);
+        for (std::size_t k = 0; k < run.steps(); ++k) {
+          Targets targets = steps.next(run.observation[k], run.action[k]).target;
+          change(targets);
+          check.add(run.observation[k], targets);
+        }
+        const std::vector<std::string> lines = check.findings();
+        if (finding.empty()) {
+          EXPECT_THAT(lines, IsEmpty()) << simulator << ' ' << sensors;
+        } else {
+          EXPECT_THAT(lines, Contains(HasSubstr(finding))) << simulator << ' ' << sensors;
+        }
+      }
     }
   }
 }

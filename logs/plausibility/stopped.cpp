@@ -1,0 +1,61 @@
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "logs/plausibility/rules.hpp"
+#include "logs/signals_from.hpp"
+
+namespace touchdown::logs {
+
+void StoppedChannels::Channel::add(bool stops, double since, double at) {
+  if (stops && !is_stopped && stretches++ == 0) {
+    first = since;
+    value = at;
+  }
+  is_stopped = stops;
+}
+
+void StoppedChannels::add(const models::Observation& record) {
+  const Signals signals = signals_from(record, nullptr);
+  const std::uint32_t stopped = stopped_.update(signals);
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    channels_[i].add((stopped >> i & 1U) != 0, stopped_.since(i), stopped_.value(i));
+  }
+  const Eigen::Quaterniond& q = record.imu.orientation;
+  const double step = record.time - time_;
+  time_ = record.time;
+  constexpr double longest_step = 0.05;  // s
+  // Written so that NaN starts anew.
+  if (!(q.coeffs() == last_.coeffs() && step >= 0.0 && step < longest_step)) {
+    turned_.setZero();
+    since_ = time_;
+    last_ = q;
+  } else {
+    turned_ += step * record.imu.angular_velocity;
+  }
+  constexpr double after = 0.25;       // s
+  constexpr double least_turn = 0.25;  // rad/s: a biased gyroscope turns less
+  const double held = time_ - since_;
+  orientation_.add(held >= after && turned_.norm() > least_turn * held, since_, q.w());
+}
+
+void StoppedChannels::report(Findings& findings) const {
+  const auto add = [&](std::string_view subject, const Channel& channel, const std::string& value) {
+    if (channel.stretches == 0) return;
+    findings.add(subject, fmt::format("repeats {} from {:.6g} s on{} although the robot moves: did "
+                                      "the sensor, or its bus, drop out",
+                                      value, channel.first,
+                                      channel.stretches == 1 ? ""
+                                                             : fmt::format(" (first of {} times)",
+                                                                           channel.stretches)));
+  };
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    const Channel& channel = channels_[i];
+    // 0 is added to show −0 as 0.
+    add(to_text(static_cast<SignalIndex>(i)), channel, fmt::format("{:.6g}", channel.value + 0.0));
+  }
+  add("orientation", orientation_, "itself");
+}
+
+}  // namespace touchdown::logs
