@@ -1,5 +1,6 @@
 #include "estimator/stopped_signals.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -13,6 +14,8 @@ namespace {
 constexpr std::size_t joint_values = 18;  // position, velocity and torque of each; then the IMU's
 /// Of a joint that reports motion by its position or by its velocity, but not by the other (rad/s).
 constexpr double least_speed = 0.2;
+/// Between two comparisons (rad): one wrong value of the other is no motion.
+constexpr double largest_part = 0.04;
 /// Resting multiples of a resolution were near each other before.
 constexpr double largest_jump = 8.0;  // steps
 /// That shows the noise of a torque (s).
@@ -31,7 +34,7 @@ bool is_in(std::uint32_t bits, std::size_t signal) noexcept { return (bits >> si
 }  // namespace
 
 void StoppedSignals::start(const Values& values) noexcept {
-  last_ = before_ = values;
+  last_ = before_ = earlier_ = values;
   start_time_ = time_;
   step_.fill(std::numeric_limits<double>::infinity());
   largest_ = reversals_ = {};
@@ -86,6 +89,7 @@ void StoppedSignals::compare(const Signals& signals, double elapsed) noexcept {
     }
   }
   repeating_ = equal & changed_;
+  earlier_ = before_;
   before_ = last_;
   last_ = values;
   std::uint32_t stopped = 0;
@@ -102,12 +106,16 @@ void StoppedSignals::follow(std::size_t i, const Values& values, double elapsed)
   const bool is_velocity = i < joint_values && i % 3 == 1;
   if (!is_in(repeating_, i)) {
     since_[i] = time_ - elapsed;
-    jump_[i] = last_[i] - before_[i];
-    // A position that dies may jump to 0.
-    travel_[i] = is_position ? elapsed * last_[i + 1] - jump_[i] : 0.0;
+    const double change = last_[i] - before_[i];
+    // A dead signal may jump to 0; one that comes back from a wrong value jumps, too.
+    const bool is_jump = std::abs(before_[i] - earlier_[i]) < 0.5 * std::abs(change);
+    jump_[i] = is_jump ? change : 0.0;
+    travel_[i] = is_jump && is_position ? elapsed * last_[i + 1] - change : 0.0;
   }
-  if (is_position) travel_[i] += elapsed * values[i + 1];
-  if (is_velocity) travel_[i] += values[i - 1] - last_[i - 1] - elapsed * values[i];
+  const double moved = is_position   ? elapsed * values[i + 1]
+                       : is_velocity ? values[i - 1] - last_[i - 1] - elapsed * values[i]
+                                     : 0.0;
+  travel_[i] += std::clamp(within_turn(moved), -largest_part, largest_part);
 }
 
 /// Whether a signal is a multiple of a resolution that did not jump, and larger than its noise.

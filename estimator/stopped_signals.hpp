@@ -60,7 +60,8 @@ class StoppedSignals {
   std::uint32_t repeating_ = 0;  ///< signals that repeat themselves
   std::uint32_t stopped_ = 0;
   Values last_{};
-  Values before_{};        ///< at the comparison before it
+  Values before_{};        ///< at the comparison before it …
+  Values earlier_{};       ///< … and before that
   double compared_ = 0.0;  ///< times since the start
   // Of torques, accelerations and angular velocities:
   Noisy largest_{};    ///< sizes

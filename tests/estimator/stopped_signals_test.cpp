@@ -128,6 +128,12 @@ TEST(StoppedSignals, HealthySignalsThatRepeatThemselvesAreNoFaults) {
          for (std::size_t i = 0; t > 1.0 && i < 18; i += 3) v[i] = 1.0 + std::sin(2.0);
          for (std::size_t i = 1; t > 1.0 && i < 18; i += 3) v[i] = 0.0;
        }},
+      {"one wrong value before a rest",
+       [](double t, Values& v) {
+         for (std::size_t i = 0; i < 18; i += 3) v[i] = t < 1.0 ? 1.0 + t : 2.0;
+         for (std::size_t i = 1; i < 18; i += 3) v[i] = t < 1.0 ? 1.0 : 0.0;
+         if (t > 1.5 && t < 1.53) v[0] = v[3] = 0.0;
+       }},
       {"wheels at one speed, reported within a turn",
        [](double t, Values& v) {
          v[7] = v[16] = t > 1.0 ? 30.0 : v[7];
