@@ -21,6 +21,9 @@ constexpr std::array<const char*, 10> imu_fields = {
     "angular_velocity.x",    "angular_velocity.y",   "angular_velocity.z", "linear_acceleration.x",
     "linear_acceleration.y", "linear_acceleration.z"};
 
+/// A header without a stamp was sent now, unless the clock is a simulation's, which starts at zero.
+constexpr double longest_delay = 60.0;  // s
+
 double seconds(std::int64_t nanoseconds) {
   constexpr std::int64_t second = 1'000'000'000;
   const std::int64_t whole = nanoseconds / second;
@@ -42,6 +45,18 @@ std::vector<std::string> SignalTopic::columns() const {
   }
   if (type == imu_type) names.insert(names.end(), imu_fields.begin(), imu_fields.end());
   return names;
+}
+
+/// Messages of one robot are recorded about as long after their stamps, whatever their topic.
+std::vector<std::string> clock_notes(const SignalTopic& topic, const SignalTopic& joints) {
+  constexpr double most = SignalGuardConfig{}.maximum_gap;
+  const double ahead = joints.stamp_delay - topic.stamp_delay;
+  // A simulation's clock has another rate, too.
+  if (!(std::abs(joints.stamp_delay) < longest_delay && std::abs(ahead) > most)) return {};
+  return {fmt::format(
+      "{}: its stamps are {:.3g} s {} those of {} by the times of recording: are they of another "
+      "computer's clock? `time: {{from: log_time}}` takes the times of recording",
+      topic.name, std::abs(ahead), ahead > 0.0 ? "ahead of" : "behind", joints.name)};
 }
 
 TopicRows::TopicRows(SignalTopic topic, const std::vector<std::string>& columns,

@@ -20,9 +20,6 @@ namespace touchdown::logs {
 inline constexpr const char* stamp_column = "header.stamp";
 inline constexpr const char* log_time_column = "log_time";
 
-/// A header without a stamp was sent now, unless the clock is a simulation's, which starts at zero.
-inline constexpr double longest_delay = 60.0;  // s
-
 /// A topic of sensor_msgs/msg/JointState or sensor_msgs/msg/Imu as the beginning of a bag shows it.
 struct SignalTopic {
   std::string name;
@@ -39,6 +36,9 @@ struct SignalTopic {
   /// NAME/velocity, NAME/effort for each joint; or orientation.x, …, linear_acceleration.z.
   std::vector<std::string> columns() const;
 };
+
+/// A line if the stamps of a topic are of another clock than those of the joints, else none.
+std::vector<std::string> clock_notes(const SignalTopic& topic, const SignalTopic& joints);
 
 /// Decodes the messages of one topic to rows of selected columns.
 class TopicRows {

@@ -323,7 +323,11 @@ class JoinedBag final : public JoinedSource {
     if (lacks_stamps_) {
       notes.emplace_back("stamps are zero: the times of recording are used instead");
     }
-    for (std::size_t i = 0; i < topics_.size() && !uses_log_time_; ++i) note_delay(i, notes);
+    for (std::size_t i = 0; i < topics_.size() && !lacks_stamps_ && !uses_log_time_; ++i) {
+      for (std::string& note : clock_notes(topics_[i], topics_[clock()])) {
+        notes.push_back(std::move(note));
+      }
+    }
     for (const TopicRows& one : rows_) {
       for (std::string& note : one.notes()) notes.push_back(std::move(note));
     }
@@ -370,20 +374,6 @@ class JoinedBag final : public JoinedSource {
       }
     }
     return true;
-  }
-
-  /// Messages of one robot are recorded about as long after their stamps, whatever their topic.
-  void note_delay(std::size_t i, std::vector<std::string>& notes) const {
-    constexpr double most = SignalGuardConfig{}.maximum_gap;
-    const double delay = topics_[clock()].stamp_delay;
-    const double ahead = delay - topics_[i].stamp_delay;
-    // A simulation's clock has another rate, too.
-    if (lacks_stamps_ || !(std::abs(delay) < longest_delay) || !(std::abs(ahead) > most)) return;
-    notes.push_back(fmt::format(
-        "{}: its stamps are {:.3g} s {} those of {} by the times of recording: are they of another "
-        "computer's clock? `time: {{from: log_time}}` takes the times of recording",
-        names_[i].file, std::abs(ahead), ahead > 0.0 ? "ahead of" : "behind",
-        names_[clock()].file));
   }
 
   const std::atomic<bool>* stop_;

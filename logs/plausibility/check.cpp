@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "logs/plausibility/findings.hpp"
 #include "logs/plausibility/rules.hpp"
 
 namespace touchdown::logs {

@@ -14,29 +14,13 @@
 #include "estimator/force/leg_geometry.hpp"
 #include "estimator/signal_bounds.hpp"
 #include "estimator/stopped_signals.hpp"
+#include "logs/plausibility/findings.hpp"
 #include "models/robot.hpp"
 
 namespace touchdown::logs {
 
 /// The commands that the servos executed when a record was measured. NaN: not known.
 using ServoTargets = std::array<LegTargets, 2>;
-
-/// What is implausible about a log: one line per finding. Subjects with the same finding share its
-/// line: "left_knee, right_knee: torque is 0 throughout".
-class Findings {
- public:
-  void add(std::string_view subject, const std::string& finding);
-
-  /// In the order in which the findings were added.
-  std::vector<std::string> lines() const;
-
- private:
-  struct Finding {
-    std::string text;
-    std::vector<std::string> subjects;
-  };
-  std::vector<Finding> findings_;
-};
 
 /// Means of consecutive records over a tenth of a second. It is long enough to average noise and
 /// resolution, and short enough to follow the motion of a robot. Values are NaN if one of the
