@@ -81,9 +81,20 @@ const Signals& SignalAssembler::assemble(const RobotRecord& record) noexcept {
   signals_ = signals_of(record, config_, imu);
   faults_ = {};
   watch_clock();
-  if (stopped_.update(signals_) != 0) faults_.add(RecordFault::signal_stopped);
+  // Removing gravity moves an acceleration that stopped: the chip's own one is compared.
+  Eigen::Vector3d measured = imu.proper_acceleration;
+  if (measured.hasNaN()) measured = signals_.linear_acceleration;
+  measured.swap(signals_.linear_acceleration);
+  const std::uint32_t stopped = stopped_.update(signals_);
+  measured.swap(signals_.linear_acceleration);
+  if (stopped != 0) faults_.add(RecordFault::signal_stopped);
   watch_joints();
   watch_imu(imu);
+  constexpr std::uint32_t acceleration = 7U << 18U;
+  if ((stopped & acceleration) != 0) {
+    signals_.linear_acceleration.setConstant(not_reported);
+    signals_.vertical_acceleration = not_reported;
+  }
   started_ = true;
   for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += (faults_.bits >> i) & 1U;
   return signals_;

@@ -187,6 +187,7 @@ class StoppedChannels {
   };
 
   StoppedSignals stopped_;
+  StoppedSignals proper_;                  ///< with the accelerations before gravity is removed
   std::array<Channel, 24> channels_ = {};  ///< of joints and IMU
   Channel orientation_;
   Eigen::Quaterniond last_ = Eigen::Quaterniond::Identity();

@@ -17,10 +17,14 @@ void StoppedChannels::Channel::add(bool stops, double since, double at) {
 }
 
 void StoppedChannels::add(const models::Observation& record) {
-  const Signals signals = signals_from(record, nullptr);
+  Signals signals = signals_from(record, nullptr);
   const std::uint32_t stopped = stopped_.update(signals);
+  // Removing gravity moves an acceleration that stopped.
+  signals.linear_acceleration = record.imu.raw_linear_acceleration;
+  const std::uint32_t measured = proper_.update(signals);
   for (std::size_t i = 0; i < channels_.size(); ++i) {
-    channels_[i].add((stopped >> i & 1U) != 0, stopped_.since(i), stopped_.value(i));
+    const StoppedSignals& which = (stopped >> i & 1U) != 0 ? stopped_ : proper_;
+    channels_[i].add(((stopped | measured) >> i & 1U) != 0, which.since(i), which.value(i));
   }
   const Eigen::Quaterniond& q = record.imu.orientation;
   const double step = record.time - time_;

@@ -247,6 +247,29 @@ TEST(SignalAssembler, ReportsATorqueThatStopsAlone) {
   EXPECT_EQ(assembler.count(RecordFault::joint_stale), 0U);
 }
 
+/// The orientation turns, and so does the gravity that is removed.
+TEST(SignalAssembler, LeavesOutAnAccelerationThatStopsBeforeGravityIsRemoved) {
+  for (const bool stops : {false, true}) {
+    AssemblyConfig config;
+    config.acceleration = AccelerationSource::proper;
+    SignalAssembler assembler(config);
+    Robot robot;
+    Signals signals;
+    for (int k = 0; k < 1000; ++k) {
+      RobotRecord record = robot.record(1e-3 * k);
+      record.angular_velocity = Eigen::Vector3d::Random();
+      record.orientation = wxyz(Eigen::AngleAxisd(1e-4 * k, Eigen::Vector3d::UnitX()) *
+                                Eigen::Quaterniond(upright[0], upright[1], upright[2], upright[3]));
+      record.proper_acceleration += 0.1 * Eigen::Vector3d::Random();
+      if (stops && k >= 600) record.proper_acceleration.z() = -g;
+      signals = assembler.assemble(record);
+      EXPECT_FALSE(k < 800 && assembler.faults().has(RecordFault::signal_stopped)) << k;
+    }
+    EXPECT_EQ(assembler.faults().has(RecordFault::signal_stopped), stops);
+    EXPECT_EQ(std::isnan(signals.vertical_acceleration), stops);
+  }
+}
+
 TEST(SignalAssembler, ReportsFaultsOfTheClock) {
   SignalAssembler assembler;
   Robot robot;
