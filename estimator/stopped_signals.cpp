@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t joint_values = 18;  // position, velocity and torque of each; then the IMU's
 /// Of a joint that reports motion by its position or by its velocity, but not by the other (rad/s).
-constexpr double least_speed = 0.2;
+/// Servos report velocities in steps of up to 0.1 turns/s.
+constexpr double least_speed = 0.35;
 /// Between two comparisons (rad): one wrong value of the other is no motion.
 constexpr double largest_part = 0.04;
 /// Resting multiples of a resolution were near each other before.
