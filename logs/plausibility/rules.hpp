@@ -250,8 +250,11 @@ class ServoLawCheck {
   struct Joint {
     int windows = 0;
     std::array<int, 4> apart = {};  ///< windows in which the torques differ, as `CheckedWindow`
-    Eigen::Vector2d sum = Eigen::Vector2d::Zero();  ///< of the law's and the measured torque
-    Eigen::Matrix2d products = Eigen::Matrix2d::Zero();
+    /// Of the law's torque, the measured one, and that of the same leg's knee or hip.
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+
+    Eigen::Matrix3d spread() const;
   };
   std::array<Joint, models::servo_count> joints_ = {};
 };

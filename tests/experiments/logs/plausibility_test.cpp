@@ -313,6 +313,14 @@ std::vector<Damage> damages() {
          if (k > 2500) o.imu.linear_acceleration.z() = 0.125;
        },
        "acceleration z: repeats 0.125 from 2.5"},
+      {"one that stops before gravity is removed",
+       [](O& o, std::size_t k) {
+         Eigen::Vector3d& measured = o.imu.raw_linear_acceleration;
+         const Eigen::Vector3d gravity = o.imu.linear_acceleration - measured;
+         if (k > 2500) measured.z() = -9.75;
+         o.imu.linear_acceleration = measured + gravity;
+       },
+       "acceleration z: repeats -9.75 from 2.5"},
       {"a step back",
        [](O& o, std::size_t k) {
          if (k > 2500) o.time -= 0.2;
@@ -461,6 +469,18 @@ TEST(PlausibilityCheck, NamesTargetsThatDoNotGiveTheMeasuredTorques) {
           EXPECT_THAT(lines, Contains(HasSubstr(finding))) << simulator << ' ' << sensors;
         }
       }
+      PlausibilityCheck check(run.period());
+      StepSignals steps(1e3);
+      for (std::size_t k = 0; k < run.steps(); ++k) {
+        models::Observation record = run.observation[k];
+        const Targets targets = steps.next(record, run.action[k]).target;
+        for (const std::size_t hip : {0U, 3U}) {
+          std::swap(record.servo[hip].torque, record.servo[hip + 1].torque);
+        }
+        check.add(record, targets);
+      }
+      EXPECT_THAT(check.findings(), Contains(HasSubstr("the knee at the hip by the servo's law")))
+          << simulator << ' ' << sensors;
     }
   }
 }
