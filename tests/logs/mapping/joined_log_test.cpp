@@ -399,7 +399,8 @@ TEST_F(JoinedLog, AClockAheadOrBehindIsNamedByTheTimesOfRecording) {
     convert(write_bag(bag), bag_mapping + more);
     return fmt::format("{}", fmt::join(converted_.notes, "\n"));
   };
-  EXPECT_THAT(notes(1.0), HasSubstr("/imu: its stamps are 0.995 s ahead of those of /joint_states"));
+  EXPECT_THAT(notes(1.0),
+              HasSubstr("/imu: its stamps are 0.995 s ahead of those of /joint_states"));
   EXPECT_THAT(notes(0.2), HasSubstr("ahead of those of /joint_states"));
   EXPECT_THAT(notes(-0.2), HasSubstr("behind those of /joint_states"));
   for (const double small : {0.0, 0.012, -0.012}) {
