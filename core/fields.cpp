@@ -1,13 +1,8 @@
 #include "core/fields.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <vector>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include "core/yaml.hpp"
 
 namespace touchdown {
 

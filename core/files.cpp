@@ -10,7 +10,6 @@
 #include <random>
 #include <regex>
 #include <sys/stat.h>
-#include <system_error>
 #include <unistd.h>
 
 #include <fmt/format.h>

@@ -1,7 +1,5 @@
 #include "core/terminal_text.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 namespace touchdown {

@@ -7,12 +7,10 @@
 #include <numeric>
 #include <set>
 #include <sstream>
-#include <vector>
 
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/terminal_text.hpp"
 

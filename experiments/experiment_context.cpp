@@ -1,7 +1,6 @@
 #include "experiments/experiment_context.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <set>
 #include <thread>
 

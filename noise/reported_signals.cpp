@@ -6,7 +6,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <span>
 
 #include "noise/sensor_chain.hpp"
 

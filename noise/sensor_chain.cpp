@@ -1,7 +1,5 @@
 #include "noise/sensor_chain.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "core/random.hpp"

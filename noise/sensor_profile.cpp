@@ -1,7 +1,6 @@
 #include "noise/sensor_profile.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <sstream>

@@ -1,8 +1,5 @@
 #include "scoring/score.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "core/error.hpp"

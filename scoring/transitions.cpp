@@ -1,6 +1,5 @@
 #include "scoring/transitions.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

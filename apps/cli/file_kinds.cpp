@@ -1,14 +1,11 @@
 #include "apps/cli/file_kinds.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "apps/training/config/training.hpp"
 #include "core/error.hpp"
 #include "core/fields.hpp"
-#include "experiments/config/experiment.hpp"
 #include "experiments/studies/experiment_file.hpp"
 #include "logs/mapping/mapping.hpp"
 #include "noise/sensor_profile.hpp"

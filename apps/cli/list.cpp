@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <sstream>
 
-#include <fmt/format.h>
-
 #include "apps/cli/verb.hpp"
 #include "core/files.hpp"
 #include "core/program.hpp"

@@ -1,6 +1,5 @@
 #include <cstdlib>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <unistd.h>
 #include <vector>

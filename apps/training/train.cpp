@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cmath>
 #include <dlfcn.h>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <torch/version.h>
@@ -13,7 +12,6 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
-#include "apps/training/rollout.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/fingerprint.hpp"

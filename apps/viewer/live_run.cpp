@@ -4,15 +4,11 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <span>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "logs/signals_from.hpp"
 #include "scenarios/engine.hpp"
-#include "scenarios/rollout.hpp"
 #include "scoring/labels.hpp"
 
 namespace touchdown::viewer {

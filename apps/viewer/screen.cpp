@@ -7,14 +7,12 @@
 #include <iterator>
 #include <map>
 #include <thread>
-#include <utility>
 
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
-#include "render/film/plots.hpp"
 
 namespace touchdown::viewer {
 

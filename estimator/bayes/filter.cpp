@@ -1,6 +1,5 @@
 #include "estimator/bayes/filter.hpp"
 
-#include <cmath>
 #include <utility>
 
 namespace touchdown {

@@ -1,6 +1,5 @@
 #include "estimator/bayes/transition_model.hpp"
 
-#include <cmath>
 #include <string>
 
 #include "core/error.hpp"

@@ -1,8 +1,5 @@
 #include "estimator/decision/feature_extractor.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include <Eigen/Core>
 
 #include "estimator/force/servo_law.hpp"

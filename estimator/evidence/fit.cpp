@@ -1,9 +1,7 @@
 #include "estimator/evidence/fit.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>

@@ -1,7 +1,6 @@
 #include "estimator/force/wheel_loads.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "estimator/low_pass.hpp"
 

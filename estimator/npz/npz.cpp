@@ -6,11 +6,8 @@
 #include <cstring>
 #include <memory>
 #include <new>
-#include <span>
 #include <system_error>
 #include <zip.h>
-
-#include "core/error.hpp"
 
 namespace touchdown {
 

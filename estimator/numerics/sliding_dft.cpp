@@ -1,8 +1,6 @@
 #include "estimator/numerics/sliding_dft.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <numbers>
 #include <string>
 #include <type_traits>

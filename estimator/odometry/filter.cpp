@@ -7,8 +7,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "core/error.hpp"
-
 namespace touchdown::odometry {
 
 namespace {

@@ -1,11 +1,8 @@
 #include "estimator/phase/prepared_model.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
-
-#include <Eigen/Core>
 
 #include "core/error.hpp"
 

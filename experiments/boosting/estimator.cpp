@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "experiments/boosting/inputs.hpp"
 
 namespace touchdown::experiments {
 

@@ -1,13 +1,11 @@
 #include "experiments/config/experiment_yaml.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "core/fields.hpp"
 #include "core/files.hpp"
 #include "core/resources.hpp"
 #include "experiments/estimators/registry.hpp"

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <set>
-#include <string>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -9,12 +9,10 @@
 #include "core/error.hpp"
 #include "core/yaml.hpp"
 #include "estimator/bayes/measurement_fit.hpp"
-#include "estimator/models/parameters.hpp"
 #include "estimator/signal_bounds.hpp"
 #include "estimator/signal_guard.hpp"
 #include "experiments/estimators/fit_runs.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
-#include "experiments/signals/run_signals.hpp"
 #include "scoring/score.hpp"
 
 namespace touchdown::experiments {

@@ -1,7 +1,6 @@
 #include "experiments/estimators/registry.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
 #include "experiments/evaluation/tasks.hpp"
 
-#include <algorithm>
 #include <atomic>
 
 #include <fmt/format.h>

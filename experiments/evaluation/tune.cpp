@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <map>
-#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,7 +12,6 @@
 #include "core/fingerprint.hpp"
 #include "core/progress.hpp"
 #include "core/random.hpp"
-#include "experiments/config/experiment.hpp"
 #include "experiments/plan/plan.hpp"
 #include "experiments/signals/estimator_runner.hpp"
 

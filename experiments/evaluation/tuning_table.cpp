@@ -2,7 +2,6 @@
 
 #include <iterator>
 #include <sstream>
-#include <string>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,7 +11,6 @@
 #include "core/table.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "experiments/figures/figure_spec.hpp"
 #include "experiments/plan/plan.hpp"
 #include "simulators/registry.hpp"
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <map>
-#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,7 +10,6 @@
 #include "core/error.hpp"
 #include "core/progress.hpp"
 #include "core/random.hpp"
-#include "experiments/config/experiment.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 
 namespace touchdown::experiments {

@@ -5,7 +5,6 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/entry.hpp"

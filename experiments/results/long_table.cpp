@@ -8,7 +8,6 @@
 
 #include "core/files.hpp"
 #include "core/rows.hpp"
-#include "experiments/run_directory/directory.hpp"
 
 namespace touchdown::experiments {
 

@@ -1,6 +1,5 @@
 #include "experiments/results/result_files.hpp"
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -9,7 +8,6 @@
 #include <thread>
 #include <unistd.h>
 
-#include <Eigen/Core>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
@@ -19,7 +17,6 @@
 #include "core/fingerprint.hpp"
 #include "estimator/evidence/channels.hpp"
 #include "experiments/estimators/entries.hpp"
-#include "experiments/estimators/registry.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/results/scores.hpp"

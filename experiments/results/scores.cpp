@@ -1,12 +1,6 @@
 #include "experiments/results/scores.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
-
-#include "experiments/estimators/registry.hpp"
 
 namespace touchdown::experiments {
 

@@ -2,8 +2,6 @@
 
 #include <set>
 
-#include <fmt/format.h>
-
 #include "core/files.hpp"
 #include "core/resources.hpp"
 #include "core/table.hpp"

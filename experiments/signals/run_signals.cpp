@@ -1,8 +1,5 @@
 #include "experiments/signals/run_signals.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "core/error.hpp"

@@ -6,7 +6,6 @@
 
 #include "core/error.hpp"
 #include "core/rows.hpp"
-#include "experiments/results/captions.hpp"
 #include "experiments/results/odometry.hpp"
 #include "experiments/results/scores.hpp"
 #include "experiments/studies/closed_loop.hpp"

@@ -1,7 +1,6 @@
 #include "experiments/studies/moments.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>

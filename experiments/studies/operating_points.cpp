@@ -11,7 +11,6 @@
 
 #include "core/rows.hpp"
 #include "experiments/config/experiment_yaml.hpp"
-#include "experiments/estimators/registry.hpp"
 #include "experiments/evaluation/joint_bootstrap.hpp"
 #include "experiments/figures/figure_spec.hpp"
 #include "experiments/results/captions.hpp"

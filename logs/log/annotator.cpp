@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "core/error.hpp"
-#include "logs/log/packing.hpp"
 
 namespace touchdown::logs {
 

@@ -1,7 +1,6 @@
 #include "logs/log/byte_source.hpp"
 
 #include <cerrno>
-#include <cstring>
 #include <fcntl.h>
 #include <memory>
 #include <poll.h>

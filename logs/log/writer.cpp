@@ -1,7 +1,6 @@
 #include "logs/log/writer.hpp"
 
 #include "core/error.hpp"
-#include "logs/log/packing.hpp"
 
 namespace touchdown::logs {
 

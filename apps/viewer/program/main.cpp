@@ -1,9 +1,7 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,7 +15,6 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/program.hpp"
-#include "core/progress.hpp"
 #include "core/resources.hpp"
 #include "experiments/config/yaml_kind.hpp"
 #include "experiments/logs/log_steps.hpp"
