@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "core/error.hpp"
@@ -12,7 +11,6 @@
 #include "estimator/decision/filter.hpp"
 #include "estimator/evidence/filter.hpp"
 #include "estimator/models/configuration.hpp"
-#include "estimator/models/model.hpp"
 #include "estimator/models/parameters.hpp"
 #include "estimator/phase/filter.hpp"
 
@@ -45,6 +43,10 @@ std::shared_ptr<const PhaseModel> phase_of(const Model& model) {
                      : std::make_shared<const PhaseModel>(phase_model_of(model.arrays));
 }
 
+std::shared_ptr<const NeuralNetwork> network_of(const Model& model) {
+  return std::make_shared<const NeuralNetwork>(neural_network_of(model.arrays));
+}
+
 template <typename Config>
 Config configured(Config config, const EstimatorSettings& settings) {
   config.sample_rate = settings.sample_rate;
@@ -64,68 +66,45 @@ BayesFilterConfig configured(BayesFilterConfig config, const EstimatorSettings& 
   return at_rate(config, settings.sample_rate);
 }
 
+/// An estimator of a model's numbers, which `numbers_of` reads. `usual` is its configuration on
+/// Upkie at the library's rate.
+template <typename Estimator, auto numbers_of, typename Config>
+Recipe recipe_of(std::string_view name, std::string_view fit, const Config& usual) {
+  return {name, fit,
+          [usual](double rate, const LegGeometry& legs, bool servo_load) {
+            Config config = usual;
+            if constexpr (requires { config.transition; }) config = at_rate(config, rate);
+            if constexpr (requires { config.geometry; }) config.geometry = legs;
+            if constexpr (requires { config.servo_load; }) config.servo_load = servo_load;
+            return text_of(config);
+          },
+          [usual](const Model& model, const EstimatorSettings& settings) -> Made {
+            return std::make_unique<Estimator>(numbers_of(model), configured(usual, settings));
+          }};
+}
+
+/// The same for models that consist of an estimator's own parameters.
+template <auto model_of>
+auto of_parameters(const Model& model) {
+  return model_of(parameters_of(model.arrays));
+}
+
 template <typename Estimator>
 Recipe of_torques(std::string_view name, std::string_view fit, const BayesFilterConfig& config) {
-  return {name, fit,
-          [config](double rate, const LegGeometry& /*legs*/, bool /*servo_load*/) {
-            return text_of(at_rate(config, rate));
-          },
-          [config](const Model& model, const EstimatorSettings& settings) -> Made {
-            return std::make_unique<Estimator>(grid_of(model), configured(config, settings));
-          }};
+  return recipe_of<Estimator, grid_of>(name, fit, config);
 }
 
 Recipe of_phases(std::string_view name) {
-  return {name, name,
-          [](double /*rate*/, const LegGeometry& /*legs*/, bool /*servo_load*/) {
-            return text_of(PhaseFilterConfig{});
-          },
-          [](const Model& model, const EstimatorSettings& settings) -> Made {
-            return std::make_unique<PhaseFilter>(phase_of(model),
-                                                 configured(PhaseFilterConfig{}, settings));
-          }};
-}
-
-template <typename Estimator, typename Config, auto model_of>
-Recipe of_parameters(std::string_view name) {
-  return {name, name,
-          [](double /*rate*/, const LegGeometry& legs, bool /*servo_load*/) {
-            return text_of(Config{.geometry = legs});
-          },
-          [](const Model& model, const EstimatorSettings& settings) -> Made {
-            return std::make_unique<Estimator>(model_of(parameters_of(model.arrays)),
-                                               configured(Config{}, settings));
-          }};
+  return recipe_of<PhaseFilter, phase_of>(name, name, PhaseFilterConfig{});
 }
 
 /// An estimator on the features of loads and motions, at one of its operating points. The fit is
 /// the same for all points.
 template <typename Estimator, auto model_of>
 Recipe of_decisions(std::string_view name, std::string_view fit, const OperatingPoint& point) {
-  const DecisionConfig usual{.leave_below = point.leave_below, .return_above = point.return_above};
-  return {name, fit,
-          [usual](double /*rate*/, const LegGeometry& legs, bool servo_load) {
-            DecisionConfig config = usual;
-            config.geometry = legs;
-            config.servo_load = servo_load;
-            return text_of(config);
-          },
-          [usual](const Model& model, const EstimatorSettings& settings) -> Made {
-            return std::make_unique<Estimator>(model_of(parameters_of(model.arrays)),
-                                               configured(usual, settings));
-          }};
-}
-
-Recipe of_neural_network() {
-  return {"nmn", "nmn",
-          [](double /*rate*/, const LegGeometry& /*legs*/, bool /*servo_load*/) {
-            return text_of(NeuralEstimatorConfig{});
-          },
-          [](const Model& model, const EstimatorSettings& settings) -> Made {
-            return std::make_unique<NeuralEstimator>(
-                std::make_shared<const NeuralNetwork>(neural_network_of(model.arrays)),
-                configured(NeuralEstimatorConfig{}, settings));
-          }};
+  return recipe_of<Estimator, of_parameters<model_of>>(
+      name, fit,
+      DecisionConfig{.leave_below = point.leave_below, .return_above = point.return_above});
 }
 
 const std::vector<Recipe>& recipes() {
@@ -140,9 +119,9 @@ const std::vector<Recipe>& recipes() {
         of_phases("phase"),
         of_phases("hmm"),
         of_phases("hmm_without_memory"),
-        of_neural_network(),
-        of_parameters<ForceKinematics, ForceKinematicsConfig, force_kinematics_model_of>(
-            "force_kinematics"),
+        recipe_of<NeuralEstimator, network_of>("nmn", "nmn", NeuralEstimatorConfig{}),
+        recipe_of<ForceKinematics, of_parameters<force_kinematics_model_of>>(
+            "force_kinematics", "force_kinematics", ForceKinematicsConfig{}),
         of_decisions<DecisionNetwork, decision_model_of>("decision_network", "decision_network",
                                                          network_point),
         of_decisions<EvidenceCurves, evidence_curve_sets_of>("evidence_curves", curves_fit,
