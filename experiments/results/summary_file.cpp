@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "experiments/results/json_table.hpp"
 #include "experiments/results/result.hpp"
 #include "experiments/run_directory/own_files.hpp"
 
@@ -130,6 +128,31 @@ Summary read_summary(const fs::path& run_directory) {
                                  file.string()));
   }
   return summary;
+}
+
+nlohmann::ordered_json json_of(const Table& table) {
+  auto rows = nlohmann::ordered_json::array();
+  for (const std::vector<Cell>& cells : table.rows) {
+    nlohmann::ordered_json row;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      auto& value = row[table.columns[i].name];
+      if (const auto* const text = std::get_if<std::string>(&cells[i])) {
+        value = *text;
+      } else if (const auto* const count = std::get_if<std::int64_t>(&cells[i])) {
+        value = static_cast<double>(*count);
+      } else if (std::isfinite(std::get<double>(cells[i]))) {
+        value = std::get<double>(cells[i]);
+      }
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::string reason_of(const nlohmann::json::exception& error) {
+  const std::string text = error.what();  // "[json.exception.type_error.302] type must be …"
+  const std::size_t number_end = text.find("] ");
+  return number_end == std::string::npos ? text : text.substr(number_end + 2);
 }
 
 }  // namespace experiments

@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "core/table.hpp"
 #include "experiments/evaluation/summary.hpp"
 #include "experiments/plan/rollouts.hpp"
 #include "experiments/results/scores.hpp"
@@ -38,5 +40,11 @@ void write_summary(const Summary& summary, const std::filesystem::path& run_dire
 
 /// Errors: `InputError` when the file is broken or missing; older programs did not write it.
 Summary read_summary(const std::filesystem::path& run_directory);
+
+/// A list of its rows, each an object by column; undefined numbers are null.
+nlohmann::ordered_json json_of(const Table& table);
+
+/// What is wrong with a JSON file, without the library's own number of the error.
+std::string reason_of(const nlohmann::json::exception& error);
 
 }  // namespace touchdown::experiments

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,8 +9,8 @@
 #include "core/rows.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/results/captions.hpp"
-#include "experiments/results/json_table.hpp"
 #include "experiments/results/scores.hpp"
+#include "experiments/results/summary_file.hpp"
 #include "experiments/studies/benchmark.hpp"
 
 namespace touchdown::experiments {

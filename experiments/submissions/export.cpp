@@ -12,7 +12,6 @@
 #include "core/resources.hpp"
 #include "core/table.hpp"
 #include "experiments/config/yaml_kind.hpp"
-#include "experiments/plan/rollouts.hpp"
 #include "experiments/results/scores.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/studies/experiment_file.hpp"

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <set>
-#include <vector>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -23,8 +21,7 @@
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/studies/benchmark.hpp"
 #include "experiments/studies/experiment_file.hpp"
-#include "experiments/submissions/exported_runs.hpp"
-#include "logs/log/beliefs.hpp"
+#include "experiments/submissions/export.hpp"
 
 namespace touchdown::experiments {
 

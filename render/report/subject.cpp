@@ -4,8 +4,8 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "experiments/results/json_table.hpp"
 #include "experiments/results/result_files.hpp"
+#include "experiments/results/summary_file.hpp"
 #include "experiments/studies/experiment_file.hpp"
 
 namespace touchdown::render {

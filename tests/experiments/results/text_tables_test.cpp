@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "experiments/results/json_table.hpp"
+#include "experiments/results/summary_file.hpp"
 
 namespace touchdown::experiments {
 namespace {
