@@ -1,8 +1,10 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <string>
 
+#include "core/error.hpp"
 #include "experiments/results/result.hpp"
 #include "logs/recording.hpp"
 
@@ -26,5 +28,11 @@ std::string drop_text(const experiments::Experiment& experiment,
 
 /// Draws a figure. If an engine's run lacks what it shows, prints the reason instead of throwing.
 void draw_if_possible(const std::function<void()>& draw);
+
+/// Called between two figures or frames. Throws `Stopped` once the user has asked to stop; `stop`
+/// may be null.
+inline void stop_if_asked(const std::atomic<bool>* stop) {
+  if (stop != nullptr && *stop) throw Stopped();
+}
 
 }  // namespace touchdown::render

@@ -15,8 +15,6 @@
 #include "render/figures/figures.hpp"
 #include "render/figures/iso_lines.hpp"
 #include "render/gnuplot/frame.hpp"
-#include "render/gnuplot/text.hpp"
-#include "render/stop.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {

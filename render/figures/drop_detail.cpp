@@ -8,9 +8,7 @@
 #include "render/figures/chosen_run.hpp"
 #include "render/figures/figures.hpp"
 #include "render/gnuplot/frame.hpp"
-#include "render/gnuplot/text.hpp"
 #include "render/palette.hpp"
-#include "render/stop.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {

@@ -8,7 +8,6 @@
 #include "render/figures/figures.hpp"
 #include "render/figures/iso_lines.hpp"
 #include "render/gnuplot/frame.hpp"
-#include "render/gnuplot/text.hpp"
 #include "render/palette.hpp"
 
 namespace touchdown::render {

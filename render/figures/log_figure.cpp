@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "render/gnuplot/text.hpp"
+#include "render/gnuplot/figure.hpp"
 
 namespace touchdown::render {
 

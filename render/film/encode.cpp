@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <png.h>
-#include <string>
 #include <sys/mman.h>
 #include <turbojpeg.h>
 #include <unistd.h>

@@ -7,9 +7,6 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
-#include "render/film/scene_view.hpp"
-#include "render/film/strip.hpp"
-
 namespace touchdown::render {
 
 namespace {

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <optional>
 #include <string_view>
 #include <tuple>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "experiments/figures/figure_spec.hpp"
-#include "render/gnuplot/text.hpp"
+#include "render/gnuplot/figure.hpp"
 #include "render/palette.hpp"
 
 namespace touchdown::render {

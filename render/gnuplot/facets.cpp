@@ -5,15 +5,12 @@
 #include <cstddef>
 #include <map>
 #include <set>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "experiments/figures/figure_spec.hpp"
 #include "render/gnuplot/facet_script.hpp"
 #include "render/gnuplot/frame.hpp"
-#include "render/gnuplot/text.hpp"
 
 namespace touchdown::render {
 

@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "render/gnuplot/text.hpp"
-
 namespace touchdown::render {
 
 namespace {

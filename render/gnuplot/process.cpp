@@ -8,8 +8,6 @@
 #include <fstream>
 #include <map>
 #include <sstream>
-#include <string>
-#include <string_view>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -21,7 +19,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "render/gnuplot/text.hpp"
+#include "render/gnuplot/figure.hpp"
 
 namespace touchdown::render {
 

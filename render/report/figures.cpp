@@ -8,9 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "experiments/estimators/registry.hpp"
 #include "experiments/results/captions.hpp"
-#include "render/figures/error_scale.hpp"
 #include "render/gnuplot/figure.hpp"
 #include "render/report/sections.hpp"
 #include "simulators/registry.hpp"

@@ -4,8 +4,6 @@
 #include <memory>
 #include <optional>
 
-#include <fmt/format.h>
-
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/progress.hpp"
@@ -17,8 +15,8 @@
 #include "experiments/plan/condition.hpp"
 #include "experiments/plan/request.hpp"
 #include "logs/log/recording_file.hpp"
+#include "render/figures/chosen_run.hpp"
 #include "render/palette.hpp"
-#include "render/stop.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/leg_geometry.hpp"
 #include "scenarios/scenario.hpp"

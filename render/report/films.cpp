@@ -5,12 +5,12 @@
 #include "core/files.hpp"
 #include "core/progress.hpp"
 #include "experiments/run_directory/directory.hpp"
+#include "render/figures/chosen_run.hpp"
 #include "render/figures/figures.hpp"
 #include "render/film/painter.hpp"
 #include "render/film/video.hpp"
 #include "render/gnuplot/facets.hpp"
 #include "render/report/report.hpp"
-#include "render/stop.hpp"
 
 namespace touchdown::render {
 

@@ -1,10 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <ostream>
-#include <string>
-#include <vector>
 
 #include "logs/log/reader.hpp"
 #include "logs/recording.hpp"

@@ -1,18 +1,13 @@
 #include "render/report/report.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/files.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/run_directory/directory.hpp"
-#include "render/report/html.hpp"
 #include "render/report/sections.hpp"
 #include "simulators/registry.hpp"
 

@@ -9,7 +9,7 @@
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/baselines.hpp"
 #include "experiments/results/captions.hpp"
-#include "render/figures/error_scale.hpp"
+#include "render/figures/figures.hpp"
 #include "render/report/sections.hpp"
 #include "simulators/registry.hpp"
 

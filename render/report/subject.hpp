@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
 #include "experiments/config/experiment.hpp"
 #include "experiments/results/summary_file.hpp"

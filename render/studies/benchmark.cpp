@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/request.hpp"
 #include "experiments/studies/benchmark.hpp"
@@ -160,10 +159,7 @@ StudyPictures benchmark_pictures() {
         "<p><a href=\"benchmark.html\">Which estimator works where?</a> The benchmark's page shows "
         "every scene, for every robot with its sensors.</p>\n"};
   };
-  return {.is_requested =
-              [](const experiments::Experiment& experiment) {
-                return experiment.studies.has<experiments::BenchmarkConfig>();
-              },
+  return {.is_requested = has_section<experiments::BenchmarkConfig>,
           .draw = draw,
           .film = film,
           .section = section};

@@ -10,7 +10,6 @@
 #include "experiments/results/drops.hpp"
 #include "render/figures/chosen_run.hpp"
 #include "render/gnuplot/frame.hpp"
-#include "render/gnuplot/text.hpp"
 #include "render/studies/registry.hpp"
 #include "simulators/registry.hpp"
 
@@ -128,14 +127,10 @@ static Figure draw_overlay(const experiments::ExperimentResult& result) {
 }
 
 StudyPictures cross_simulator_pictures() {
-  return {.is_requested =
-              [](const experiments::Experiment& experiment) {
-                return experiment.studies.has<experiments::CrossSimulatorConfig>();
-              },
-          .draw =
-              [](const experiments::ExperimentResult& result) {
-                draw_if_possible([&] { draw_overlay(result); });
-              }};
+  return {.is_requested = has_section<experiments::CrossSimulatorConfig>,
+          .draw = [](const experiments::ExperimentResult& result) {
+            draw_if_possible([&] { draw_overlay(result); });
+          }};
 }
 
 }  // namespace touchdown::render

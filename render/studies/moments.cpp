@@ -8,7 +8,6 @@
 
 #include "core/rows.hpp"
 #include "render/gnuplot/frame.hpp"
-#include "render/gnuplot/text.hpp"
 #include "render/studies/registry.hpp"
 #include "simulators/registry.hpp"
 
@@ -164,16 +163,12 @@ Figure draw_moments_figure(const Table& moments, const Table& densities,
 }
 
 StudyPictures moments_pictures() {
-  return {.is_requested =
-              [](const experiments::Experiment& experiment) {
-                return experiment.studies.has<experiments::MomentsConfig>();
-              },
-          .draw =
-              [](const experiments::ExperimentResult& result) {
-                draw_moments_figure(result.directory.read_table("moments.csv"),
-                                    result.directory.read_table("torque_densities.csv"),
-                                    result.directory.file("figures", "moments"));
-              }};
+  return {.is_requested = has_section<experiments::MomentsConfig>,
+          .draw = [](const experiments::ExperimentResult& result) {
+            draw_moments_figure(result.directory.read_table("moments.csv"),
+                                result.directory.read_table("torque_densities.csv"),
+                                result.directory.file("figures", "moments"));
+          }};
 }
 
 }  // namespace touchdown::render

@@ -12,6 +12,12 @@
 
 namespace touchdown::render {
 
+/// Whether an experiment asks for a study by having its section.
+template <typename Section>
+bool has_section(const experiments::Experiment& experiment) {
+  return experiment.studies.has<Section>();
+}
+
 /// The pictures of all studies that have some besides figures of their tables, in the order of
 /// drawing.
 const std::vector<StudyPictures>& study_pictures();

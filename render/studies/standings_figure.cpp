@@ -9,7 +9,6 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/results/captions.hpp"
 #include "render/gnuplot/frame.hpp"
-#include "render/gnuplot/text.hpp"
 #include "render/studies/benchmark.hpp"
 #include "simulators/registry.hpp"
 
@@ -172,11 +171,8 @@ Figure draw_standings_figure(const BenchmarkTables& tables, const std::string& s
   std::string commands = "unset key\nset grid noytics\n";
   for (std::size_t p = 0; p < panels.size(); ++p) {
     const std::vector<TableRow>& standings = panels[p].standings;
-    std::string estimators;
-    for (std::size_t i = 0; i < standings.size(); ++i) {
-      estimators += fmt::format("{}{} {}", i > 0 ? ", " : "", gnuplot_text(title_of(standings[i])),
-                                standings.size() - 1 - i);
-    }
+    std::vector<std::string> estimators;
+    for (const TableRow& standing : standings) estimators.push_back(title_of(standing));
     const double top = 24.0 + static_cast<double>(p) * (height + gap_y);
     commands += frame.panel(names_width, top, mean_width, height);
     for (std::size_t i = 0; i < panels[p].upper_bounds.size(); ++i) {
@@ -191,8 +187,8 @@ Figure draw_standings_figure(const BenchmarkTables& tables, const std::string& s
         "plot {4} index {5} using 1:4 with points lt 1 pt 7 ps 0.9, \\\n"
         "     '' index {5} using 1:4:2:3 with xerrorbars lt 1 lw 1.6 dt 1 pt 7 ps 0.9\n",
         gnuplot_text("noise: " + noise_of(standings.front())),
-        static_cast<double>(standings.size()) - 0.4, std::floor(20.0 * lowest) / 20.0, estimators,
-        file, 2 * p);
+        static_cast<double>(standings.size()) - 0.4, std::floor(20.0 * lowest) / 20.0,
+        row_tics(estimators), file, 2 * p);
     commands += "unset arrow\n";
     commands += FigureFrame::end_panel();
     commands += frame.panel(names_width + mean_width + 14.0, top, bars_width - 28.0, height);

@@ -10,7 +10,6 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "experiments/results/summary_file.hpp"
-#include "render/figures/error_scale.hpp"
 #include "render/figures/figures.hpp"
 #include "render/report/html.hpp"
 #include "tests/scratch_folder.hpp"
