@@ -6,7 +6,6 @@
 #include "apps/python/arrays.hpp"
 #include "apps/python/long_call.hpp"
 #include "apps/python/mapped_loop.hpp"
-#include "apps/python/models.hpp"
 #include "apps/python/module.hpp"
 #include "apps/python/recording_arrays.hpp"
 #include "apps/python/signal_arrays.hpp"
@@ -14,7 +13,6 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/logs/estimator.hpp"
 #include "experiments/logs/fit.hpp"
-#include "logs/model_file.hpp"
 #include "logs/sample_times.hpp"
 #include "logs/signals_from.hpp"
 

@@ -1,6 +1,3 @@
-#include "apps/python/models.hpp"
-
-#include <memory>
 #include <optional>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -11,6 +8,7 @@
 
 #include "apps/python/arrays.hpp"
 #include "apps/python/long_call.hpp"
+#include "apps/python/module.hpp"
 #include "apps/python/recording_arrays.hpp"
 #include "core/error.hpp"
 #include "experiments/estimators/registry.hpp"
@@ -49,33 +47,6 @@ Model fit(const std::vector<DeclaredRun>& runs, const std::string& name, double 
   });
 }
 
-void add_model_class(py::module_& module) {
-  using namespace py::literals;  // NOLINT(google-build-using-namespace)
-  py::class_<Model>(
-      module, "Model",
-      "A fitted model, as returned by `fit`. `estimator`: the name of its estimator; "
-      "`seconds`: total duration of the fitted runs (s); `warnings`: about these runs.")
-      .def_static("load", &Model::load, "path"_a, "estimator"_a = "",
-                  "Read a model that `save` or `touchdown fit` wrote. Some models serve several "
-                  "estimators: "
-                  "name one, or get the default.")
-      .def("save", &Model::save, "path"_a, "Write the model as `touchdown fit` does (.npz).")
-      .def_property_readonly("estimator",
-                             [](const Model& model) { return model.estimator.entry.name; })
-      .def_property_readonly("seconds", [](const Model& model) { return model.report.seconds; })
-      .def_property_readonly("warnings", [](const Model& model) { return model.report.warnings; })
-      .def("__repr__", [](const Model& model) {
-        return fmt::format("<Model of '{}'>", model.estimator.entry.name);
-      });
-  module.def(
-      "fit",
-      [](const std::vector<DeclaredRun>& runs, const std::string& estimator, double skip,
-         double force_threshold, double debounce, bool servo_load) {
-        return fit(runs, estimator, skip, {force_threshold, debounce}, servo_load);
-      },
-      "runs"_a, "estimator"_a, "skip"_a, "force_threshold"_a, "debounce"_a, "servo_load"_a);
-}
-
 }  // namespace
 
 Model Model::load(const fs::path& path, const std::string& estimator) {
@@ -103,6 +74,31 @@ experiments::LogEstimator with_model(experiments::LogEstimatorRequest request, c
   return {entry, model.estimator.model, std::move(request)};
 }
 
-void add_models(py::module_& module) { add_model_class(module); }
+void add_models(py::module_& module) {
+  using namespace py::literals;  // NOLINT(google-build-using-namespace)
+  py::class_<Model>(
+      module, "Model",
+      "A fitted model, as returned by `fit`. `estimator`: the name of its estimator; "
+      "`seconds`: total duration of the fitted runs (s); `warnings`: about these runs.")
+      .def_static("load", &Model::load, "path"_a, "estimator"_a = "",
+                  "Read a model that `save` or `touchdown fit` wrote. Some models serve several "
+                  "estimators: "
+                  "name one, or get the default.")
+      .def("save", &Model::save, "path"_a, "Write the model as `touchdown fit` does (.npz).")
+      .def_property_readonly("estimator",
+                             [](const Model& model) { return model.estimator.entry.name; })
+      .def_property_readonly("seconds", [](const Model& model) { return model.report.seconds; })
+      .def_property_readonly("warnings", [](const Model& model) { return model.report.warnings; })
+      .def("__repr__", [](const Model& model) {
+        return fmt::format("<Model of '{}'>", model.estimator.entry.name);
+      });
+  module.def(
+      "fit",
+      [](const std::vector<DeclaredRun>& runs, const std::string& estimator, double skip,
+         double force_threshold, double debounce, bool servo_load) {
+        return fit(runs, estimator, skip, {force_threshold, debounce}, servo_load);
+      },
+      "runs"_a, "estimator"_a, "skip"_a, "force_threshold"_a, "debounce"_a, "servo_load"_a);
+}
 
 }  // namespace touchdown::python

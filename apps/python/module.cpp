@@ -2,10 +2,8 @@
 #include "apps/python/module.hpp"
 
 #include <exception>
-#include <pybind11/pybind11.h>
 #include <utility>
 
-#include "apps/python/models.hpp"
 #include "core/error.hpp"
 #include "core/terminal_text.hpp"
 

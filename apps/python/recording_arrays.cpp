@@ -1,7 +1,6 @@
 #include "apps/python/recording_arrays.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <pybind11/stl.h>
 #include <string>
@@ -11,7 +10,6 @@
 #include "apps/python/signal_arrays.hpp"
 #include "core/error.hpp"
 #include "logs/signals_from.hpp"
-#include "scoring/labels.hpp"
 
 namespace touchdown::python {
 

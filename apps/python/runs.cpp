@@ -4,8 +4,6 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <fmt/format.h>
-
 #include "apps/python/arrays.hpp"
 #include "apps/python/long_call.hpp"
 #include "apps/python/module.hpp"

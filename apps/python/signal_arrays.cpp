@@ -1,8 +1,6 @@
 #include "apps/python/signal_arrays.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <utility>
@@ -10,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "estimator/record.hpp"
 #include "logs/sample_times.hpp"
 
 namespace touchdown::python {
