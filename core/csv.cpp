@@ -69,10 +69,7 @@ bool CsvRows::append_line() {
   return true;
 }
 
-bool CsvRows::is_open() const {
-  return std::any_of(cells_.begin(), cells_.end(),
-                     [](const CsvCell& cell) { return cell.is_open; });
-}
+bool CsvRows::is_open() const { return std::ranges::any_of(cells_, &CsvCell::is_open); }
 
 void CsvRows::split() {
   cells_.clear();

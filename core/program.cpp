@@ -56,16 +56,14 @@ std::string nearest_flag(std::string_view word, std::vector<std::string> flags) 
   const std::string spelled = spelled_as_flag(word);
   const bool is_letter = spelled.size() == 2;
   const std::string beginning = is_letter ? "-" + spelled : spelled;
-  const auto whole = std::find_if(flags.begin(), flags.end(), [&](const std::string& flag) {
-    return flag.starts_with(beginning);
-  });
+  const auto whole = std::ranges::find_if(
+      flags, [&](const std::string& flag) { return flag.starts_with(beginning); });
   if (whole != flags.end() && beginning != "--") return *whole;
   if (is_letter) return "";
   std::string near = nearest(spelled, flags);
   if (!near.empty()) return near;
-  const auto inner = std::find_if(flags.begin(), flags.end(), [&](const std::string& flag) {
-    return spelled.starts_with(flag);
-  });
+  const auto inner = std::ranges::find_if(
+      flags, [&](const std::string& flag) { return spelled.starts_with(flag); });
   return inner == flags.end() ? "" : *inner;
 }
 

@@ -85,8 +85,7 @@ std::vector<TableRow> Table::all() const {
 }
 
 std::size_t TableRow::index_of(std::string_view column) const {
-  const auto found = std::find_if(table_->columns.begin(), table_->columns.end(),
-                                  [&](const Column& one) { return one.name == column; });
+  const auto found = std::ranges::find(table_->columns, column, &Column::name);
   return static_cast<std::size_t>(found - table_->columns.begin());
 }
 
@@ -133,8 +132,7 @@ TextTable texts_of(const Table& table) {
 Table table_of(const TextTable& texts, const std::vector<Column>& columns) {
   Table table;
   for (const std::string& name : texts.header) {
-    const auto known = std::find_if(columns.begin(), columns.end(),
-                                    [&](const Column& column) { return column.name == name; });
+    const auto known = std::ranges::find(columns, name, &Column::name);
     table.columns.push_back(known == columns.end() ? Column{name} : *known);
   }
   for (const std::vector<std::string>& row : texts.rows) {
@@ -147,9 +145,8 @@ Table table_of(const TextTable& texts, const std::vector<Column>& columns) {
 }
 
 std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char byte) {
-    return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
-  }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }));
 }
 
 std::string csv_line(const std::vector<std::string>& cells) {

@@ -29,10 +29,9 @@ YAML::Mark mark_behind(std::string_view text) {
       line_end == std::string_view::npos ? text : text.substr(line_end + 1);
   YAML::Mark mark;
   mark.pos = static_cast<int>(text.size());
-  mark.line = static_cast<int>(std::count(text.begin(), text.end(), '\n'));
-  mark.column = static_cast<int>(std::count_if(line.begin(), line.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U;
-  }));
+  mark.line = static_cast<int>(std::ranges::count(text, '\n'));
+  mark.column = static_cast<int>(std::ranges::count_if(
+      line, [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; }));
   return mark;
 }
 

@@ -40,9 +40,8 @@ Rollouts simulate_fit(const ExperimentContext& context, const NeededFit& fit,
 
 std::vector<NeededFit> needed_fits(const ExperimentContext& context, const Computed& done) {
   const Plan& plan = context.plan;
-  const bool has_later_tests =
-      std::any_of(done.streamed.begin(), done.streamed.end(),
-                  [&](std::size_t run) { return plan.runs[run].role == RunRole::test; });
+  const bool has_later_tests = std::ranges::any_of(
+      done.streamed, [&](std::size_t run) { return plan.runs[run].role == RunRole::test; });
   if (!has_later_tests && !is_any_scored(done.runs)) return {};
   std::set<std::size_t> all = done.streamed;
   all.insert(done.held.begin(), done.held.end());
@@ -86,8 +85,7 @@ void tune_and_fit(ExperimentContext& context, const NeededFit& needed, Computed&
         tune(experiment, fit, whole, segments, context.should_continue, context.directory.store());
     chosen = chosen_in(trials);
     done.trials.insert(done.trials.end(), trials.begin(), trials.end());
-    std::stable_sort(done.trials.begin(), done.trials.end(),
-                     [](const Trial& a, const Trial& b) { return a.fit < b.fit; });
+    std::ranges::stable_sort(done.trials, {}, &Trial::fit);
   }
   const auto add = [&](int refit, FittedModels&& models) {
     const auto of_engine = models.find(engine);
@@ -124,8 +122,7 @@ void fit_training_sets(ExperimentContext& context, const std::vector<NeededFit>&
   const StageTimer timer(context, "fit");
   Experiment experiment = context.request.experiment;
   std::erase_if(experiment.simulators, [&](const std::string& engine) {
-    return std::none_of(fits.begin(), fits.end(),
-                        [&](const NeededFit& fit) { return fit.engine == engine; });
+    return std::ranges::none_of(fits, [&](const NeededFit& fit) { return fit.engine == engine; });
   });
   const TunedHyperparameters chosen = chosen_in(done.trials);
   const TrainingPieces pieces = training_pieces(done.runs, experiment);

@@ -70,9 +70,8 @@ bool is_whole_fit_run(const PlannedRun& run) { return run.role == RunRole::fit &
 
 FitRunCheck::FitRunCheck(const Experiment& experiment, const Plan& plan,
                          const std::set<std::size_t>& needed) {
-  const bool has_segments = std::any_of(plan.runs.begin(), plan.runs.end(), [](const auto& run) {
-    return run.role == RunRole::fit && run.group != 0;
-  });
+  const bool has_segments = std::ranges::any_of(
+      plan.runs, [](const auto& run) { return run.role == RunRole::fit && run.group != 0; });
   for (const std::string& name : experiment.estimators) {
     const EstimatorEntry& entry = estimator_entry(experiment, name);
     const bool has_other_runs = has_segments && entry.fitting.learns_from_segments;

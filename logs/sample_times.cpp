@@ -108,8 +108,7 @@ std::string unit_between(double shortest, double longest, double step) {
 std::optional<double> typical_step(std::span<const double> times) {
   const std::vector<double> steps = steps_of(times);
   std::vector<double> forward;
-  std::copy_if(steps.begin(), steps.end(), std::back_inserter(forward),
-               [](double step) { return step > 0.0; });
+  std::ranges::copy_if(steps, std::back_inserter(forward), [](double step) { return step > 0.0; });
   if (forward.empty()) return std::nullopt;
   const double base = median(forward);
   const Grid grid = grid_of(steps, base);

@@ -52,9 +52,8 @@ FlightCounts match_flights(const ContactSequence& truth, const ContactSequence& 
   };
   // Each flight has at most one match: it shares more than half of the union.
   std::erase_if(predicted, [&](const Flight& one) {
-    const bool is_match = std::any_of(real.begin(), real.end(), [&](const Flight& flight) {
-      return !is_short(flight) && matches(flight, one);
-    });
+    const bool is_match = std::ranges::any_of(
+        real, [&](const Flight& flight) { return !is_short(flight) && matches(flight, one); });
     counts.matched += is_match ? 1 : 0;
     counts.predicted += is_match ? 1 : 0;
     return is_match;

@@ -62,9 +62,7 @@ void describe(Fields& fields, LabelConfig& labels) {
 ContactSequence debounced(ContactSequence contact, std::size_t steps) {
   std::vector<StateInterval> parts = state_intervals(contact);
   while (parts.size() > 1) {
-    const auto shortest = std::min_element(
-        parts.begin(), parts.end(),
-        [](const StateInterval& a, const StateInterval& b) { return a.length() < b.length(); });
+    const auto shortest = std::ranges::min_element(parts, {}, &StateInterval::length);
     if (shortest->length() >= steps) break;
     const bool has_left = shortest != parts.begin();
     const bool has_right = shortest + 1 != parts.end();

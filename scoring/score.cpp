@@ -226,8 +226,7 @@ const std::vector<Metric>& metrics() {
 
 std::size_t metric_index(std::string_view name) {
   const std::vector<Metric>& all = metrics();
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&](const Metric& m) { return m.name == name; });
+  const auto found = std::ranges::find(all, name, &Metric::name);
   if (found != all.end()) return static_cast<std::size_t>(found - all.begin());
   std::vector<std::string> names;
   for (const Metric& metric : all) names.push_back(metric.name);

@@ -139,9 +139,8 @@ std::int64_t extra_switches(const ContactSequence& truth, const ContactSequence&
   const Step skip = limits_in_steps(config, period).skip;
   config.minimum_flight = 0.0;
   const auto judged = judge_transitions(truth, predicted, period, config);
-  const auto detected = std::count_if(judged.begin(), judged.end(), [](const auto& one) {
-    return one.verdict == Judgement::detected;
-  });
+  const auto detected = std::ranges::count_if(
+      judged, [](const auto& one) { return one.verdict == Judgement::detected; });
   return static_cast<std::int64_t>(predicted_steps(EventKind::takeoff, predicted, skip).size() +
                                    predicted_steps(EventKind::landing, predicted, skip).size()) -
          detected;

@@ -62,8 +62,7 @@ std::vector<OldRun> old_runs(const fs::path& runs) {
   for (const fs::path& entry : entries_in(runs)) {
     if (type_of(entry) == fs::file_type::directory) add_old_runs_of(entry, found);
   }
-  std::sort(found.begin(), found.end(),
-            [](const OldRun& a, const OldRun& b) { return a.directory < b.directory; });
+  std::ranges::sort(found, {}, &OldRun::directory);
   return found;
 }
 

@@ -260,8 +260,7 @@ template BoostingRows boosting_rows<ChannelInputs>(std::span<const LabelledRun> 
 
 BoostedTrees fit_trees(BoostingRows rows, const BoostingConfig& config,
                        const std::function<void()>& before_tree) {
-  const auto contact =
-      static_cast<double>(std::count(rows.is_contact.begin(), rows.is_contact.end(), 1.0F));
+  const auto contact = static_cast<double>(std::ranges::count(rows.is_contact, 1.0F));
   const double air = static_cast<double>(rows.count()) - contact;
   if (!(contact > 0.0 && air > 0.0)) {
     throw InputError("gradient boosting: runs with contact and without are needed");

@@ -119,10 +119,9 @@ void describe_drop_figures(Fields& fields, Experiment& experiment) {
   describe_switched(fields, "posterior", experiment.posterior, experiment)
       .doc("A figure of the phase filter's probabilities during one drop.");
   const auto& names = experiment.estimators;
-  fields.check(
-      !experiment.posterior || std::find(names.begin(), names.end(), "phase") != names.end(),
-      "posterior",
-      "expected 'phase' among the experiment's estimators, or posterior.enabled: false");
+  fields.check(!experiment.posterior || std::ranges::find(names, "phase") != names.end(),
+               "posterior",
+               "expected 'phase' among the experiment's estimators, or posterior.enabled: false");
 }
 
 }  // namespace touchdown::experiments

@@ -31,9 +31,7 @@ Hyperparameter fitted_with(Hyperparameter hyperparameter) {
 }
 
 double EstimatorEntry::chosen(std::string_view hyperparameter) const {
-  const auto found =
-      std::find_if(hyperparameters.begin(), hyperparameters.end(),
-                   [&](const Hyperparameter& one) { return one.name == hyperparameter; });
+  const auto found = std::ranges::find(hyperparameters, hyperparameter, &Hyperparameter::name);
   if (found == hyperparameters.end()) {
     throw Error(fmt::format("'{}' has no hyperparameter '{}'", name, hyperparameter));
   }

@@ -13,8 +13,7 @@ namespace touchdown::experiments {
 namespace {
 
 const EstimatorEntry* find(std::span<const EstimatorEntry> entries, std::string_view name) {
-  const auto found = std::find_if(entries.begin(), entries.end(),
-                                  [&](const EstimatorEntry& entry) { return entry.name == name; });
+  const auto found = std::ranges::find(entries, name, &EstimatorEntry::name);
   return found == entries.end() ? nullptr : &*found;
 }
 

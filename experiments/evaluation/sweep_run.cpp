@@ -124,11 +124,10 @@ bool needs_no_guard(const RunSignals& run, std::span<const noise::SensorNoise> l
   const SignalCheck check;
   SignalGuard guard(config, run.sample_rate());
   for (const Signals& signals : run.signals) {
-    const bool torques_good =
-        std::all_of(signals.leg.begin(), signals.leg.end(), [&](const LegSignals& leg) {
-          return std::abs(leg.knee.torque) < 0.5 * config.largest_torque &&
-                 std::abs(leg.wheel.torque) < 0.5 * config.largest_torque;
-        });
+    const bool torques_good = std::ranges::all_of(signals.leg, [&](const LegSignals& leg) {
+      return std::abs(leg.knee.torque) < 0.5 * config.largest_torque &&
+             std::abs(leg.wheel.torque) < 0.5 * config.largest_torque;
+    });
     if (!torques_good || !neural_input(signals).allFinite()) return false;
     if (check.first_unusable(signals) != SignalIndex::none) return false;
     if (!(std::abs(signals.vertical_acceleration) < 0.5 * config.largest_acceleration)) {

@@ -161,9 +161,8 @@ TaskCounts evaluate(const Plan& plan, const Task& task, const RunSignals& run,
     if (!bytes.empty())
       counts.measured.push_back({measure.name, no_condition, 0, std::move(bytes)});
   }
-  const bool measures_predictions =
-      std::any_of(group.measures.begin(), group.measures.end(),
-                  [](const Measure& measure) { return bool{measure.of_prediction}; });
+  const bool measures_predictions = std::ranges::any_of(
+      group.measures, [](const Measure& measure) { return bool{measure.of_prediction}; });
   for (std::uint32_t c = 0; c < conditions.size(); ++c) {
     if (!group.predicts(conditions[c])) continue;
     EstimatorRunner runner = runner_of(experiment, conditions[c], models, run);

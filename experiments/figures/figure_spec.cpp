@@ -53,16 +53,14 @@ std::string title_of(const FigureGroups& groups, std::size_t place) {
 }  // namespace
 
 bool passes(const TableRow& row, const std::vector<CellFilter>& where) {
-  return std::all_of(where.begin(), where.end(), [&](const CellFilter& filter) {
-    return row.text(filter.column) == filter.value;
-  });
+  return std::ranges::all_of(
+      where, [&](const CellFilter& filter) { return row.text(filter.column) == filter.value; });
 }
 
 std::optional<std::size_t> group_of(const FigureGroups& groups, const TableRow& row) {
   if (groups.columns.empty()) return 0;
   const std::vector<std::string> values = values_of(groups.columns, row);
-  const auto found = std::find_if(groups.groups.begin(), groups.groups.end(),
-                                  [&](const FigureGroup& group) { return group.values == values; });
+  const auto found = std::ranges::find(groups.groups, values, &FigureGroup::values);
   if (found == groups.groups.end()) return {};
   return static_cast<std::size_t>(found - groups.groups.begin());
 }

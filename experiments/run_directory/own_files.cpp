@@ -335,11 +335,10 @@ void remove_partial_files(const fs::path& directory) {
     }
   }
   for (const std::string& file : files_in(directory)) {
-    const bool is_ours =
-        std::any_of(run_files.begin(), run_files.end(), [&](const fs::path& whole) {
-          return file.starts_with(fmt::format(".{}.", whole.stem().string())) &&
-                 file.ends_with(fmt::format(".part{}", whole.extension().string()));
-        });
+    const bool is_ours = std::ranges::any_of(run_files, [&](const fs::path& whole) {
+      return file.starts_with(fmt::format(".{}.", whole.stem().string())) &&
+             file.ends_with(fmt::format(".part{}", whole.extension().string()));
+    });
     if (is_ours && is_part_file_name(file)) partial.push_back(directory / file);
   }
   for (const fs::path& path : partial) fs::remove_all(path, ignored);

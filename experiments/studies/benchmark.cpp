@@ -215,10 +215,9 @@ Columns<OverlapRow> overlap_columns() {
 /// without one, no file is written.
 void write_overlap(const Evaluation& evaluation, const RunDirectory& directory) {
   const Experiment& experiment = evaluation.request.experiment;
-  const auto estimator = std::find_if(
-      experiment.estimators.begin(), experiment.estimators.end(), [&](const std::string& name) {
-        return estimator_entry(experiment, name).fitting.torques.has_value();
-      });
+  const auto estimator = std::ranges::find_if(experiment.estimators, [&](const std::string& name) {
+    return estimator_entry(experiment, name).fitting.torques.has_value();
+  });
   if (estimator == experiment.estimators.end()) return;
   const auto setups = benchmark_setups(evaluation.request, evaluation.plan);
   std::vector<OverlapRow> rows;

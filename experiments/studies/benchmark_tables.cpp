@@ -38,9 +38,7 @@ std::string header_of(const noise::NoiseCell& noise) {
 }
 
 const Standings::Entry* entry_called(const std::string& estimator, const Standings& standings) {
-  const auto found =
-      std::find_if(standings.entries.begin(), standings.entries.end(),
-                   [&](const Standings::Entry& entry) { return entry.estimator == estimator; });
+  const auto found = std::ranges::find(standings.entries, estimator, &Standings::Entry::estimator);
   return found == standings.entries.end() ? nullptr : &*found;
 }
 

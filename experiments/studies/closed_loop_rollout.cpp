@@ -239,8 +239,7 @@ ClosedLoopMetrics closed_loop_metrics_of(
                                   judged.verdict == scoring::Judgement::false_alarm;
     metrics.false_takeoffs += is_false_takeoff ? 1 : 0;
   }
-  metrics.contact_us =
-      recording.info.control_period_us * std::count(robot_contact.begin(), robot_contact.end(), 1);
+  metrics.contact_us = recording.info.control_period_us * std::ranges::count(robot_contact, 1);
   return metrics;
 }
 

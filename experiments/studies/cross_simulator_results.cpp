@@ -245,9 +245,7 @@ std::vector<Verdict> verdicts(const std::vector<Transfer>& transfers,
     const Condition& condition = transfer.condition;
     if (condition.estimator == always_contact_name) continue;
     if (condition.fit_simulator == condition.test_simulator) continue;
-    auto verdict = std::find_if(result.begin(), result.end(), [&](const Verdict& v) {
-      return v.estimator == condition.estimator;
-    });
+    auto verdict = std::ranges::find(result, condition.estimator, &Verdict::estimator);
     if (verdict == result.end()) {
       result.push_back({condition.estimator, false, false, -std::numeric_limits<double>::infinity(),
                         std::numeric_limits<double>::infinity(), ""});
@@ -307,10 +305,8 @@ void add_sensitivity(const Variation& variation, const Evaluation& evaluation,
                      std::vector<Sensitivity>& all) {
   const Experiment& experiment = evaluation.request.experiment;
   const std::vector<std::size_t> varied = runs_of(variation, evaluation.request, evaluation.plan);
-  const auto failed =
-      static_cast<std::size_t>(std::count_if(varied.begin(), varied.end(), [&](std::size_t run) {
-        return evaluation.runs.at(run).failed();
-      }));
+  const auto failed = static_cast<std::size_t>(std::ranges::count_if(
+      varied, [&](std::size_t run) { return evaluation.runs.at(run).failed(); }));
   const CollectedCounts counts = collect(evaluation.plan, varied, evaluation.saved);
   const RunGroup& group = evaluation.plan.groups[evaluation.plan.runs[varied.front()].group];
   const std::size_t cell = noise::cell_index(group.counted, experiment.highlights.front());

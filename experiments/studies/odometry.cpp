@@ -251,9 +251,8 @@ std::vector<OdometryRow> odometry_rows(const Evaluation& evaluation) {
           row.error_per_metre = intervals[1];
           row.score = scoring::sum(row.samples);
         }
-        std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
-          return a.rms.estimate < b.rms.estimate;
-        });
+        std::ranges::stable_sort(
+            rows, [](const auto& a, const auto& b) { return a.rms.estimate < b.rms.estimate; });
         all.insert(all.end(), rows.begin(), rows.end());
       }
     }
@@ -320,10 +319,9 @@ FigureGroups ranked_contacts(const Table& odometry, const FigureSpec& spec) {
     sums[row.text("contact")] += error;
   }
   FigureGroups contacts = groups_in(odometry, "contact", contact_title, spec.where);
-  std::stable_sort(contacts.groups.begin(), contacts.groups.end(),
-                   [&](const FigureGroup& a, const FigureGroup& b) {
-                     return sums[a.values.front()] < sums[b.values.front()];
-                   });
+  std::ranges::stable_sort(contacts.groups, [&](const FigureGroup& a, const FigureGroup& b) {
+    return sums[a.values.front()] < sums[b.values.front()];
+  });
   return contacts;
 }
 

@@ -77,8 +77,7 @@ class BeliefColumns {
     }
     names_.assign(names.begin(), names.end());
     const auto place_of = [&](std::size_t name) {
-      return static_cast<std::size_t>(std::find(names.begin(), names.end(), known[name]) -
-                                      names.begin());
+      return static_cast<std::size_t>(std::ranges::find(names, known[name]) - names.begin());
     };
     const bool decides =
         place_of(first_contact) < names.size() || place_of(first_contact + 1) < names.size();

@@ -123,9 +123,8 @@ void NumbersCsv::find_names(const std::string& comment) {
   separator_ = separator_of(rows_.row());
   rows_.separate_by(separator_);
   require_closed_quotes();
-  const bool has_numbers_alone =
-      std::all_of(rows_.cells().begin(), rows_.cells().end(),
-                  [](const CsvCell& cell) { return number_of(cell.text).has_value(); });
+  const bool has_numbers_alone = std::ranges::all_of(
+      rows_.cells(), [](const CsvCell& cell) { return number_of(cell.text).has_value(); });
   if (comment.empty() || !has_numbers_alone) return take_names(rows_.cells());
   std::istringstream text(
       comment.substr(std::min(comment.size(), comment.find_first_not_of("#% "))));

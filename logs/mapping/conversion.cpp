@@ -249,8 +249,7 @@ class MappedRecords final : public RecordSource {
   void count(const LogValues& values) {
     const double time = values[log_slot::time];
     if (first_times_.size() < rows_for_clock) first_times_.push_back(time);
-    const bool is_whole =
-        std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+    const bool is_whole = std::ranges::all_of(values, [](double x) { return std::isfinite(x); });
     if (!is_whole) ++converted_.incomplete_rows;
     if (!std::isfinite(time)) return;
     if (has_time_) {

@@ -38,8 +38,7 @@ bool is_index(std::string_view text) {
   } else if (text.starts_with('.') || text.starts_with('/') || text.starts_with('_')) {
     text.remove_prefix(1);
   }
-  return !text.empty() &&
-         std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 
 /// The columns of a sensor_msgs/JointState in a CSV file, as programs write its lists: name[0],
@@ -103,8 +102,7 @@ class JointColumns {
           joint_column[size] != '/') {
         continue;
       }
-      const auto* const field =
-          std::find(joint_fields.begin(), joint_fields.end(), joint_column.substr(size + 1));
+      const auto* const field = std::ranges::find(joint_fields, joint_column.substr(size + 1));
       if (field != joint_fields.end())
         return joint.numbers.at(static_cast<std::size_t>(field - joint_fields.begin()));
     }

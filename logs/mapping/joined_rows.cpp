@@ -200,9 +200,8 @@ std::vector<TimedFile> files_of(const fs::path& log, const LogSources& sources) 
   std::vector<std::string> all = sources.joints;
   all.insert(all.end(), sources.imu.begin(), sources.imu.end());
   all.insert(all.end(), sources.contact.begin(), sources.contact.end());
-  const bool is_one_of_them = std::any_of(all.begin(), all.end(), [&](const std::string& file) {
-    return fs::path(file).filename() == log.filename();
-  });
+  const bool is_one_of_them = std::ranges::any_of(
+      all, [&](const std::string& file) { return fs::path(file).filename() == log.filename(); });
   if (!is_whole_folder && !is_one_of_them) {
     throw InputError(
         fmt::format("{}: the mapping's `sources` are {}: give one of them, or their folder",
@@ -354,8 +353,7 @@ class JoinedBag final : public JoinedSource {
     }
     messages_.resize(rows_.size());
     const auto is_named = [this](std::string_view topic) {
-      return std::any_of(names_.begin(), names_.end(),
-                         [&](const SourceNames& one) { return one.file == topic; });
+      return std::ranges::any_of(names_, [&](const SourceNames& one) { return one.file == topic; });
     };
     reader_.emplace(log_, is_named, stop_);
   }

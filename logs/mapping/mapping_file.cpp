@@ -286,8 +286,7 @@ void describe_mapping(Fields& fields, MappingReader& reader, LogMapping& mapping
 }  // namespace
 
 bool LogSources::are_files() const {
-  return std::any_of(joints.begin(), joints.end(), is_file_name) ||
-         std::any_of(imu.begin(), imu.end(), is_file_name);
+  return std::ranges::any_of(joints, is_file_name) || std::ranges::any_of(imu, is_file_name);
 }
 
 LogSources read_log_sources(const std::filesystem::path& mapping) {

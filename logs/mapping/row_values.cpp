@@ -68,8 +68,7 @@ LogValues log_values(const LogMapping& mapping, std::uint64_t k, std::span<const
     values[slot + 2] = mapping.torque.value(row, servo);
   }
   const ImuSignals imu = imu_of(mapping, row);
-  std::copy(imu.orientation.begin(), imu.orientation.end(),
-            values.begin() + log_slot::imu_orientation);
+  std::ranges::copy(imu.orientation, values.begin() + log_slot::imu_orientation);
   put(values, log_slot::angular_velocity, imu.angular_velocity);
   put(values, log_slot::linear_acceleration, imu.linear_acceleration);
   if (mapping.proper_acceleration) put(values, log_slot::raw_acceleration, imu.proper_acceleration);

@@ -204,9 +204,8 @@ std::vector<CompressedTick> compressed_ticks(double low, double high, double sof
     if (softsign_scale <= 0.0 && !(value > 0.0)) return;
     const double place = softsign_scale > 0.0 ? compressed(value, softsign_scale) : std::log(value);
     const bool is_inside = place >= low && place <= high;
-    const bool is_apart = std::all_of(chosen.begin(), chosen.end(), [&](const auto& other) {
-      return std::abs(other.place - place) >= apart * span;
-    });
+    const bool is_apart = std::ranges::all_of(
+        chosen, [&](const auto& other) { return std::abs(other.place - place) >= apart * span; });
     if (is_inside && is_apart) chosen.push_back({value, place});
   };
   offer(0.0);
@@ -217,8 +216,7 @@ std::vector<CompressedTick> compressed_ticks(double low, double high, double sof
       offer(-value);
     }
   }
-  std::sort(chosen.begin(), chosen.end(),
-            [](const auto& a, const auto& b) { return a.place < b.place; });
+  std::ranges::sort(chosen, [](const auto& a, const auto& b) { return a.place < b.place; });
   return chosen;
 }
 

@@ -118,12 +118,11 @@ const experiments::CellSummary* NoiseMaps::cell(const std::vector<experiments::C
                                                 const std::string& simulator,
                                                 const std::string& estimator, double at_x,
                                                 double at_y) const {
-  const auto found =
-      std::find_if(cells.begin(), cells.end(), [&](const experiments::CellSummary& one) {
-        return one.condition.test_simulator == simulator && one.condition.estimator == estimator &&
-               one.cell.*x.level == at_x && one.cell.*y.level == at_y &&
-               one.cell.accelerometer == accelerometer.value_or(one.cell.accelerometer);
-      });
+  const auto found = std::ranges::find_if(cells, [&](const experiments::CellSummary& one) {
+    return one.condition.test_simulator == simulator && one.condition.estimator == estimator &&
+           one.cell.*x.level == at_x && one.cell.*y.level == at_y &&
+           one.cell.accelerometer == accelerometer.value_or(one.cell.accelerometer);
+  });
   return found == cells.end() ? nullptr : &*found;
 }
 

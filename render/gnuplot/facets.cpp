@@ -209,9 +209,8 @@ class FacetFigure {
     shape.measures = measures_.size();
     shape.series = series_.size();
     shape.rows = rows_.size();
-    shape.has_titles = std::any_of(panels_.begin(), panels_.end(), [&](std::size_t panel) {
-      return !title_of(spec_.panels, panel).empty();
-    });
+    shape.has_titles = std::ranges::any_of(
+        panels_, [&](std::size_t panel) { return !title_of(spec_.panels, panel).empty(); });
     shape.is_own_x = is_ordinal();
     shape.row_names = has_rows() ? widest(spec_.rows, rows_) + 26.0 : 0.0;
     shape.key = series_.size() > 1 ? widest(spec_.series, series_) + 66.0 : 24.0;

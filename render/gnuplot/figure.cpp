@@ -39,9 +39,8 @@ std::string comments(const FigureText& text) {
   for (const TextLine& line : text_lines) {
     std::string content = text.*line.text;
     if (content.empty()) continue;
-    std::replace_if(
-        content.begin(), content.end(),
-        [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
+    std::ranges::replace_if(
+        content, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
     // A backslash at the end of a line continues even a comment.
     while (content.ends_with('\\') || content.ends_with(' ')) content.pop_back();
     lines += line.head + content + '\n';

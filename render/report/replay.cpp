@@ -190,9 +190,7 @@ void add_poses(const VideoSource& source, Json& run) {
     const Eigen::Vector3d offset = position - code.origin;
     offsets.insert(offsets.end(), offset.begin(), offset.end());
   }
-  const auto place_of = [&](int body) {
-    return std::find(bodies.begin(), bodies.end(), body) - bodies.begin();
-  };
+  const auto place_of = [&](int body) { return std::ranges::find(bodies, body) - bodies.begin(); };
   run["pose_rate"] = replay_pose_rate;
   run["origin"] = numbers(code.origin);
   run["unit"] = code.unit;

@@ -34,14 +34,10 @@ std::string inputs_text(const experiments::Sensors& sensors) {
 /// The estimators' scores in one engine and noise cell, the fewest errors first.
 Cells ranked(const Cells& all, const std::string& simulator, const noise::NoiseCell& noise) {
   Cells cells;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(cells),
-               [&](const experiments::CellSummary& cell) {
-                 return cell.condition.test_simulator == simulator && cell.cell == noise &&
-                        cell.condition.estimator != experiments::always_contact_name &&
-                        std::isfinite(cell.success.estimate);
-               });
-  std::stable_sort(cells.begin(), cells.end(), [](const auto& a, const auto& b) {
-    return a.success.estimate > b.success.estimate;
+  std::ranges::copy_if(all, std::back_inserter(cells), [&](const experiments::CellSummary& cell) {
+    return cell.condition.test_simulator == simulator && cell.cell == noise &&
+           cell.condition.estimator != experiments::always_contact_name &&
+           std::isfinite(cell.success.estimate);
   });
   return cells;
 }

@@ -136,8 +136,7 @@ void film_worst_segments(const experiments::ExperimentResult& result,
     if (setting_of(standing) != setting_of(first) || noise_of(standing) != noise_of(first))
       continue;
     const auto& names = experiment.estimators;
-    const bool is_ours =
-        std::find(names.begin(), names.end(), standing.text("estimator")) != names.end();
+    const bool is_ours = std::ranges::find(names, standing.text("estimator")) != names.end();
     if (is_ours) film_worst_segment(result, standing, profile, stop);
   }
 }
