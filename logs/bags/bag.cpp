@@ -158,14 +158,7 @@ void BagReader::open_next() {
 /// Adds the topics of the current file. A topic can have another number in each file.
 void BagReader::update_topics(const std::vector<BagTopic>& of_file) {
   for (std::size_t i = topic_of_.size(); i < of_file.size(); ++i) {
-    const auto known = std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& topic) {
-      return topic.name == of_file[i].name && topic.type == of_file[i].type &&
-             topic.encoding == of_file[i].encoding;
-    });
-    topic_of_.push_back(static_cast<std::size_t>(known - topics_.begin()));
-    if (known == topics_.end()) {
-      topics_.push_back({of_file[i].name, of_file[i].type, of_file[i].encoding, 0});
-    }
+    topic_of_.push_back(topics_.index_of(of_file[i]));
   }
 }
 

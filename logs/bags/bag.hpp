@@ -34,7 +34,7 @@ class BagReader {
   bool next(BagMessage& message);
 
   /// Topics found so far, with the number of messages read; complete at the end.
-  const std::vector<BagTopic>& topics() const { return topics_; }
+  const std::vector<BagTopic>& topics() const { return topics_.all(); }
   /// One line for each file that is cut off or damaged. Complete at the end.
   const std::vector<std::string>& notes() const { return notes_; }
 
@@ -51,7 +51,7 @@ class BagReader {
   std::unique_ptr<McapReader> mcap_;
   std::unique_ptr<SqliteReader> sqlite_;
   std::vector<std::size_t> topic_of_;  ///< of each topic of the current file
-  std::vector<BagTopic> topics_;
+  BagTopics topics_;
   std::string decompressed_;  ///< payload
   std::vector<std::string> notes_;
 };

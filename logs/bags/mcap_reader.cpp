@@ -86,12 +86,7 @@ std::size_t McapReader::topic_of(std::uint16_t channel) {
   const McapChannels::Channel& of = defined->second;
   const auto schema = layout_.channels.schema_name.find(of.schema);
   const std::string type = schema == layout_.channels.schema_name.end() ? "" : schema->second;
-  const auto same = std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& topic) {
-    return topic.name == of.topic && topic.type == type && topic.encoding == of.encoding;
-  });
-  const auto index = static_cast<std::size_t>(same - topics_.begin());
-  if (same == topics_.end()) topics_.push_back({of.topic, type, of.encoding, 0});
-  return topic_of_channel_[channel] = index;
+  return topic_of_channel_[channel] = topics_.index_of({of.topic, type, of.encoding, 0});
 }
 
 void McapReader::load(const McapPart& part) {
@@ -120,38 +115,45 @@ void McapReader::load(const McapPart& part) {
   });
   std::stable_sort(loaded.entries.begin(), loaded.entries.end(),
                    [](const Entry& a, const Entry& b) { return a.time < b.time; });
+  if (loaded.is_done()) return;
   loaded_bytes_ += loaded.bytes.size();
   if (loaded_bytes_ > most_loaded_bytes) {
     throw InputError(fmt::format(
         "{}: more than {} MiB of messages overlap in time: sort the bag with `mcap sort`",
         file_.name(), most_loaded_bytes >> 20U));
   }
+  const Place place(loaded.entries.front().time, part.offset);
+  loaded_.emplace(place, std::move(loaded));
+}
+
+/// The message that was read last is valid until now.
+void McapReader::leave_last_message() {
+  if (!std::exchange(is_first_read_, false)) return;
+  auto part = loaded_.extract(loaded_.begin());
+  const Loaded& loaded = part.mapped();
   if (loaded.is_done()) {
     loaded_bytes_ -= loaded.bytes.size();
-  } else {
-    loaded_.push_back(std::move(loaded));
+    return;
   }
+  part.key().first = loaded.entries[loaded.next].time;
+  loaded_.insert(std::move(part));
 }
 
 bool McapReader::next(BagMessage& message) {
-  const auto by_time = [](const Loaded& a, const Loaded& b) { return a.time() < b.time(); };
-  loaded_.remove_if([&](const Loaded& one) {
-    if (one.is_done()) loaded_bytes_ -= one.bytes.size();
-    return one.is_done();
-  });
-  auto first = std::min_element(loaded_.begin(), loaded_.end(), by_time);
+  leave_last_message();
   const std::vector<McapPart>& parts = layout_.parts;
   while (next_part_ < parts.size() &&
-         (first == loaded_.end() || parts[next_part_].start <= first->time())) {
+         (loaded_.empty() || parts[next_part_].start <= loaded_.begin()->first.first)) {
     load(parts[next_part_++]);
-    first = std::min_element(loaded_.begin(), loaded_.end(), by_time);
   }
-  if (first == loaded_.end()) return false;
-  const Entry& entry = first->entries[first->next++];
+  if (loaded_.empty()) return false;
+  is_first_read_ = true;
+  Loaded& first = loaded_.begin()->second;
+  const Entry& entry = first.entries[first.next++];
   ++topics_[entry.topic].messages;
   message.topic = entry.topic;
   message.time = static_cast<std::int64_t>(entry.time);
-  message.data = std::string_view(first->bytes).substr(entry.offset, entry.size);
+  message.data = std::string_view(first.bytes).substr(entry.offset, entry.size);
   return true;
 }
 

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <list>
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "logs/bags/compression.hpp"
@@ -114,7 +114,7 @@ class McapReader {
   bool next(BagMessage& message);
 
   /// Topics that are defined in what was read so far.
-  const std::vector<BagTopic>& topics() const { return topics_; }
+  const std::vector<BagTopic>& topics() const { return topics_.all(); }
   /// What is missing at the end of a file that is cut off, or empty.
   std::string note() const;
 
@@ -131,22 +131,25 @@ class McapReader {
     std::vector<Entry> entries;  ///< by time
     std::size_t next = 0;
     bool is_done() const { return next == entries.size(); }
-    std::uint64_t time() const { return entries[next].time; }
   };
+  /// Time of the next message; offset of the part.
+  using Place = std::pair<std::uint64_t, std::uint64_t>;
 
   void with_place(const McapPart& part, const std::function<void()>& use) const;
   std::string records_of(const McapPart& part);
   void load(const McapPart& part);
+  void leave_last_message();
   std::size_t topic_of(std::uint16_t channel);
 
   RandomFile file_;
   TopicFilter wanted_;
   McapLayout layout_;
-  std::vector<BagTopic> topics_;
+  BagTopics topics_;
   std::map<std::uint16_t, std::size_t> topic_of_channel_;
   std::size_t next_part_ = 0;
   std::uint64_t loaded_bytes_ = 0;
-  std::list<Loaded> loaded_;
+  std::map<Place, Loaded> loaded_;
+  bool is_first_read_ = false;      ///< the first loaded part has the last message
   std::uint64_t cut_messages_ = 0;  ///< whole messages of a part that is cut off
 };
 

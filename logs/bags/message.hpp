@@ -3,8 +3,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
+#include <tuple>
+#include <vector>
 
 namespace touchdown::logs {
 
@@ -15,6 +18,24 @@ struct BagTopic {
   std::string encoding;        ///< of its messages, "cdr" in ROS 2
   std::uint64_t messages = 0;  ///< read so far
   bool operator==(const BagTopic&) const = default;
+};
+
+/// The topics of a bag in the order in which they are found, each once.
+class BagTopics {
+ public:
+  /// The index of a topic, which is added if it is new.
+  std::size_t index_of(const BagTopic& topic) {
+    const auto [known, is_new] =
+        index_.try_emplace({topic.name, topic.type, topic.encoding}, all_.size());
+    if (is_new) all_.push_back({topic.name, topic.type, topic.encoding, 0});
+    return known->second;
+  }
+  BagTopic& operator[](std::size_t index) { return all_[index]; }
+  const std::vector<BagTopic>& all() const { return all_; }
+
+ private:
+  std::vector<BagTopic> all_;
+  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> index_;
 };
 
 /// A message of a bag.

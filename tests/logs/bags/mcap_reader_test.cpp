@@ -81,6 +81,16 @@ TEST_F(Mcap, ChunksThatOverlapAreSortedByTime) {
   }
 }
 
+TEST_F(Mcap, ChunksOfOneTimeStayInTheOrderOfTheFile) {
+  TestBag bag = made_up_bag();
+  for (std::size_t k = 0; k < bag.messages.size(); ++k) {
+    bag.messages[k].time = k < 20 ? 7 : 5;  // the later chunks are earlier
+  }
+  const std::string bytes = mcap_bytes(bag, {"", 3});
+  std::rotate(bag.messages.begin(), bag.messages.begin() + 20, bag.messages.end());
+  EXPECT_EQ(read(bytes).messages, lines_of(bag));
+}
+
 TEST_F(Mcap, OnlyWantedTopicsAreRead) {
   const ReadBag result = read(mcap_bytes(made_up_bag()), [](auto topic) { return topic == "/b"; });
   EXPECT_EQ(result.messages.size(), 15U);
