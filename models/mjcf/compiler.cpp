@@ -163,6 +163,10 @@ std::string converted_to_mjcf(const MjcfDocument::Text& urdf, const std::filesys
   std::error_code ignored;
   std::filesystem::remove_all(folder, ignored);
   if (!is_saved) throw Error(fmt::format("{}: MuJoCo: {}", file.string(), message.data()));
+  // MuJoCo does not report what could not be written.
+  if (text.find("</mujoco>") == std::string::npos) {
+    throw Error(fmt::format("{}: cannot be written in full: is the disk full?", saved.string()));
+  }
   return text;
 }
 
