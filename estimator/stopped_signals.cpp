@@ -35,7 +35,7 @@ bool is_in(std::uint32_t bits, std::size_t signal) noexcept { return (bits >> si
 }  // namespace
 
 void StoppedSignals::start(const Values& values) noexcept {
-  last_ = before_ = earlier_ = values;
+  first_ = last_ = before_ = earlier_ = values;
   start_time_ = time_;
   step_.fill(std::numeric_limits<double>::infinity());
   largest_ = reversals_ = {};
@@ -76,6 +76,9 @@ void StoppedSignals::compare(const Signals& signals, double elapsed) noexcept {
     reversals_[i] += product < -4.0 * step_[i] * step_[i] ? 1.0 : 0.0;
   }
   compared_ += 1.0;
+  for (std::size_t i = 0; i < count && (differ & ~changed_) >> i != 0; ++i) {
+    if (is_in(differ & ~changed_, i)) left_[i] = time_ - elapsed;
+  }
   changed_ |= differ;
   // Nothing is known of a gap's time: repetitions begin after it.
   if (elapsed > 0.25 * after_) repeating_ = equal = 0;
@@ -107,6 +110,10 @@ void StoppedSignals::follow(std::size_t i, const Values& values, double elapsed)
   const bool is_velocity = i < joint_values && i % 3 == 1;
   if (!is_in(repeating_, i)) {
     since_[i] = time_ - elapsed;
+    const bool was_constant = left_[i] - start_time_ >= after_;
+    if (was_constant && values[i] == first_[i] && since_[i] - left_[i] < after_) {
+      changed_ &= ~(1U << i);
+    }
     const double change = last_[i] - before_[i];
     // A dead signal may jump to 0; one that comes back from a wrong value jumps, too.
     const bool is_jump = std::abs(before_[i] - earlier_[i]) < 0.5 * std::abs(change);

@@ -10,7 +10,7 @@ namespace touchdown {
 
 /// Notices signals of joints and IMU that stop within a run: they repeat themselves to the bit
 /// although the robot moves. These are no faults:
-/// - a signal that never changed, because the robot may lack it;
+/// - a signal that never changed but for wrong values, because the robot may lack it;
 /// - a position that repeats itself while its velocity integrates to little, and the other way
 ///   round; a torque or an axis of the IMU while no other signal changes: a simulation at rest;
 /// - a torque at its limit, or an IMU at the end of its range: the largest value so far;
@@ -62,6 +62,8 @@ class StoppedSignals {
   Values last_{};
   Values before_{};        ///< at the comparison before it …
   Values earlier_{};       ///< … and before that
+  Values first_{};         ///< at the start
+  Values left_{};          ///< when a signal changed from that value (s)
   double compared_ = 0.0;  ///< times since the start
   // Of torques, accelerations and angular velocities:
   Noisy largest_{};    ///< sizes

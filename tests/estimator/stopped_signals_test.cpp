@@ -111,6 +111,11 @@ TEST(StoppedSignals, HealthySignalsThatRepeatThemselvesAreNoFaults) {
       {"not reported",
        of_all([](double t, double value, std::size_t) { return t < 1.0 ? value : std::nan(""); })},
       {"one torque not there", [](double, Values& v) { v[5] = 0.0; }},
+      {"a torque, a velocity and an axis not there, but for wrong values",
+       [](double t, Values& v) {
+         const bool is_wrong = (t > 1.0 && t < 1.1) || (t > 2.0 && t < 2.05);
+         v[5] = v[7] = v[19] = is_wrong ? 3.0 : 0.0;
+       }},
       {"torques at their limit",
        [](double t, Values& v) {
          for (std::size_t i = 2; t > 1.0 && i < 18; i += 3) v[i] = i % 2 == 0 ? 1.7 : -1.7;
