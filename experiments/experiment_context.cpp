@@ -1,6 +1,7 @@
 #include "experiments/experiment_context.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <thread>
 
@@ -117,6 +118,10 @@ std::string what_is_saved(const ExperimentContext& context) {
   const auto recordings = std::count_if(runs.begin(), runs.end(), [&](const PlannedRun& run) {
     return run.kept && has_stamp(run, context.directory);
   });
+  const auto parts =
+      std::count_if(context.plan.tasks.begin(), context.plan.tasks.end(), [&](const Task& task) {
+        return saved_counts(context.plan, task, context.directory.store());
+      });
   return fmt::format(
       "stopped; {} of {} recordings and {} of {} parts of the evaluation are saved in {}; the "
       "same command continues from there",

@@ -72,7 +72,7 @@ template <typename Estimator, auto numbers_of, typename Config>
 Recipe recipe_of(std::string_view name, std::string_view fit, const Config& usual) {
   return {name, fit,
           [usual](double rate, const LegGeometry& legs, bool servo_load) {
-            Config config = usual;
+            Config config = usual;  // NOLINT(performance-*): most have one of these members
             if constexpr (requires { config.transition; }) config = at_rate(config, rate);
             if constexpr (requires { config.geometry; }) config.geometry = legs;
             if constexpr (requires { config.servo_load; }) config.servo_load = servo_load;

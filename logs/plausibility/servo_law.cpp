@@ -66,10 +66,13 @@ void ServoLawCheck::report(Findings& findings) const {
     if (joint.windows < least_law_windows) continue;
     const std::string subject = fmt::format("targets of {}", models::servo_names[i]);
     if (2 * joint.apart[0] > joint.windows) {
-      const auto* best = std::min_element(joint.apart.begin() + 1, joint.apart.end());
-      const bool explains = 4 * *best < joint.windows;
+      std::size_t best = 1;
+      for (std::size_t k = 2; k < joint.apart.size(); ++k) {
+        if (joint.apart[k] < joint.apart[best]) best = k;
+      }
+      const bool explains = 4 * joint.apart[best] < joint.windows;
       findings.add(subject, fmt::format("do not give the measured torques by the servo's law: {}",
-                                        law_causes.at(explains ? best - joint.apart.begin() : 0)));
+                                        law_causes.at(explains ? best : 0)));
       continue;
     }
     const Eigen::Matrix3d spread = joint.spread();

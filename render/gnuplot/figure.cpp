@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <memory>
 #include <qpdf/qpdf-c.h>
@@ -213,12 +212,6 @@ std::string gnuplot_text(std::string_view text) {
     }
   }
   return result + "'";
-}
-
-std::string file_argument(const std::string& name) {
-  const bool is_plain = !name.empty() && (std::isalnum(static_cast<unsigned char>(name[0])) != 0 ||
-                                          static_cast<unsigned char>(name[0]) >= 0x80);
-  return is_plain ? name : "./" + name;
 }
 
 std::string gnuplot_file(const std::string& name) { return gnuplot_text(file_argument(name)); }

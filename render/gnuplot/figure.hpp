@@ -50,11 +50,7 @@ FigureText figure_text(const std::string& script);
 /// the string's end.
 std::string gnuplot_text(std::string_view text);
 
-/// The name of a file in the same folder as gnuplot takes it, on its command line and in scripts: a
-/// name that does not begin with a letter or a digit could be an option, a data block or a
-/// command that gnuplot runs.
-std::string file_argument(const std::string& name);
-/// The same as a gnuplot string constant.
+/// `file_argument` as a gnuplot string constant.
 std::string gnuplot_file(const std::string& name);
 
 /// The tics of a vertical axis that names rows: the first name on top, the last one at 0.

@@ -1,6 +1,7 @@
 #include "render/gnuplot/process.hpp"
 
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -19,7 +20,6 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "render/gnuplot/figure.hpp"
 
 namespace touchdown::render {
 
@@ -111,6 +111,12 @@ void require_whole(const std::filesystem::path& drawing, const std::filesystem::
   }
   throw Error(fmt::format("{}: cannot be written: gnuplot left it unfinished; is the disk full?",
                           final_path.string()));
+}
+
+std::string file_argument(const std::string& name) {
+  const bool is_plain = !name.empty() && (std::isalnum(static_cast<unsigned char>(name[0])) != 0 ||
+                                          static_cast<unsigned char>(name[0]) >= 0x80);
+  return is_plain ? name : "./" + name;
 }
 
 std::string gnuplot_complaint(const std::filesystem::path& folder, const std::string& script) {

@@ -16,6 +16,11 @@ void write_whole(const std::filesystem::path& path, std::string_view content,
 /// be flushed.
 void require_whole(const std::filesystem::path& drawing, const std::filesystem::path& final_path);
 
+/// The name of a file in the same folder as gnuplot takes it, on its command line and in scripts: a
+/// name that does not begin with a letter or a digit could be an option, a data block or a
+/// command that gnuplot runs.
+std::string file_argument(const std::string& name);
+
 /// Runs gnuplot on `script` in `folder`, without the user's settings and in UTC. Returns the line
 /// in which gnuplot reports an error or data that it cannot read, or nothing; other warnings are
 /// ignored. Errors: `Error` when gnuplot is not installed, or gets too few file descriptors.
