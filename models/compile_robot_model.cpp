@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -108,12 +109,39 @@ void set_size(RobotModel& robot, const RobotDescription& description, const Robo
   if (changed) recompute(*robot.mj);
 }
 
+/// Checks that engines can take the places of the robot's bodies, geoms and sites.
+void check_places(const mjModel& model, const Contract& contract) {
+  const auto message = [](const mjtNum* position, const mjtNum* orientation, int i) -> std::string {
+    const double distance = vector_at(position, i).norm();
+    if (!(distance <= 100.0)) {
+      return fmt::format("expected a place within 100 m of its parent, found {:g} m", distance);
+    }
+    const double length = quaternion_at(orientation, i).norm();
+    if (std::abs(length - 1.0) < 1e-3) return "";
+    return fmt::format("expected an orientation, found a quaternion of length {:g}", length);
+  };
+  for (int i = 1; i < model.nbody; ++i) {
+    const std::string text = message(model.body_pos, model.body_quat, i);
+    if (!text.empty()) contract.fail_at_body(i, "body: " + text);
+  }
+  for (int i = 0; i < model.ngeom; ++i) {
+    const bool is_robots = model.geom_bodyid[i] > 0;
+    const std::string text = is_robots ? message(model.geom_pos, model.geom_quat, i) : "";
+    if (!text.empty()) contract.fail_at_geom(i, "geom: " + text);
+  }
+  for (int i = 0; i < model.nsite; ++i) {
+    const std::string text = message(model.site_pos, model.site_quat, i);
+    if (!text.empty()) contract.fail_at_site(i, "site: " + text);
+  }
+}
+
 /// Looks up the robot's parts in the model of its file.
 RobotModel with_parts(MjModelPtr mj, const Tyre& tyre, const Contract& contract) {
   RobotModel robot;
   robot.mj = std::move(mj);
   robot.tyre = tyre;
   robot.name = robot.mj->names;  // the model's own name comes first
+  check_places(*robot.mj, contract);
   find_servos(robot, contract);
   find_tyres(robot, contract);
   return robot;

@@ -169,6 +169,20 @@ struct Later {
 
 /// The versions are those of the sections of MuJoCo's changelog that list it as added, and of the
 /// notes of the releases 3.11.0 and 3.12.0.
+TEST_F(RefusedRobot, HasPartsAtPlacesThatNoEngineCanTake) {
+  const std::string site = "<site name=\"imu\" pos=\"0 0 -0.1\" quat=\"0 0 1 0\"";
+  const std::string leg = "<body name=\"left_upper_leg\" pos=\"0 0.1142 -0.164\"";
+  const std::string geom = "type=\"sphere\" size=\"0.05\" pos=\"0 0.06 -0.168\"";
+  expect(
+      {{{site, "<site name=\"imu\" pos=\"1e9 0 0\""}, ":41:1: site: expected a place within 100 m"},
+       {{site, "<site name=\"imu\" pos=\"0 -inf 0\""}, "site: expected a place"},
+       {{site, "<site name=\"imu\" quat=\"nan 0 1 0\""}, "site: expected an orientation"},
+       {{leg, "<body name=\"left_upper_leg\" pos=\"0 -101 0\""}, ":55:1: body: expected a place"},
+       {{leg, leg + " quat=\"0 0 0 0\""}, "body: expected an orientation"},
+       {{geom, "type=\"sphere\" size=\"0.05\" pos=\"0 nan 0\""}, ":57:1: geom: expected a place"},
+       {{geom, geom + " quat=\"0 nan 0 0\""}, "geom: expected an orientation"}});
+}
+
 TEST_F(RefusedRobot, HasWhatLaterVersionsOfMuJoCoAdded) {
   const std::string motor = "<motor name=\"left_hip\" joint=\"left_hip\" ctrlrange=\"-16 16\"";
   const std::string servo = "<position name=\"left_hip\" joint=\"left_hip\" kp=\"9\" ";
