@@ -22,46 +22,34 @@ namespace {
 /// The robot's file in the names of the contract, with nothing but the robot in it.
 struct RobotFile {
   MjcfDocument document;
-  std::vector<std::string> ignored;
+  FileFindings findings;
 };
-
-bool is_urdf(const MjcfDocument& document) {
-  return std::strcmp(document.root().Name(), "robot") == 0;
-}
-
-/// ", or a YAML file about this URDF that names its joints: a, b".
-std::string hint_about_urdf(const MjcfDocument& urdf) {
-  std::vector<std::string> joints;
-  urdf.visit([&](const tinyxml2::XMLElement& element) {
-    const std::string_view type = attribute(element, "type");
-    const bool moves = type == "revolute" || type == "continuous" || type == "prismatic";
-    if (std::strcmp(element.Name(), "joint") != 0 || !moves) return;
-    joints.emplace_back(attribute(element, "name"));
-  });
-  return fmt::format(", or a YAML file about this URDF that names its joints{}",
-                     joints.empty() ? "" : fmt::format(": {}", fmt::join(joints, ", ")));
-}
 
 void require_mjcf(const MjcfDocument& document) {
   const tinyxml2::XMLElement& root = document.root();
   if (std::strcmp(root.Name(), "mujoco") == 0 && root.FirstChildElement() != nullptr) return;
-  document.fail(root, fmt::format("{}: expected a robot in <mujoco>...</mujoco>{}", root.Name(),
-                                  is_urdf(document) ? hint_about_urdf(document) : ""));
+  document.fail(root, fmt::format("{}: expected a robot in <mujoco>...</mujoco>, or the <robot> of "
+                                  "a URDF",
+                                  root.Name()));
+}
+
+/// All complaints about a robot's file, one per line.
+void require_none(const std::vector<std::string>& complaints) {
+  if (!complaints.empty()) throw InputError(fmt::format("{}", fmt::join(complaints, "\n")));
 }
 
 RobotFile robot_file(const RobotDescription& description, const RobotKeys& keys) {
   RobotFile robot{MjcfDocument::load(description.mjcf), {}};
-  std::map<std::string, double> effort;
-  if (description.is_named && is_urdf(robot.document)) {
-    ConvertedUrdf converted = converted_urdf(description.mjcf, description.parts.base);
-    robot.document = std::move(converted.mjcf);
-    effort = std::move(converted.effort);
+  FileFindings& findings = robot.findings;
+  if (std::strcmp(robot.document.root().Name(), "robot") == 0) {
+    robot.document = converted_urdf(description.mjcf, description.parts.base, findings);
   }
   require_mjcf(robot.document);
-  robot.ignored = keep_robot_only(robot.document);
-  const std::vector<std::string> missing = drop_missing_assets(robot.document);
-  robot.ignored.insert(robot.ignored.end(), missing.begin(), missing.end());
-  name_parts(robot.document, description, effort, keys);
+  keep_robot_only(robot.document, findings);
+  translate_later_versions(robot.document, findings);
+  drop_missing_assets(robot.document, findings);
+  name_parts(robot.document, description, findings, keys);
+  require_none(findings.complaints);
   return robot;
 }
 
@@ -136,13 +124,14 @@ void check_places(const mjModel& model, const Contract& contract) {
 }
 
 /// Looks up the robot's parts in the model of its file.
-RobotModel with_parts(MjModelPtr mj, const Tyre& tyre, const Contract& contract) {
+RobotModel with_parts(MjModelPtr mj, const RobotDescription& description,
+                      const Contract& contract) {
   RobotModel robot;
   robot.mj = std::move(mj);
-  robot.tyre = tyre;
+  robot.tyre = description.tyre;
   robot.name = robot.mj->names;  // the model's own name comes first
   check_places(*robot.mj, contract);
-  find_servos(robot, contract);
+  find_servos(robot, description, contract);
   find_tyres(robot, contract);
   return robot;
 }
@@ -164,7 +153,13 @@ RobotModel compile_robot_model(const std::filesystem::path& file, const Terrain&
   PartNames& parts = description.parts;
   MjModelPtr mj = compile(source, terrain);
   const Contract contract(source.document, parts, *mj);
-  RobotModel robot = with_parts(std::move(mj), description.tyre, contract);
+  RobotModel robot = with_parts(std::move(mj), description, contract);
+  const std::string forward = turn_base(robot, parts.forward);
+  if (forward != "x") {
+    source.findings.ignored.push_back(
+        fmt::format("{}: the base's own axes: it faces {}, and is turned to face x (key `forward`)",
+                    description.mjcf.string(), forward));
+  }
   const bool swapped = sides_are_swapped(robot, contract);
   const bool has_strips = description.tyre.strips().size() > 1;
   if (swapped) {
@@ -177,7 +172,8 @@ RobotModel compile_robot_model(const std::filesystem::path& file, const Terrain&
   if (swapped || has_strips) {
     MjModelPtr again = compile(source, terrain);
     const Contract renewed(source.document, parts, *again);
-    robot = with_parts(std::move(again), description.tyre, renewed);
+    robot = with_parts(std::move(again), description, renewed);
+    (void)turn_base(robot, forward);
     if (has_strips) find_strips(robot, renewed);
   }
   const Contract final_contract(source.document, parts, *robot.mj);
@@ -187,7 +183,8 @@ RobotModel compile_robot_model(const std::filesystem::path& file, const Terrain&
                               ? std::string(servo_names[swapped ? (i + 3) % servo_count : i])
                               : parts.joint[i];
   }
-  robot.ignored.insert(robot.ignored.begin(), source.ignored.begin(), source.ignored.end());
+  robot.ignored.insert(robot.ignored.begin(), source.findings.ignored.begin(),
+                       source.findings.ignored.end());
   apply_conventions(robot, final_contract);
   check_stance(robot, description, keys);
   set_actuators(robot, description);

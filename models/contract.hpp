@@ -58,8 +58,8 @@ class Contract {
 /// Finds the floating base, the servos' joints and the torque limits of their motors,
 /// and checks them. The laws of position and velocity servos are removed. Errors: `InputError` for
 /// anything that would act besides the servos: other joints, springs, several motors on a joint,
-/// activations; and for limits that are not symmetric.
-void find_servos(RobotModel& robot, const Contract& contract);
+/// activations; and for limits that are not symmetric, or absent in the description, too.
+void find_servos(RobotModel& robot, const RobotDescription& description, const Contract& contract);
 
 /// Finds the held joints and the servos that hold them. A position servo of the file keeps its
 /// gains. Others get those that `gains: lqr` gives to hips and knees, of a pendulum of the robot's
@@ -78,6 +78,11 @@ void add_strips(MjcfDocument& document, const RobotModel& robot);
 
 /// Finds the strips that `add_strips` added.
 void find_strips(RobotModel& robot, const Contract& contract);
+
+/// Turns the base frame about its z axis until x is forward: from `forward` (x, -x, y, -y), or, if
+/// this is empty, across the wheels' axes, with the left tyre on the left. A base with axes along y
+/// stays as it is, as sides may be called otherwise. Returns the former axis that faces forward.
+std::string turn_base(RobotModel& robot, std::string_view forward);
 
 /// Whether the leg called left is on the right. Errors: `InputError` unless the tyres are side by
 /// side.

@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include "models/contract.hpp"
+#include "models/resizing.hpp"
 
 namespace touchdown::models {
 
@@ -169,6 +171,53 @@ void set_limits(mjModel& model) {
 }
 
 }  // namespace
+
+static std::string forward_axis(const RobotModel& robot) {
+  const MjDataPtr data = at_reference(robot);
+  const Vector3d axle = vector_at(data->xaxis, robot.joint[index(wheel_servos[0])]);
+  constexpr double least = 0.97;  // cosine of 14°
+  if (std::abs(axle.x()) < least) return "x";
+  const double left = data->geom_xpos[3 * robot.tyre_geom[0]];
+  return left > data->geom_xpos[3 * robot.tyre_geom[1]] ? "-y" : "y";
+}
+
+std::string turn_base(RobotModel& robot, std::string_view given) {
+  std::string forward = given.empty() ? forward_axis(robot) : std::string(given);
+  if (forward == "x") return forward;
+  const double half = std::numbers::sqrt2 / 2.0;
+  const Eigen::Quaterniond turn = forward == "-x"  ? Eigen::Quaterniond(0.0, 0.0, 0.0, 1.0)
+                                  : forward == "y" ? Eigen::Quaterniond(half, 0.0, 0.0, -half)
+                                                   : Eigen::Quaterniond(half, 0.0, 0.0, half);
+  mjModel& model = *robot.mj;
+  const auto turn_row = [&](mjtNum* position, mjtNum* orientation, int row) {
+    const Vector3d at = turn * vector_at(position, row);
+    const Eigen::Quaterniond as = turn * quaternion_at(orientation, row);
+    std::copy_n(at.data(), 3, position + 3 * row);
+    const std::array<double, 4> wxyz = {as.w(), as.x(), as.y(), as.z()};
+    std::copy_n(wxyz.data(), 4, orientation + 4 * row);
+  };
+  const int base = robot.base_body;
+  turn_row(model.body_ipos, model.body_iquat, base);
+  model.body_sameframe[base] = 0;
+  for (int body = base + 1; body < model.nbody; ++body) {
+    if (model.body_parentid[body] == base) turn_row(model.body_pos, model.body_quat, body);
+  }
+  for (int geom = 0; geom < model.ngeom; ++geom) {
+    if (model.geom_bodyid[geom] != base) continue;
+    turn_row(model.geom_pos, model.geom_quat, geom);
+    model.geom_sameframe[geom] = 0;
+  }
+  for (int site = 0; site < model.nsite; ++site) {
+    if (model.site_bodyid[site] != base) continue;
+    turn_row(model.site_pos, model.site_quat, site);
+    model.site_sameframe[site] = 0;
+  }
+  for (int camera = 0; camera < model.ncam; ++camera) {
+    if (model.cam_bodyid[camera] == base) turn_row(model.cam_pos, model.cam_quat, camera);
+  }
+  recompute(model);
+  return forward;
+}
 
 bool sides_are_swapped(const RobotModel& robot, const Contract& contract) {
   const MjDataPtr data = at_reference(robot);

@@ -100,7 +100,8 @@ static void describe_parts(Fields& fields, PartNames& parts) {
     check_held(fields, parts.held);
   }
   fields.know("tyres");
-  if (fields.present("tyres", !parts.tyre[0].empty() || !parts.tyre[1].empty())) {
+  if (fields.present("tyres",
+                     !parts.tyre[0].empty() || !parts.tyre[1].empty() || parts.tyre_radius > 0.0)) {
     fields
         .within("tyres",
                 [&](Fields& tyres) {
@@ -110,9 +111,24 @@ static void describe_parts(Fields& fields, PartNames& parts) {
                   describe_name(tyres, "right", parts.tyre[1])
                       .fallback("right_tire")
                       .doc("Geom of the right tyre, or a body with one round collider.");
+                  constexpr double largest = 1.0;
+                  tyres("radius", parts.tyre_radius, 0.0, largest)
+                      .doc("m", "Radius of wheels with meshes as colliders, 0 for round ones.");
                 })
         .doc("Names of the tyres in the MJCF.");
   }
+  fields.know("no_collision");
+  if (fields.present("no_collision", !parts.no_collision.empty())) {
+    fields("no_collision", parts.no_collision)
+        .doc("Colliders that touch nothing: geoms, or bodies with all of theirs.");
+  }
+  std::string forward = parts.forward.empty() ? "auto" : parts.forward;
+  fields.know("forward");
+  if (fields.present("forward", !parts.forward.empty())) {
+    fields.choose("forward", {"auto", "x", "-x", "y", "-y"}, forward)
+        .doc("Axis of the base that faces forward; `auto`: across the wheels' axes.");
+  }
+  parts.forward = forward == "auto" ? "" : forward;
   describe_name(fields, "imu", parts.imu)
       .fallback("imu")
       .doc("Site of the IMU, or a body that is fixed to the base.");

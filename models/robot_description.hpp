@@ -45,6 +45,9 @@ struct PartNames {
   bool has_hips = true;                        ///< false: legs of a knee and a wheel
   std::vector<std::string> held;               ///< joints that a servo keeps at their reference
   std::array<std::string, wheel_count> tyre;   ///< geoms, or bodies with one round collider
+  double tyre_radius = 0.0;                    ///< of spheres in place of these colliders (m)
+  std::vector<std::string> no_collision;       ///< geoms, or bodies, that touch nothing
+  std::string forward;                         ///< the base's axis that faces forward: x, -x, y, -y
   std::string imu;                             ///< a site, or a body with the frame of the IMU
   std::string base;                            ///< the floating link of a URDF
 };
@@ -72,6 +75,8 @@ struct PartNames {
 ///     held: [l_hip_roll, r_hip_roll]
 ///     held_servo: {kp: 200, kd: 10, maximum_torque: 60}
 ///     tyres: {left: l_tire, right: r_tire}
+///     no_collision: [l_guard]
+///     forward: -y
 ///     imu: imu_link
 struct RobotDescription {
   std::filesystem::path mjcf;

@@ -15,6 +15,8 @@ namespace {
 /// Throws an `InputError` about a motor.
 using FailAtMotor = std::function<void(const std::string& message)>;
 
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+
 /// The upper end of a range that must be symmetric.
 double symmetric(const mjtNum* range, const char* what, const FailAtMotor& fail) {
   constexpr double close = 1e-6;
@@ -26,8 +28,9 @@ double symmetric(const mjtNum* range, const char* what, const FailAtMotor& fail)
 
 /// The torque limit of a motor on its joint (N·m): the control range times the gain, within the
 /// force range, times the gear. Position and velocity servos count with their force range. Errors:
-/// `fail` for activations, limits that are not symmetric, and motors without a limit.
-double torque_limit(const mjModel& model, int motor, const FailAtMotor& fail) {
+/// `fail` for activations, limits that are not symmetric, and motors without a limit, unless one is
+/// `given`.
+double torque_limit(const mjModel& model, int motor, double given, const FailAtMotor& fail) {
   if (model.actuator_dyntype[motor] != mjDYN_NONE) {
     fail("expected a motor, found an activation (dyntype)");
   }
@@ -39,13 +42,12 @@ double torque_limit(const mjModel& model, int motor, const FailAtMotor& fail) {
   const bool is_motor = model.actuator_biastype[motor] == mjBIAS_NONE;
   const bool has_force = model.actuator_forcelimited[motor] != 0;
   const bool has_control = is_motor && model.actuator_ctrllimited[motor] != 0;
-  if (!is_motor && !has_force) {
-    fail("expected a motor, or a forcerange, its torque limit (N·m)");
-  }
   if (!has_force && !has_control) {
-    fail("expected a ctrlrange or forcerange, its torque limit (N·m)");
+    if (std::isfinite(given)) return given;
+    fail(is_motor ? "expected a ctrlrange or forcerange, its torque limit (N·m)"
+                  : "expected a motor, or a forcerange, its torque limit (N·m)");
   }
-  double limit = std::numeric_limits<double>::infinity();
+  double limit = no_limit;
   if (has_control) {
     limit = std::abs(model.actuator_gainprm[mjNGAIN * motor]) *
             symmetric(&model.actuator_ctrlrange[2 * motor], "ctrlrange", fail);
@@ -115,20 +117,58 @@ int find_joint(const mjModel& model, const Contract& contract, std::size_t servo
   return joint;
 }
 
+/// Whether a body is `above`, or below it.
+bool is_within(const mjModel& model, int body, int above) {
+  while (body > above) body = model.body_parentid[body];
+  return body == above;
+}
+
+/// Whether a joint that moves no wheel is a rod's: it is on a leg, or moves another joint.
+bool is_rod(const RobotModel& robot, int joint) {
+  const mjModel& model = *robot.mj;
+  const int body = model.jnt_bodyid[joint];
+  bool is_on_leg = false;
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    if (!robot.has(i)) continue;
+    const int moved = model.jnt_bodyid[robot.joint[i]];
+    if (is_within(model, moved, body)) return false;
+    is_on_leg = is_on_leg || is_within(model, body, moved);
+  }
+  for (int other = 0; other < model.njnt && !is_on_leg; ++other) {
+    is_on_leg = other != joint && is_within(model, model.jnt_bodyid[other], body);
+  }
+  return is_on_leg;
+}
+
 void refuse_other_joints(const RobotModel& robot, const Contract& contract) {
   const mjModel& model = *robot.mj;
+  std::vector<std::string> rods;
+  std::vector<std::string> others;
+  int first = -1;
   for (int joint = 0; joint < model.njnt; ++joint) {
     const char* const name = mj_id2name(&model, mjOBJ_JOINT, joint);
     const bool is_known =
         model.jnt_type[joint] == mjJNT_FREE || is_held_name(name) ||
         std::find(robot.joint.begin(), robot.joint.end(), joint) != robot.joint.end();
     if (is_known) continue;
-    contract.fail_at_joint(
-        joint,
-        fmt::format("joint {}: expected the servos' joints alone (a YAML file about this robot may "
-                    "list it under `held`)",
-                    contract.name_of(mjOBJ_JOINT, joint)));
+    if (first < 0) first = joint;
+    (is_rod(robot, joint) ? rods : others).push_back(contract.name_of(mjOBJ_JOINT, joint));
   }
+  if (first < 0) return;
+  std::string message;
+  if (!rods.empty()) {
+    message = fmt::format(
+        "joint {}: a chain that ends without a tyre: expected none: rods of a closed chain, cut "
+        "open in this file? Held, they would bear the leg",
+        fmt::join(rods, ", "));
+  }
+  if (!others.empty()) {
+    message += fmt::format(
+        "{}joint {}: expected the servos' joints alone (a YAML file about this robot may list it "
+        "under `held`)",
+        message.empty() ? "" : "; ", fmt::join(others, ", "));
+  }
+  contract.fail_at_joint(first, message);
 }
 
 int find_motor(const RobotModel& robot, const Contract& contract, std::size_t servo) {
@@ -240,7 +280,7 @@ class Held {
           "expected a motor that holds it, an effort limit in the URDF, or 'held_servo: "
           "{maximum_torque: …}' in the YAML file");
     }
-    held_.effort = torque_limit(model_, motor_, [&](const std::string& message) {
+    held_.effort = torque_limit(model_, motor_, no_limit, [&](const std::string& message) {
       contract_.fail_at_actuator(
           motor_, fmt::format("motor of joint '{}': {}, or 'held_servo: {{maximum_torque: …}}' in "
                               "the YAML file",
@@ -265,7 +305,7 @@ class Held {
 
 }  // namespace
 
-void find_servos(RobotModel& robot, const Contract& contract) {
+void find_servos(RobotModel& robot, const RobotDescription& description, const Contract& contract) {
   mjModel& model = *robot.mj;
   robot.base_body = find_base(model, contract);
   std::array<int, servo_count> motor = {-1, -1, -1, -1, -1, -1};
@@ -282,8 +322,13 @@ void find_servos(RobotModel& robot, const Contract& contract) {
     const int joint = robot.joint[i];
     robot.qpos_address[i] = model.jnt_qposadr[joint];
     robot.dof_address[i] = model.jnt_dofadr[joint];
+    const auto& given = description.actuator(static_cast<Servo>(i));
     robot.effort[i] = torque_limit(
-        model, motor[i], [&](const std::string& message) { contract.fail_at_motor(i, message); });
+        model, motor[i], given ? given->maximum_torque : no_limit, [&](const std::string& message) {
+          contract.fail_at_motor(
+              i, fmt::format("{}, or 'actuators: {{{}: {{maximum_torque: …}}}}' in the YAML file",
+                             message, std::array{"hip", "knee", "wheel"}[i % 3]));
+        });
     robot.actuator[i] = {.friction = model.dof_frictionloss[robot.dof_address[i]],
                          .viscous = model.dof_damping[robot.dof_address[i]],
                          .armature = model.dof_armature[robot.dof_address[i]]};

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -14,6 +15,39 @@ namespace {
 /// The zeros of the file's joints, as a stance from straight legs.
 Stance zeros_of(const RobotModel& robot) {
   return {robot.zero[index(Servo::left_hip)], -robot.zero[index(Servo::left_knee)]};
+}
+
+/// The stance within the ranges of both legs that bends the knees most nearly as Upkie's crouch
+/// does, either way, with the axle as nearly as possible below the first joint.
+std::optional<Stance> stance_within_ranges(const RobotModel& robot) {
+  const MjDataPtr data = at_zero(robot);
+  const auto at = [&](Servo servo) { return vector_at(data->xanchor, robot.joint[index(servo)]); };
+  const bool has_hips = robot.has(index(Servo::left_hip));
+  const double lower = (at(Servo::left_wheel) - at(Servo::left_knee)).norm();
+  const double upper = has_hips ? (at(Servo::left_knee) - at(Servo::left_hip)).norm() : 0.0;
+  std::optional<Stance> best;
+  double least = std::numeric_limits<double>::infinity();
+  constexpr double step = 0.02;  // rad
+  constexpr int half_turn = 157;
+  for (int k = -half_turn; k <= half_turn; ++k) {
+    const double knee = step * k;
+    for (int h = has_hips ? -half_turn : 0; h <= (has_hips ? half_turn : 0); ++h) {
+      const Stance stance{step * h, knee};
+      const double off = upper * std::sin(stance.hip) + lower * std::sin(stance.hip - knee);
+      const double height = upper * std::cos(stance.hip) + lower * std::cos(stance.hip - knee);
+      const double bend = std::abs(std::abs(knee) - Stance().knee);
+      const double cost = std::abs(off) / (upper + lower) + bend;
+      constexpr double within = 0.05;  // rad: room to move
+      if (height <= 0.0 || cost >= least ||
+          stance_error(robot, {stance.hip - within, knee - within}) ||
+          stance_error(robot, {stance.hip + within, knee + within})) {
+        continue;
+      }
+      least = cost;
+      best = stance;
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -37,6 +71,7 @@ Stance usual_stance(const RobotModel& robot) {
   const Stance mirrored = {-crouch.hip, -crouch.knee};
   if (!stance_error(robot, crouch)) return crouch;
   if (!stance_error(robot, mirrored)) return mirrored;
+  if (const auto found = stance_within_ranges(robot)) return *found;
   const std::size_t hip = index(Servo::left_hip);
   return {robot.has(hip) ? robot.reference(hip) : 0.0, -robot.reference(hip + 1)};
 }

@@ -15,7 +15,8 @@ bool can_turn(const RobotModel& robot, std::size_t servo, double angle);
 Stance from_straight(const RobotModel& robot, const Stance& stance);
 
 /// The stance if the file of a robot gives none: Upkie's crouch; if the joints cannot have it, its
-/// mirror image, with knees that bend forward; or else the pose of the file.
+/// mirror image, with knees that bend forward; if they can have neither, the nearest to these
+/// within their ranges; or else the pose of the file.
 Stance usual_stance(const RobotModel& robot);
 
 /// An angle that a joint cannot have.

@@ -18,12 +18,14 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// A compiler attribute; the last one counts.
+/// A compiler attribute, of an MJCF or of MuJoCo's section of a URDF; the last one counts.
 std::string compiler_attribute(const MjcfDocument& document, const char* name) {
   std::string value;
-  for (auto* e : children(document.root(), "compiler")) {
-    if (e->Attribute(name) != nullptr) value = attribute(*e, name);
-  }
+  document.visit([&](const XMLElement& e) {
+    if (std::string_view(e.Name()) == "compiler" && e.Attribute(name) != nullptr) {
+      value = attribute(e, name);
+    }
+  });
   return value;
 }
 
@@ -69,22 +71,22 @@ bool has_own_mass(const MjcfDocument& document, const XMLElement& geom) {
   return numbers(attribute_or_default(document, geom, "mass")) == std::vector<double>{0.0};
 }
 
-std::string drop_mesh(MjcfDocument& document, XMLElement& mesh, const std::string& file) {
+void drop_mesh(MjcfDocument& document, XMLElement& mesh, const std::string& file,
+               FileFindings& findings) {
   const std::string name = name_of(mesh);
+  const std::string about =
+      fmt::format("{}: mesh '{}': {}: no such file", document.place_of(mesh), name, file);
+  std::string untouched;
   for (XMLElement* const geom : elements_with(document, "geom", "mesh", name)) {
-    if (!is_visual(document, *geom)) {
-      document.fail(
-          mesh, fmt::format("mesh '{}': {}: no such file, and {} of {} touches with it", name, file,
-                            title_of(*geom), title_of(*geom->Parent()->ToElement())));
-    }
+    const std::string body = title_of(*geom->Parent()->ToElement());
     if (!has_own_mass(document, *geom)) {
-      document.fail(mesh, fmt::format("mesh '{}': {}: no such file, and {} has its mass from it: "
-                                      "expected an <inertial>",
-                                      name, file, title_of(*geom->Parent()->ToElement())));
+      findings.complaints.push_back(
+          fmt::format("{}, and {} has its mass from it: expected an <inertial>", about, body));
     }
+    if (!is_visual(document, *geom)) untouched = ", and " + body + " does not touch with it";
     document.remove(*geom);
   }
-  return fmt::format("mesh '{}': {}: no such file: not drawn", name, file);
+  findings.ignored.push_back(about + ": not drawn" + untouched);
 }
 
 std::string drop_texture(MjcfDocument& document, const XMLElement& texture,
@@ -150,13 +152,35 @@ std::string fault_of_mesh(const std::filesystem::path& file) {
   return "";
 }
 
+std::filesystem::path urdf_asset(std::string_view address, const MjcfDocument& urdf) {
+  constexpr std::string_view plain = "file://";
+  std::vector<std::filesystem::path> candidates;
+  const std::filesystem::path folder = absolute_path(urdf.file()).parent_path();
+  if (address.starts_with(package_address)) {
+    const std::filesystem::path path(address.substr(package_address.size()));
+    const std::filesystem::path inside = path.lexically_relative(*path.begin());
+    for (std::filesystem::path above = folder;; above = above.parent_path()) {
+      candidates.insert(candidates.end(), {above / path, above / inside});
+      if (above == above.parent_path()) break;
+    }
+  } else {
+    candidates.push_back(folder /
+                         (address.starts_with(plain) ? address.substr(plain.size()) : address));
+  }
+  for (const auto& beside : {folder / compiler_attribute(urdf, "meshdir"), folder}) {
+    candidates.push_back(beside / std::filesystem::path(address).filename());
+  }
+  const auto file = std::find_if_not(candidates.begin(), candidates.end(), is_missing);
+  return file == candidates.end() ? std::filesystem::path() : file->lexically_normal();
+}
+
 std::vector<std::filesystem::path> opened_files(const std::filesystem::path& file) {
   const MjcfDocument document = MjcfDocument::load(file);
   std::vector<std::filesystem::path> files = document.files();
   document.visit([&](const XMLElement& element) {
     std::vector<std::filesystem::path> candidates;
     if (element.Attribute("filename") != nullptr) {
-      candidates = {urdf_asset(attribute(element, "filename"), document.file())};
+      candidates = {urdf_asset(attribute(element, "filename"), document)};
     } else if (element.Attribute("file") != nullptr) {
       candidates = {file_of(document, element, "meshdir"),
                     file_of(document, element, "texturedir")};
@@ -169,8 +193,7 @@ std::vector<std::filesystem::path> opened_files(const std::filesystem::path& fil
   return files;
 }
 
-std::vector<std::string> drop_missing_assets(MjcfDocument& document) {
-  std::vector<std::string> notes;
+void drop_missing_assets(MjcfDocument& document, FileFindings& findings) {
   for (auto* section : children(document.root(), "asset")) {
     for (XMLElement* const asset : children(*section)) {
       const std::string_view tag = asset->Name();
@@ -178,19 +201,19 @@ std::vector<std::string> drop_missing_assets(MjcfDocument& document) {
       if ((!is_mesh && tag != "texture") || asset->Attribute("file") == nullptr) continue;
       const std::filesystem::path file =
           file_of(document, *asset, is_mesh ? "meshdir" : "texturedir");
+      const std::string place = document.place_of(*asset) + ": ";
       if (!is_missing(file)) {
         const std::string fault = is_mesh ? fault_of_mesh(file) : "";
-        if (!fault.empty())
-          document.fail(*asset, fmt::format("mesh '{}': {}", name_of(*asset), fault));
-        continue;
+        if (fault.empty()) continue;
+        findings.complaints.push_back(place + fmt::format("mesh '{}': {}", name_of(*asset), fault));
+      } else if (is_mesh) {
+        drop_mesh(document, *asset, file.string(), findings);
+      } else {
+        findings.ignored.push_back(place + drop_texture(document, *asset, file.string()));
       }
-      notes.push_back(document.place_of(*asset) + ": " +
-                      (is_mesh ? drop_mesh(document, *asset, file.string())
-                               : drop_texture(document, *asset, file.string())));
       document.remove(*asset);
     }
   }
-  return notes;
 }
 
 }  // namespace touchdown::models

@@ -5,11 +5,9 @@
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
-#include <map>
 #include <mutex>
 #include <new>
 #include <regex>
-#include <set>
 #include <string>
 #include <string_view>
 
@@ -22,50 +20,6 @@
 namespace touchdown::models {
 
 namespace {
-
-/// Elements and attributes by the version that introduced them: from MuJoCo's changelog
-/// (doc/changelog.rst of google-deepmind/mujoco), and from the notes of its releases 3.11.0 and
-/// 3.12.0. `kv` and `timeconst` were no attributes of position servos before, and `inertia` none of
-/// meshes.
-const std::map<std::string, std::set<std::string>> features = {
-    {"2.3.0", {"assetdir", "extension", "plugin"}},
-    {"2.3.1", {"actdim", "gravcomp"}},
-    {"2.3.6", {"tausmooth"}},
-    {"2.3.7", {"actuatorforcelimited", "actuatorforcerange", "content_type"}},
-    {"3.0.0",
-     {"actearly", "actuatorfrclimited", "actuatorfrcrange", "deformable", "flex", "flexcomp",
-      "focal", "focalpixel", "principal", "principalpixel", "resolution", "sensorsize"}},
-    {"3.1.0", {"frame", "kv"}},
-    {"3.1.3", {"inheritrange"}},
-    {"3.1.4", {"actuatorgravcomp"}},
-    {"3.1.5", {"bulbradius", "metallic", "replicate", "roughness"}},
-    {"3.1.6", {"dampratio", "timeconst"}},
-    {"3.2.0", {"attach", "maxhullvert", "orthographic"}},
-    {"3.2.3", {"align", "alignfree"}},
-    {"3.2.5", {"inertia", "layer"}},
-    {"3.3.1", {"saveinertial"}},
-    {"3.11.0", {"surfacevel"}},
-    {"3.12.0", {"pid"}}};
-
-/// The version of MuJoCo that introduced the element or attribute which an error message of MuJoCo
-/// calls unrecognized: " (`dampratio` came with MuJoCo 3; this is MuJoCo 2.2.2)". Empty for other
-/// messages.
-std::string later_version_text(std::string_view message) {
-  const std::string text(message);
-  std::smatch match;
-  if (!std::regex_search(text, match,
-                         std::regex("unrecognized (?:attribute|element)[^']*'([^']+)'"))) {
-    return {};
-  }
-  const std::string name = match[1].str();
-  for (const auto& [version, names] : features) {
-    if (!names.contains(name)) continue;
-    return fmt::format(" (`{}` came with MuJoCo {}; this is MuJoCo {})", name, version,
-                       mj_versionString());
-  }
-  return fmt::format(" (this is MuJoCo {}: `{}` may be of a later version)", mj_versionString(),
-                     name);
-}
 
 /// Whether an error message of MuJoCo is about memory.
 bool is_about_memory(std::string_view message) {
@@ -109,7 +63,6 @@ std::string located(const std::filesystem::path& file, const MjcfDocument::Text&
     // The message's own line is that of the composed text.
     message = std::regex_replace(message, std::regex(",? *line[ =]+\\d+(, *column +-?\\d+)?"), "");
   }
-  message += later_version_text(message);
   std::replace(message.begin(), message.end(), '\n', ' ');
   while (!message.empty() && message.back() == ' ') message.pop_back();
   return where + ": " + message;

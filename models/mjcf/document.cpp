@@ -273,6 +273,13 @@ void MjcfDocument::insert_before(XMLElement& next, const std::string& elements) 
   }
 }
 
+void MjcfDocument::move_before(XMLElement& next, XMLElement& element) {
+  tinyxml2::XMLNode* const parent = next.Parent();
+  tinyxml2::XMLNode* const before = next.PreviousSibling();
+  before == nullptr ? parent->InsertFirstChild(&element)
+                    : parent->InsertAfterChild(before, &element);
+}
+
 MjcfDocument::Text MjcfDocument::text(const std::string& more) const {
   Text written;
   const std::function<void(const XMLElement&)> write = [&](const XMLElement& element) {

@@ -47,6 +47,9 @@ class MjcfDocument {
   /// Parses elements and inserts them before `next`.
   void insert_before(tinyxml2::XMLElement& next, const std::string& elements);
 
+  /// Moves an element, with all below it, before `next`.
+  void move_before(tinyxml2::XMLElement& next, tinyxml2::XMLElement& element);
+
   /// The tree as text, one element per line. `more` is inserted before the end of the root.
   struct Text {
     std::string text;

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <initializer_list>
 
+#include <Eigen/Core>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/error.hpp"
 #include "core/yaml.hpp"
 #include "models/mjcf/document.hpp"
 
@@ -63,7 +65,7 @@ std::vector<XMLElement*> motors_of(MjcfDocument& document, std::string_view join
 double limit_without_motor(const MjcfDocument& document, const XMLElement& element,
                            const RobotDescription& description,
                            const std::map<std::string, double>& effort, std::size_t servo) {
-  const std::string& joint = description.parts.joint[servo];
+  const std::string joint = own_name(description.parts, servo);
   if (const auto found = effort.find(joint); found != effort.end()) return found->second;
   const auto& actuator = description.actuator(static_cast<Servo>(servo));
   if (actuator && std::isfinite(actuator->maximum_torque)) return actuator->maximum_torque;
@@ -95,6 +97,16 @@ XMLElement* only_motor_of(MjcfDocument& document, const std::string& joint) {
   return motors.empty() ? nullptr : motors.front();
 }
 
+/// Runs a step and keeps its complaint.
+template <typename Step>
+void collect(FileFindings& findings, const Step& step) {
+  try {
+    step();
+  } catch (const InputError& error) {
+    findings.complaints.emplace_back(error.what());
+  }
+}
+
 void rename(XMLElement& joint, XMLElement* motor, const std::string& name) {
   joint.SetAttribute("name", name.c_str());
   if (motor == nullptr) return;
@@ -110,17 +122,19 @@ XMLElement& joint_named(const MjcfDocument& document, const std::string& name,
   return *joint;
 }
 
-void name_held(MjcfDocument& document, const std::vector<std::string>& held,
-               const std::map<std::string, double>& effort, const RobotKeys& keys) {
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    XMLElement& joint = joint_named(document, held[i], fmt::format("held.{}", i), keys);
-    XMLElement* const motor = only_motor_of(document, held[i]);
-    rename(joint, motor, held_name(i));
-    const auto limit = effort.find(held[i]);
-    if (motor == nullptr && limit != effort.end()) {
-      add_motor(document, held_name(i), limit->second);
-    }
-  }
+void name_held(MjcfDocument& document, const std::vector<std::string>& held, FileFindings& findings,
+               const RobotKeys& keys) {
+  const std::map<std::string, double>& effort = findings.effort;
+  for (std::size_t i = 0; i < held.size(); ++i)
+    collect(findings, [&] {
+      XMLElement& joint = joint_named(document, held[i], fmt::format("held.{}", i), keys);
+      XMLElement* const motor = only_motor_of(document, held[i]);
+      rename(joint, motor, held_name(i));
+      const auto limit = effort.find(held[i]);
+      if (motor == nullptr && limit != effort.end()) {
+        add_motor(document, held_name(i), limit->second);
+      }
+    });
 }
 
 /// Refuses a joint that has the name of a servo, but is none: its name would be taken.
@@ -137,24 +151,33 @@ void require_free_name(const MjcfDocument& document, const PartNames& parts, std
 }
 
 void name_servos(MjcfDocument& document, const RobotDescription& description,
-                 const std::map<std::string, double>& effort, const RobotKeys& keys) {
+                 FileFindings& findings, const RobotKeys& keys) {
   // Found first and named afterwards, so that names can be exchanged.
   std::array<XMLElement*, servo_count> joints = {};
   std::array<XMLElement*, servo_count> motors = {};
   for (std::size_t i = 0; i < servo_count; ++i) {
     const std::string& own = description.parts.joint[i];
-    if (own.empty()) continue;
-    joints[i] = &joint_named(document, own, fmt::format("joints.{}", servo_names[i]), keys);
-    require_free_name(document, description.parts, i);
-    motors[i] = only_motor_of(document, own);
+    if (i % 3 == 0 && own.empty() && !description.parts.has_hips) continue;
+    collect(findings, [&] {
+      if (own.empty()) {
+        // The compiled model has the complaint about a joint that is missing.
+        joints[i] = document.find("joint", servo_names[i]);
+      } else {
+        joints[i] = &joint_named(document, own, fmt::format("joints.{}", servo_names[i]), keys);
+        require_free_name(document, description.parts, i);
+      }
+      motors[i] = only_motor_of(document, own_name(description.parts, i));
+    });
   }
   for (std::size_t i = 0; i < servo_count; ++i) {
     if (joints[i] == nullptr) continue;
     const std::string name(servo_names[i]);
     rename(*joints[i], motors[i], name);
-    if (motors[i] == nullptr) {
-      add_motor(document, name, limit_without_motor(document, *joints[i], description, effort, i));
-    }
+    if (motors[i] != nullptr) continue;
+    collect(findings, [&] {
+      add_motor(document, name,
+                limit_without_motor(document, *joints[i], description, findings.effort, i));
+    });
   }
 }
 
@@ -208,11 +231,64 @@ XMLElement& largest_round_collider(const MjcfDocument& document, XMLElement& bod
   return *largest;
 }
 
+/// The body that a wheel's joint moves; null if there is no such joint.
+XMLElement* wheel_body(const MjcfDocument& document, std::size_t wheel) {
+  XMLElement* const joint = document.find("joint", servo_names[index(wheel_servos[wheel])]);
+  return joint == nullptr ? nullptr : joint->Parent()->ToElement();
+}
+
+Eigen::Vector3d vector_of(std::string_view text, const Eigen::Vector3d& otherwise) {
+  const std::vector<double> x = numbers(text);
+  return x.size() == 3 ? Eigen::Vector3d(x[0], x[1], x[2]) : otherwise;
+}
+
+/// Adds a sphere about a wheel's axle, abreast of its centre of mass, as the tyre of a wheel that
+/// has no round collider.
+XMLElement& sphere_about_axle(MjcfDocument& document, XMLElement& body, double radius) {
+  using Eigen::Vector3d;
+  const XMLElement& joint = *body.FirstChildElement("joint");
+  const XMLElement* const inertial = body.FirstChildElement("inertial");
+  const Vector3d anchor = vector_of(attribute_or_default(document, joint, "pos"), Vector3d::Zero());
+  const Vector3d axis =
+      vector_of(attribute_or_default(document, joint, "axis"), Vector3d::UnitZ()).normalized();
+  const Vector3d mass =
+      inertial == nullptr ? anchor : vector_of(attribute(*inertial, "pos"), anchor);
+  const Vector3d middle = anchor + axis * axis.dot(mass - anchor);
+  XMLElement* const geom = document.root().GetDocument()->NewElement("geom");
+  const std::string at = fmt::format("{} {} {}", middle.x(), middle.y(), middle.z());
+  for (const auto& [name, value] :
+       std::vector<std::pair<const char*, std::string>>{{"type", "sphere"},
+                                                        {"size", fmt::format("{}", radius)},
+                                                        {"pos", at},
+                                                        {"mass", "0"},
+                                                        {"group", "3"},
+                                                        {"contype", "1"},
+                                                        {"conaffinity", "1"},
+                                                        {"quat", "1 0 0 0"}}) {
+    geom->SetAttribute(name, value.c_str());
+  }
+  body.InsertEndChild(geom);
+  return *geom;
+}
+
+void leave_untouched(XMLElement& geom) {
+  geom.SetAttribute("contype", "0");
+  geom.SetAttribute("conaffinity", "0");
+}
+
 /// The geom of a tyre that has another name than the contract's; null otherwise.
 XMLElement* tyre_of(MjcfDocument& document, const PartNames& parts, std::size_t wheel,
                     const RobotKeys& keys) {
   const std::string& own = parts.tyre[wheel];
   const std::string key = fmt::format("tyres.{}", wheel == 0 ? "left" : "right");
+  XMLElement* const moved = wheel_body(document, wheel);
+  if (parts.tyre_radius > 0.0) {
+    if (moved == nullptr) return nullptr;
+    for_each_element(*moved, [](XMLElement& e) {
+      if (std::string_view(e.Name()) == "geom") leave_untouched(e);
+    });
+    return &sphere_about_axle(document, *moved, parts.tyre_radius);
+  }
   if (!own.empty()) {
     if (XMLElement* const geom = document.find("geom", own)) return geom;
     if (XMLElement* const body = document.find("body", own)) {
@@ -220,18 +296,15 @@ XMLElement* tyre_of(MjcfDocument& document, const PartNames& parts, std::size_t 
     }
     keys.fail(key, missing(document, {"geom", "body"}, own));
   }
-  const std::size_t servo = index(wheel_servos[wheel]);
-  if (parts.joint[servo].empty() || document.find("geom", tyre_geoms[wheel]) != nullptr) {
-    return nullptr;
-  }
-  XMLElement* const joint = document.find("joint", servo_names[servo]);
-  return &largest_round_collider(document, *joint->Parent()->ToElement(), key);
+  if (moved == nullptr || document.find("geom", tyre_geoms[wheel]) != nullptr) return nullptr;
+  return &largest_round_collider(document, *moved, key);
 }
 
-void name_tyres(MjcfDocument& document, const PartNames& parts, const RobotKeys& keys) {
+void name_tyres(MjcfDocument& document, const PartNames& parts, FileFindings& findings,
+                const RobotKeys& keys) {
   std::array<XMLElement*, wheel_count> tyres = {};
   for (std::size_t i = 0; i < wheel_count; ++i) {
-    tyres[i] = tyre_of(document, parts, i, keys);
+    collect(findings, [&] { tyres[i] = tyre_of(document, parts, i, keys); });
   }
   for (std::size_t i = 0; i < wheel_count; ++i) {
     if (tyres[i] == nullptr) continue;
@@ -242,8 +315,8 @@ void name_tyres(MjcfDocument& document, const PartNames& parts, const RobotKeys&
   }
 }
 
-void name_imu(MjcfDocument& document, const std::string& own, const RobotKeys& keys) {
-  if (own.empty()) return;
+void name_imu(MjcfDocument& document, const std::string& given, const RobotKeys& keys) {
+  const std::string own = given.empty() ? "imu" : given;
   XMLElement* const usual = own == "imu" ? nullptr : document.find("site", "imu");
   if (usual != nullptr) usual->DeleteAttribute("name");
   if (XMLElement* const site = document.find("site", own)) {
@@ -252,9 +325,23 @@ void name_imu(MjcfDocument& document, const std::string& own, const RobotKeys& k
     XMLElement* const added = document.root().GetDocument()->NewElement("site");
     added->SetAttribute("name", "imu");
     body->InsertEndChild(added);
-  } else {
+  } else if (!given.empty()) {
     keys.fail("imu", missing(document, {"site", "body"}, own));
   }
+}
+
+/// Lets the named geoms, and all geoms of the named bodies, touch nothing.
+void leave_untouched(MjcfDocument& document, const std::vector<std::string>& names,
+                     FileFindings& findings, const RobotKeys& keys) {
+  for (std::size_t i = 0; i < names.size(); ++i)
+    collect(findings, [&] {
+      if (XMLElement* const geom = document.find("geom", names[i])) return leave_untouched(*geom);
+      XMLElement* const body = document.find("body", names[i]);
+      if (body == nullptr) {
+        keys.fail(fmt::format("no_collision.{}", i), missing(document, {"geom", "body"}, names[i]));
+      }
+      for (auto* geom : children(*body, "geom")) leave_untouched(*geom);
+    });
 }
 
 /// The same part of the other leg; empty for any other name.
@@ -286,12 +373,14 @@ void RobotKeys::fail(std::string_view key, const std::string& message) const {
                                shown.empty() ? key : shown, message));
 }
 
-void name_parts(MjcfDocument& document, const RobotDescription& description,
-                const std::map<std::string, double>& effort, const RobotKeys& keys) {
-  name_held(document, description.parts.held, effort, keys);
-  name_servos(document, description, effort, keys);
-  name_tyres(document, description.parts, keys);
-  name_imu(document, description.parts.imu, keys);
+void name_parts(MjcfDocument& document, const RobotDescription& description, FileFindings& findings,
+                const RobotKeys& keys) {
+  const PartNames& parts = description.parts;
+  leave_untouched(document, parts.no_collision, findings, keys);
+  name_held(document, parts.held, findings, keys);
+  name_servos(document, description, findings, keys);
+  name_tyres(document, parts, findings, keys);
+  collect(findings, [&] { name_imu(document, parts.imu, keys); });
 }
 
 std::string held_name(std::size_t number) { return fmt::format("{}{}", held_prefix, number); }

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <string_view>
 
 #include "models/mjcf/document.hpp"
+#include "models/mjcf/robot_file.hpp"
 #include "models/robot_description.hpp"
 
 namespace touchdown::models {
@@ -22,12 +22,14 @@ class RobotKeys {
   std::filesystem::path file_;
 };
 
-/// Gives the parts of an MJCF the names of the contract, as the robot's YAML file names them. Held
-/// joints and their motors get the names of `held_name`. A joint without a motor gets one, with the
-/// effort of the URDF or the description's `maximum_torque`.
-/// Errors: `InputError` for a name that the MJCF does not have, and for parts that do not fit.
-void name_parts(MjcfDocument& document, const RobotDescription& description,
-                const std::map<std::string, double>& effort, const RobotKeys& keys);
+/// Gives the parts of an MJCF the names of the contract. The robot's YAML file names them; parts
+/// that it does not name have these names already. Held joints and their motors get the names of
+/// `held_name`. A joint without a motor gets one, with the effort of the findings or the
+/// description's `maximum_torque`. Tyres of a given radius become spheres; what is named under
+/// `no_collision` touches nothing. There is a complaint for each name that the MJCF does not have,
+/// and for parts that do not fit.
+void name_parts(MjcfDocument& document, const RobotDescription& description, FileFindings& findings,
+                const RobotKeys& keys);
 
 /// The name of a held joint and its motor in the renamed MJCF, by its place in `PartNames::held`.
 std::string held_name(std::size_t number);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "models/mjcf/document.hpp"
 
@@ -20,73 +20,55 @@ bool is_any_of(std::string_view word, std::initializer_list<std::string_view> wo
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// Whether all numbers of an attribute are about those of `expected`.
-bool is_about(std::string_view text, const std::vector<double>& expected) {
-  constexpr double close = 0.02;  // 9.8 and 9.80665 m/s² are 9.81
-  const std::vector<double> found = numbers(text);
-  return std::equal(found.begin(), found.end(), expected.begin(), expected.end(),
-                    [](double a, double b) { return std::abs(a - b) <= close; });
+/// Writes a sentence about an element, with its place.
+void note(std::vector<std::string>& notes, const MjcfDocument& document, const XMLElement& element,
+          const std::string& text) {
+  notes.push_back(document.place_of(element) + ": " + text);
 }
 
-bool is_zero(std::string_view text) {
-  const std::vector<double> found = numbers(text);
-  return std::all_of(found.begin(), found.end(), [](double x) { return x == 0.0; });
-}
-
-/// Refuses options that change the physics of one engine.
-void check_option(const MjcfDocument& document, const XMLElement& option) {
-  for (const auto* a = option.FirstAttribute(); a != nullptr; a = a->Next()) {
-    const std::string_view name = a->Name();
-    if (name == "gravity" && !is_about(a->Value(), {0.0, 0.0, -9.81})) {
-      document.fail(option,
-                    fmt::format("option: gravity \"{}\": expected \"0 0 -9.81\"", a->Value()));
-    }
-    if (is_any_of(name, {"density", "viscosity", "wind"}) && !is_zero(a->Value())) {
-      document.fail(option, fmt::format("option: {} \"{}\": expected none: air is not simulated",
-                                        name, a->Value()));
-    }
-  }
-  for (auto* flag : children(option, "flag")) {
-    for (const auto* a = flag->FirstAttribute(); a != nullptr; a = a->Next()) {
-      const bool is_physics =
-          is_any_of(a->Name(), {"constraint", "frictionloss", "limit", "contact", "passive",
-                                "gravity", "clampctrl", "actuation", "spring", "damper"});
-      if (is_physics && std::string_view(a->Value()) != "enable") {
-        document.fail(*flag,
-                      fmt::format("flag: {} \"{}\": expected \"enable\"", a->Name(), a->Value()));
-      }
-    }
-  }
-}
-
-void check_equality(const MjcfDocument& document, const XMLElement& section) {
+void refuse_equality(const MjcfDocument& document, const XMLElement& section,
+                     std::vector<std::string>& complaints) {
+  std::vector<std::string> loops;
+  const XMLElement* first = nullptr;
   for (auto* e : children(section)) {
     if (attribute(*e, "active") == "false") continue;
-    const bool closes = is_any_of(e->Name(), {"connect", "weld"});
-    document.fail(*e, fmt::format("equality {}: expected none: {}", title_of(*e),
-                                  closes ? "closed chains, such as five-bar legs, are not supported"
-                                         : "coupled joints are not supported"));
+    if (!is_any_of(e->Name(), {"connect", "weld"})) {
+      note(complaints, document, *e,
+           fmt::format("equality {}: expected none: coupled joints are not supported",
+                       title_of(*e)));
+      continue;
+    }
+    loops.push_back(title_of(*e));
+    if (first == nullptr) first = e;
   }
+  if (first == nullptr) return;
+  note(complaints, document, *first,
+       fmt::format("equality {}: expected none: closed chains, such as five-bar legs, are not "
+                   "supported",
+                   fmt::join(loops, ", ")));
 }
 
 /// Checks a top-level section. Returns the note on it if it is removed.
-std::string removed_section(const MjcfDocument& document, XMLElement& section) {
+std::string removed_section(const MjcfDocument& document, XMLElement& section,
+                            std::vector<std::string>& complaints) {
   const std::string_view tag = section.Name();
   if (tag == "option") {
-    check_option(document, section);
-    return "option: time step, solver and flags are the scenario's";
+    return "option: time step, solver, flags and gravity are the scenario's; air is not simulated";
   }
   if (tag == "equality") {
-    check_equality(document, section);
-    return "equality: inactive";
+    const std::size_t before = complaints.size();
+    refuse_equality(document, section, complaints);
+    return complaints.size() == before ? "equality: inactive" : "";
   }
   if (tag == "tendon") {
     const XMLElement* first = section.FirstChildElement();
-    document.fail(first != nullptr ? *first : section,
-                  fmt::format("tendon{}: expected none: tendons are not supported",
-                              first != nullptr ? " " + title_of(*first) : ""));
+    note(complaints, document, first != nullptr ? *first : section,
+         fmt::format("tendon{}: expected none: tendons are not supported",
+                     first != nullptr ? " " + title_of(*first) : ""));
   }
-  if (tag == "extension") document.fail(section, "extension: expected none: plugins are not run");
+  if (tag == "extension") {
+    note(complaints, document, section, "extension: expected none: plugins are not run");
+  }
   if (tag == "contact") return "contact: parts of the robot do not collide with each other";
   if (tag == "keyframe") return "keyframe: the start is the scenario's";
   if (tag == "sensor") return "sensor: joints and the IMU are measured, nothing else";
@@ -95,15 +77,18 @@ std::string removed_section(const MjcfDocument& document, XMLElement& section) {
 }
 
 /// Refuses actuators with a state of their own. (MuJoCo's complaint would be about their order.)
-void check_actuators(const MjcfDocument& document, const XMLElement& section) {
+void check_actuators(const MjcfDocument& document, const XMLElement& section,
+                     std::vector<std::string>& complaints) {
   for (auto* e : children(section)) {
     const std::string_view dynamics = attribute(*e, "dyntype");
     if (!dynamics.empty() && dynamics != "none") {
-      document.fail(
-          *e, fmt::format("{}: expected a motor, found an activation (dyntype)", title_of(*e)));
+      note(complaints, document, *e,
+           fmt::format("{}: expected a motor, found an activation (dyntype; a lag of the torque is "
+                       "'actuators: {{hip: {{torque_lag: …}}}}' in the YAML file)",
+                       title_of(*e)));
     }
     if (is_any_of(e->Name(), {"intvelocity", "damper", "cylinder", "muscle", "adhesion"})) {
-      document.fail(*e, fmt::format("{}: expected a motor", title_of(*e)));
+      note(complaints, document, *e, fmt::format("{}: expected a motor", title_of(*e)));
     }
   }
 }
@@ -116,63 +101,74 @@ bool has_free_joint(const XMLElement& body) {
   return false;
 }
 
-/// Whether a body holds nothing that moves or touches: a frame, a camera, a light.
-bool is_empty(const XMLElement& body) {
-  for (auto* e : children(body)) {
-    const std::string_view tag = e->Name();
-    if (is_any_of(tag, {"geom", "joint", "freejoint", "composite", "flexcomp"})) return false;
-    if (tag == "body" && !is_empty(*e)) return false;
-  }
-  return true;
+/// Whether a body has a joint, or one below it has.
+bool moves(XMLElement& body) {
+  bool found = false;
+  for_each_element(body, [&](const XMLElement& e) {
+    found = found || is_any_of(e.Name(), {"joint", "freejoint", "composite", "flexcomp"});
+  });
+  return found;
 }
 
 /// Checks an element of the world. Returns the note on it if it is removed.
-std::string removed_from_world(const MjcfDocument& document, XMLElement& element, bool has_robot) {
+std::string removed_from_world(const MjcfDocument& document, XMLElement& element, bool has_robot,
+                               std::vector<std::string>& complaints) {
   const std::string_view tag = element.Name();
-  if (tag == "geom") {
-    if (attribute(element, "type") == "plane") return "floor: the ground is the scenario's terrain";
-    document.fail(element, fmt::format("{} of the world: expected the robot alone: the ground is "
-                                       "the scenario's terrain",
-                                       title_of(element)));
-  }
   if (is_any_of(tag, {"light", "camera", "site"})) {
     return fmt::format("{} of the world: ignored", tag);
   }
-  if (tag != "body") return {};
-  if (attribute(element, "mocap") == "true") {
-    document.fail(element, fmt::format("{}: expected no mocap body", title_of(element)));
+  if (tag == "geom" || (tag == "body" && !moves(element))) {
+    return title_of(element) + " of the world: the ground is the scenario's terrain";
   }
-  if (!has_robot || has_free_joint(element)) return {};
-  if (is_empty(element)) return "body without geoms: ignored";
-  document.fail(element, fmt::format("{}: expected the robot alone, the body with the <freejoint/>",
-                                     title_of(element)));
+  if (tag == "body" && has_robot && !has_free_joint(element)) {
+    note(complaints, document, element,
+         fmt::format("{}: expected the robot alone, the body with the <freejoint/>",
+                     title_of(element)));
+  }
+  return {};
 }
 
-void note(std::vector<std::string>& notes, const MjcfDocument& document, const XMLElement& element,
-          const std::string& text) {
-  notes.push_back(document.place_of(element) + ": " + text);
+/// Lets a robot float that is fixed to the world in its file.
+void let_float(MjcfDocument& document, XMLElement& world, FileFindings& findings) {
+  const std::vector<XMLElement*> bodies = children(world, "body");
+  if (bodies.empty()) return;
+  if (bodies.size() == 1) {
+    bodies[0]->InsertFirstChild(document.root().GetDocument()->NewElement("freejoint"));
+    note(findings.ignored, document, *bodies[0],
+         title_of(*bodies[0]) + ": fixed to the world: it floats here");
+    return;
+  }
+  std::vector<std::string> titles;
+  for (const XMLElement* const body : bodies) titles.push_back(title_of(*body));
+  note(findings.complaints, document, *bodies[0],
+       fmt::format("{}: expected one body with a <freejoint/>: the world is their base; put what "
+                   "moves into <body name=\"base\"><freejoint/><inertial …/> … </body>",
+                   fmt::join(titles, ", ")));
 }
 
 void reduce_world(MjcfDocument& document, XMLElement& world, bool has_robot,
-                  std::vector<std::string>& notes) {
+                  FileFindings& findings) {
   for (XMLElement* const e : children(world)) {
-    const std::string removed = removed_from_world(document, *e, has_robot);
+    const std::string removed = removed_from_world(document, *e, has_robot, findings.complaints);
     if (removed.empty()) continue;
-    note(notes, document, *e, removed);
+    note(findings.ignored, document, *e, removed);
     document.remove(*e);
   }
+  if (!has_robot) let_float(document, world, findings);
   int geoms = 0;
   for_each_element(world, [&](XMLElement& e) {
     const std::string_view tag = e.Name();
-    if (tag == "geom" && ++geoms > most_geoms) {
-      document.fail(e, fmt::format("geom: expected at most {} geoms", most_geoms));
+    if (tag == "geom" && ++geoms == most_geoms + 1) {
+      note(findings.complaints, document, e,
+           fmt::format("geom: expected at most {} geoms", most_geoms));
     }
     if (tag == "geom" && attribute(e, "type") == "hfield") {
-      document.fail(
-          e, fmt::format("{}: expected no height field: Bullet has no counterpart", title_of(e)));
+      note(findings.complaints, document, e,
+           fmt::format("{}: expected no height field: Bullet has no counterpart", title_of(e)));
     }
     if (tag == "composite") {
-      document.fail(e, "composite: expected none: its joints would be no servos");
+      note(findings.complaints, document, e,
+           "composite: expected none: its joints would be no servos");
     }
   });
 }
@@ -202,8 +198,7 @@ void limit_by_ranges(MjcfDocument& document) {
 
 }  // namespace
 
-std::vector<std::string> keep_robot_only(MjcfDocument& document) {
-  std::vector<std::string> notes;
+void keep_robot_only(MjcfDocument& document, FileFindings& findings) {
   limit_by_ranges(document);
   XMLElement& root = document.root();
   bool has_robot = false;
@@ -213,20 +208,19 @@ std::vector<std::string> keep_robot_only(MjcfDocument& document) {
     }
   }
   for (XMLElement* const section : children(root)) {
-    const std::string removed = removed_section(document, *section);
+    const std::string removed = removed_section(document, *section, findings.complaints);
     const std::string_view tag = section->Name();
     if (!removed.empty()) {
-      note(notes, document, *section, removed);
+      note(findings.ignored, document, *section, removed);
       document.remove(*section);
     } else if (tag == "worldbody") {
-      reduce_world(document, *section, has_robot, notes);
+      reduce_world(document, *section, has_robot, findings);
     } else if (tag == "actuator") {
-      check_actuators(document, *section);
+      check_actuators(document, *section, findings.complaints);
     } else if (tag == "size") {
       reduce_sizes(*section);
     }
   }
-  return notes;
 }
 
 }  // namespace touchdown::models

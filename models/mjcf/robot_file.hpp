@@ -11,43 +11,56 @@
 
 namespace touchdown::models {
 
-/// Reduces an MJCF to its robot. Solver options, sizes, cameras, sensors, keyframes, contact pairs
-/// and a floor are removed: the scene has its own, or does without. Returns one sentence for each
-/// kind of thing that was removed, with its place.
-/// Errors: `InputError` with file:line:1 for everything that changes the physics and that not every
-/// engine is given: other gravity, air, disabled contacts, tendons, equality constraints, obstacles
-/// and other bodies, composite bodies, a floor of heights, or more than 5,000 geoms.
-std::vector<std::string> keep_robot_only(MjcfDocument& document);
+/// What is found in a robot's file.
+struct FileFindings {
+  std::vector<std::string> ignored;  ///< what is not simulated, one sentence each, with its place
+  std::vector<std::string> complaints;   ///< what cannot be simulated, likewise
+  std::map<std::string, double> effort;  ///< torque limits by joint (N·m), beside those of motors
+};
 
-/// Removes what cannot be drawn because its file is missing: meshes of geoms that touch nothing,
-/// and textures. Returns one sentence for each, with its place. Files are searched as MuJoCo does:
-/// in `meshdir` or `texturedir`, beside the robot's file. Errors: `InputError` for a missing mesh
-/// of a collider, or of a body that has its mass from it.
-std::vector<std::string> drop_missing_assets(MjcfDocument& document);
+/// Reduces an MJCF to its robot. Solver options, flags, gravity, sizes, sensors, keyframes, contact
+/// pairs and what stands still beside the robot are removed: the scene has its own, or does
+/// without. A robot that is fixed to the world gets a free joint. Complaints are about
+/// everything that changes the physics and that not every engine is given: tendons, equality
+/// constraints, moving bodies beside the robot, composite bodies, height fields, or more than 5,000
+/// geoms.
+void keep_robot_only(MjcfDocument& document, FileFindings& findings);
+
+/// Writes what later versions of MuJoCo added in the words of this one: the torque limits of
+/// joints, the damping of position servos, frames without a pose. What touchdown overrides or only
+/// draws is removed. There is a complaint for each other element and attribute that this version
+/// lacks.
+void translate_later_versions(MjcfDocument& document, FileFindings& findings);
+
+/// Removes meshes and textures without their files, and the geoms that need them. Files are
+/// searched as MuJoCo does: in `meshdir` or `texturedir`, beside the robot's file. There is a
+/// complaint for a missing mesh that a body has its mass from, and for a faulty one.
+void drop_missing_assets(MjcfDocument& document, FileFindings& findings);
 
 /// What is wrong with a mesh that MuJoCo would read beyond its end: a face of an OBJ that counts
 /// more vertices, normals or texture points than there are. With the file's line; empty if all is
 /// well.
 std::string fault_of_mesh(const std::filesystem::path& file);
 
+/// What the address of a file in a package begins with.
+inline constexpr std::string_view package_address = "package://";
+
 /// The file that the address of a URDF's mesh means. A package is a folder of this name, or any
-/// folder, above the URDF; MuJoCo itself searches beside the URDF. Empty if there is no such file.
-std::filesystem::path urdf_asset(std::string_view address, const std::filesystem::path& urdf);
+/// folder, above the URDF; MuJoCo itself searches beside the URDF, or in its `meshdir`. Empty if
+/// there is no such file.
+std::filesystem::path urdf_asset(std::string_view address, const MjcfDocument& urdf);
 
 /// The files that are opened for an MJCF or a URDF: itself, what it includes, and its meshes and
 /// textures as far as they exist. Errors: those of `MjcfDocument::load`.
 std::vector<std::filesystem::path> opened_files(const std::filesystem::path& file);
 
-/// A URDF as MJCF, with a free joint on its base link.
-struct ConvertedUrdf {
-  MjcfDocument mjcf;
-  std::map<std::string, double> effort;  ///< by joint (N·m), where the URDF has a limit
-};
-
-/// Converts a URDF by MuJoCo's own reader, which rounds to six digits. `base` is the link that
-/// floats; if empty, the first link with a mass from the root on. Links stay bodies of their names.
-/// What is only drawn is left out; `package://` is searched in the folders above the URDF. Errors:
-/// `InputError` for an unknown base, mimic joints, missing meshes and xacro; and those of MuJoCo.
-ConvertedUrdf converted_urdf(const std::filesystem::path& file, const std::string& base);
+/// Converts a URDF by MuJoCo's own reader, which rounds to six digits, to an MJCF with a free joint
+/// on its base link. `base` is the link that floats; if empty, the first link with a mass from the
+/// root on. Links stay bodies of their names. What is only drawn is left out; of the URDF's
+/// <mujoco>, the compiler's masses count. `package://` is searched in the folders above the URDF. A
+/// missing mesh leaves its link without this collider. Errors: `InputError` for an unknown base,
+/// mimic joints, a missing mesh of a link without <inertial>, and xacro; and those of MuJoCo.
+MjcfDocument converted_urdf(const std::filesystem::path& file, const std::string& base,
+                            FileFindings& findings);
 
 }  // namespace touchdown::models

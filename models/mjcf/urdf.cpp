@@ -38,30 +38,76 @@ std::vector<std::string> links_of(const XMLElement& robot) {
   return names;
 }
 
+/// The command that brings a missing mesh beside the URDF.
+std::string remedy_for(std::string_view address) {
+  if (!address.starts_with(package_address)) return {};
+  const std::filesystem::path path(address.substr(package_address.size()));
+  return fmt::format(" (`cp \"$(ros2 pkg prefix --share {})/{}\" .` copies it)",
+                     path.begin()->string(), path.lexically_relative(*path.begin()).string());
+}
+
+/// Removes a collider without its file. Errors: `InputError` if its link has its mass from it.
+void drop_collider(MjcfDocument& urdf, XMLElement& collider, std::string_view address,
+                   FileFindings& findings) {
+  const XMLElement& link = *collider.Parent()->ToElement();
+  const std::string missing =
+      fmt::format("mesh '{}': no such file{}", address, remedy_for(address));
+  if (link.FirstChildElement("inertial") == nullptr) {
+    urdf.fail(collider, missing + ", and its link has no <inertial>");
+  }
+  findings.ignored.push_back(fmt::format("{}: {}: {} does not touch with it",
+                                         urdf.place_of(collider), missing, title_of(link)));
+  urdf.remove(collider);
+}
+
 /// Removes what is only drawn, and writes the addresses of meshes as files.
-void prepare(MjcfDocument& urdf) {
-  for_each_element(urdf.root(), [&](XMLElement& element) {
-    const std::string_view tag = element.Name();
-    if (tag.starts_with("xacro:")) {
-      urdf.fail(element, fmt::format("{}: expected a URDF, found xacro: `xacro {} > robot.urdf` "
-                                     "writes one",
-                                     tag, urdf.file().filename().string()));
-    }
-    if (tag == "link") {
-      while (XMLElement* const visual = element.FirstChildElement("visual")) {
-        urdf.remove(*visual);
+void prepare(MjcfDocument& urdf, FileFindings& findings) {
+  urdf.visit([&](const XMLElement& element) {
+    if (!std::string_view(element.Name()).starts_with("xacro:")) return;
+    const std::string file = urdf.file().filename().string();
+    urdf.fail(element,
+              fmt::format("{}: expected a URDF, found xacro: `xacro {} > {}` writes one",
+                          element.Name(), file, file.substr(0, file.find('.')) + "_flat.urdf"));
+  });
+  for (auto* link : children(urdf.root(), "link")) {
+    for (auto* visual : children(*link, "visual")) urdf.remove(*visual);
+    for (auto* collider : children(*link, "collision")) {
+      XMLElement* const geometry = collider->FirstChildElement("geometry");
+      XMLElement* const mesh = geometry == nullptr ? nullptr : geometry->FirstChildElement("mesh");
+      if (mesh == nullptr) continue;
+      const std::string address(attribute(*mesh, "filename"));
+      const std::filesystem::path file = urdf_asset(address, urdf);
+      if (!file.empty()) {
+        const std::string fault = fault_of_mesh(file);
+        if (!fault.empty()) urdf.fail(*mesh, fmt::format("mesh '{}': {}", address, fault));
+        mesh->SetAttribute("filename", file.c_str());
+      } else if (geometry->FirstChildElement() != geometry->LastChildElement()) {
+        urdf.remove(*mesh);  // another shape stands beside it
+      } else {
+        drop_collider(urdf, *collider, address, findings);
       }
     }
-    if (tag != "mesh" || element.Attribute("filename") == nullptr) return;
-    const std::string_view address = attribute(element, "filename");
-    const std::filesystem::path file = urdf_asset(address, urdf.file());
-    if (file.empty()) {
-      urdf.fail(element, fmt::format("mesh '{}': no such file; it is a collider", address));
+  }
+}
+
+/// Reduces MuJoCo's own section of a URDF to what sets masses.
+void reduce_mujoco_section(MjcfDocument& urdf, FileFindings& findings) {
+  std::string kept;
+  for (auto* section : children(urdf.root(), "mujoco")) {
+    for (auto* compiler : children(*section, "compiler")) {
+      for (const char* name : {"balanceinertia", "boundmass", "boundinertia", "settotalmass",
+                               "inertiafromgeom", "inertiagrouprange"}) {
+        if (compiler->Attribute(name) == nullptr || kept.find(name) != std::string::npos) continue;
+        kept += fmt::format(" {}=\"{}\"", name, attribute(*compiler, name));
+      }
     }
-    const std::string fault = fault_of_mesh(file);
-    if (!fault.empty()) urdf.fail(element, fmt::format("mesh '{}': {}", address, fault));
-    element.SetAttribute("filename", file.c_str());
-  });
+    findings.ignored.push_back(urdf.place_of(*section) +
+                               ": mujoco: what sets masses counts; the scene has its own options");
+    urdf.remove(*section);
+  }
+  urdf.insert_before(
+      *urdf.root().FirstChildElement(),
+      fmt::format("<mujoco><compiler fusestatic=\"false\" strippath=\"false\"{}/></mujoco>", kept));
 }
 
 /// The link that floats by default: the root, or the first link with a mass below it. ROS has links
@@ -109,40 +155,18 @@ void let_float(MjcfDocument& mjcf, const std::string& base) {
 
 }  // namespace
 
-std::filesystem::path urdf_asset(std::string_view address, const std::filesystem::path& urdf) {
-  constexpr std::string_view package = "package://";
-  constexpr std::string_view plain = "file://";
-  std::vector<std::filesystem::path> candidates;
-  const std::filesystem::path folder = absolute_path(urdf).parent_path();
-  if (address.starts_with(package)) {
-    const std::filesystem::path path(address.substr(package.size()));
-    const std::filesystem::path inside = path.lexically_relative(*path.begin());
-    for (std::filesystem::path above = folder;; above = above.parent_path()) {
-      candidates.insert(candidates.end(), {above / path, above / inside});
-      if (above == above.parent_path()) break;
-    }
-  } else {
-    candidates.push_back(folder /
-                         (address.starts_with(plain) ? address.substr(plain.size()) : address));
-  }
-  candidates.push_back(folder / std::filesystem::path(address).filename());
-  for (const std::filesystem::path& file : candidates) {
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(file, ignored)) return file.lexically_normal();
-  }
-  return {};
-}
-
-ConvertedUrdf converted_urdf(const std::filesystem::path& file, const std::string& base) {
+MjcfDocument converted_urdf(const std::filesystem::path& file, const std::string& base,
+                            FileFindings& findings) {
   MjcfDocument urdf = MjcfDocument::load(file);
   XMLElement& robot = urdf.root();
+  if (robot.FirstChildElement() == nullptr) urdf.fail(robot, "robot: expected links and joints");
+  prepare(urdf, findings);
+  reduce_mujoco_section(urdf, findings);
   const std::string floating = base.empty() ? floating_link(urdf) : base;
   if (urdf.find("link", floating) == nullptr) {
     urdf.fail(robot, fmt::format("base: expected a link named '{}'{}", floating,
                                  did_you_mean(floating, links_of(robot))));
   }
-  prepare(urdf);
-  ConvertedUrdf converted;
   for (auto* joint : children(robot, "joint")) {
     if (joint->FirstChildElement("mimic") != nullptr) {
       urdf.fail(*joint, fmt::format("{}: expected no <mimic>: coupled joints are not supported",
@@ -150,14 +174,11 @@ ConvertedUrdf converted_urdf(const std::filesystem::path& file, const std::strin
     }
     const XMLElement* const limit = joint->FirstChildElement("limit");
     const double effort = limit == nullptr ? 0.0 : limit->DoubleAttribute("effort");
-    if (effort > 0.0) converted.effort[std::string(attribute(*joint, "name"))] = effort;
+    if (effort > 0.0) findings.effort[std::string(attribute(*joint, "name"))] = effort;
   }
-  XMLElement* const first = robot.FirstChildElement();
-  urdf.insert_before(*first,
-                     "<mujoco><compiler fusestatic=\"false\" strippath=\"false\"/></mujoco>");
-  converted.mjcf = MjcfDocument::converted(converted_to_mjcf(urdf.text(""), file), urdf);
-  let_float(converted.mjcf, floating);
-  return converted;
+  MjcfDocument mjcf = MjcfDocument::converted(converted_to_mjcf(urdf.text(""), file), urdf);
+  let_float(mjcf, floating);
+  return mjcf;
 }
 
 }  // namespace touchdown::models

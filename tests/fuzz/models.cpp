@@ -73,9 +73,11 @@ TOUCHDOWN_FUZZ(mjcf) {
   for (const models::RobotDescription& robot : {models::RobotDescription(), named_robot()}) {
     try {
       models::MjcfDocument document = models::MjcfDocument::load(file.path());
-      (void)models::keep_robot_only(document);
-      (void)models::drop_missing_assets(document);
-      models::name_parts(document, robot, {}, models::RobotKeys(keys.path()));
+      models::FileFindings findings;
+      models::keep_robot_only(document, findings);
+      models::translate_later_versions(document, findings);
+      models::drop_missing_assets(document, findings);
+      models::name_parts(document, robot, findings, models::RobotKeys(keys.path()));
       models::swap_sides(document);
       (void)document.text("<option/>\n").place_of_name("left_hip");
     } catch (const Error& error) {

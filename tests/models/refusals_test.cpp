@@ -56,25 +56,6 @@ std::ptrdiff_t line_of(const std::string& text, const std::string& mark) {
   return 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
 }
 
-TEST_F(RefusedRobot, HasOptionsThatChangeThePhysics) {
-  expect_added({{"<option gravity=\"0 0 0\"/>", "gravity"},
-                {"<option gravity=\"0 0 -1.62\"/>", "gravity \"0 0 -1.62\""},
-                {"<option gravity=\"0 0 9.81\"/>", "gravity"},
-                {"<option gravity=\"1 0 -9.81\"/>", "gravity"},
-                {"<option gravity=\"down\"/>", "gravity"},
-                {"<option density=\"1000\"/>", "density"},
-                {"<option viscosity=\"0.001\"/>", "viscosity"},
-                {"<option wind=\"3 0 0\"/>", "wind"},
-                {"<option><flag contact=\"disable\"/></option>", "flag: contact"},
-                {"<option><flag gravity=\"disable\"/></option>", "flag: gravity"},
-                {"<option><flag limit=\"disable\"/></option>", "flag: limit"},
-                {"<option><flag constraint=\"disable\"/></option>", "flag: constraint"},
-                {"<option><flag passive=\"disable\"/></option>", "flag: passive"},
-                {"<option><flag frictionloss=\"disable\"/></option>", "flag: frictionloss"},
-                {"<option><flag actuation=\"disable\"/></option>", "flag: actuation"},
-                {"<option><flag clampctrl=\"disable\"/></option>", "flag: clampctrl"}});
-}
-
 TEST_F(RefusedRobot, HasElementsThatOneEngineAloneWouldSimulate) {
   expect_added(
       {{"<equality><joint joint1=\"left_knee\" polycoef=\"1 0 0 0 0\"/></equality>",
@@ -84,13 +65,8 @@ TEST_F(RefusedRobot, HasElementsThatOneEngineAloneWouldSimulate) {
        {"<equality><weld body1=\"left_wheel\" body2=\"torso\"/></equality>", "closed chains"},
        {"<tendon><fixed name=\"rope\"><joint joint=\"left_hip\" coef=\"1\"/></fixed></tendon>",
         "tendon fixed 'rope'"},
-       {"<worldbody><geom name=\"table\" type=\"box\" size=\"1 1 1\"/></worldbody>",
-        "geom 'table' of the world"},
-       {"<worldbody><geom type=\"sphere\" size=\"1\"/></worldbody>", "of the world"},
-       {"<worldbody><body name=\"box\"><geom size=\"1\"/></body></worldbody>", "body 'box'"},
        {"<worldbody><body name=\"ball\"><joint/><geom size=\"1\"/></body></worldbody>",
         "body 'ball'"},
-       {"<worldbody><body name=\"hand\" mocap=\"true\"/></worldbody>", "mocap"},
        {"<asset><hfield name=\"h\" nrow=\"2\" ncol=\"2\" size=\"1 1 1 1\"/></asset><worldbody>"
         "<geom name=\"hills\" type=\"hfield\" hfield=\"h\"/></worldbody>",
         "'hills'"},
@@ -185,46 +161,16 @@ TEST_F(RefusedRobot, HasPartsAtPlacesThatNoEngineCanTake) {
 
 TEST_F(RefusedRobot, HasWhatLaterVersionsOfMuJoCoAdded) {
   const std::string motor = "<motor name=\"left_hip\" joint=\"left_hip\" ctrlrange=\"-16 16\"";
-  const std::string servo = "<position name=\"left_hip\" joint=\"left_hip\" kp=\"9\" ";
-  const std::string general = "<general name=\"left_hip\" joint=\"left_hip\" ";
-  const std::string muscle = "<muscle name=\"left_hip\" joint=\"left_hip\" ";
-  const std::string joint = "<joint name=\"left_hip\"";
   const std::string body = "<body name=\"torso\"";
-  const std::string root = "<freejoint name=\"root\"";
   const std::string geom = "<geom name=\"torso\"";
-  const std::string material = "<material name=\"wood\"";
-  const std::string compiler = "<compiler angle=\"radian\"";
   const std::string site = "<site name=\"imu\"";
-  const std::string camera = "<camera name=\"eye\" ";
   for (const auto& [where, by, name, version] : std::vector<Later>{
-           {compiler, compiler + " assetdir=\".\"", "assetdir", "2.3.0"},
            {body, body + " gravcomp=\"1\"", "gravcomp", "2.3.1"},
-           {motor, general + "actdim=\"2\" ctrlrange=\"-1 1\"", "actdim", "2.3.1"},
-           {joint, joint + " actuatorforcerange=\"-9 9\"", "actuatorforcerange", "2.3.7"},
-           {joint, joint + " actuatorforcelimited=\"true\"", "actuatorforcelimited", "2.3.7"},
-           {joint, joint + " actuatorfrcrange=\"-9 9\"", "actuatorfrcrange", "3.0.0"},
-           {joint, joint + " actuatorfrclimited=\"true\"", "actuatorfrclimited", "3.0.0"},
-           {motor, general + "actearly=\"true\" ctrlrange=\"-1 1\"", "actearly", "3.0.0"},
            {site, "<flexcomp name=\"cloth\"/>" + site, "flexcomp", "3.0.0"},
            {"</mujoco>", "<deformable><flex/></deformable></mujoco>", "deformable", "3.0.0"},
-           {site, camera + "resolution=\"8 8\"/>$&", "resolution", "3.0.0"},
-           {site, camera + "focal=\"1 1\"/>$&", "focal", "3.0.0"},
-           {site, camera + "sensorsize=\"1 1\"/>$&", "sensorsize", "3.0.0"},
-           {site, "<frame/>" + site, "frame", "3.1.0"},
-           {motor, servo + "kv=\"1\" forcerange=\"-9 9\"", "kv", "3.1.0"},
-           {motor, servo + "inheritrange=\"1\" forcerange=\"-9 9\"", "inheritrange", "3.1.3"},
-           {joint, joint + " actuatorgravcomp=\"true\"", "actuatorgravcomp", "3.1.4"},
+           {site, "<frame pos=\"0 0 1\"/>" + site, "frame", "3.1.0"},
            {site, "<replicate count=\"2\"/>" + site, "replicate", "3.1.5"},
-           {material, material + " metallic=\"1\"", "metallic", "3.1.5"},
-           {material, material + " roughness=\"1\"", "roughness", "3.1.5"},
-           {site, "<light bulbradius=\"0.1\"/>" + site, "bulbradius", "3.1.5"},
-           {motor, servo + "dampratio=\"1\" forcerange=\"-9 9\"", "dampratio", "3.1.6"},
-           {motor, servo + "timeconst=\"1\" forcerange=\"-9 9\"", "timeconst", "3.1.6"},
            {site, "<attach model=\"arm\"/>" + site, "attach", "3.2.0"},
-           {site, camera + "orthographic=\"true\"/>$&", "orthographic", "3.2.0"},
-           {root, root + " align=\"false\"", "align", "3.2.3"},
-           {compiler, compiler + " alignfree=\"true\"", "alignfree", "3.2.3"},
-           {compiler, compiler + " saveinertial=\"true\"", "saveinertial", "3.3.1"},
            {geom, geom + " surfacevel=\"1 0 0\"", "surfacevel", "3.11.0"},
            {motor, "<pid name=\"left_hip\" joint=\"left_hip\"", "pid", "3.12.0"}}) {
     EXPECT_THAT(complaint(edited_upkie({{where, by}})),
@@ -235,6 +181,26 @@ TEST_F(RefusedRobot, HasWhatLaterVersionsOfMuJoCoAdded) {
   EXPECT_THAT(complaint(unknown),
               AllOf(HasSubstr(fmt::format("robot.xml:{}:", line_of(unknown, "colour"))),
                     HasSubstr("colour"), Not(HasSubstr("came with"))));
+}
+
+TEST_F(RefusedRobot, HasAllItsComplaintsAtOnce) {
+  const auto complaints = [&](const std::vector<Edit>& edits, const std::string& keys) {
+    folder_.write("robot.xml", edited_upkie(edits));
+    const auto file = folder_.write("robot.yaml", "mjcf: robot.xml\n" + keys);
+    return complaint_of([&] { (void)compile_robot_model(file, Terrain{}); });
+  };
+  const std::string knee = "<joint name=\"left_knee\"";
+  EXPECT_THAT(complaints({{"<body name=\"torso\"", "$& gravcomp=\"1\""},
+                          {knee, knee + " actuatorfrcrange=\"0 5\""},
+                          added("<tendon><fixed name=\"rope\"/></tendon>"),
+                          added("<equality><weld body1=\"torso\"/><connect "
+                                "name=\"loop\"/></equality>")},
+                         "imu: gyro\nheld: [arm]\nno_collision: [guard]\n"),
+              AllOf(HasSubstr("gravcomp"), HasSubstr("symmetric"), HasSubstr("'rope'"),
+                    HasSubstr("weld, connect 'loop'"), HasSubstr("'gyro'"), HasSubstr("'arm'"),
+                    HasSubstr("'guard'"), MatchesRegex("([^\n]*: [^\n]+\n){6}[^\n]+")));
+  EXPECT_THAT(complaints({}, "joints: {left_hip: a, right_knee: b}\ntyres: {left: c}\n"),
+              AllOf(HasSubstr("'a'"), HasSubstr("'b'"), HasSubstr("'c'")));
 }
 
 /// MuJoCo 2.2 knows these already.
@@ -258,7 +224,7 @@ TEST_F(RefusedRobot, HasItsErrorsInIncludedFiles) {
   EXPECT_THAT(complaint(edited_upkie({added("<include file=\"more.xml\"/>")})),
               HasSubstr("more.xml:2:1: option: wind"));
   folder_.write("more.xml",
-                "<mujoco><worldbody/>\n<asset>\n<mesh colour=\"red\"/></asset></mujoco>");
+                "<mujoco><asset/>\n<worldbody>\n<body colour=\"red\"/></worldbody></mujoco>");
   EXPECT_THAT(complaint(edited_upkie({added("<include file=\"more.xml\"/>")})),
               AllOf(HasSubstr("more.xml:3:1:"), HasSubstr("colour")));
   EXPECT_THAT(complaint(edited_upkie({added("<include file=\"nothing.xml\"/>")})),
@@ -274,7 +240,7 @@ TEST_F(RefusedRobot, HasNoRobotInItsFile) {
     EXPECT_THAT(complaint(text), HasSubstr(":1: expected ")) << text;
   }
   EXPECT_THAT(complaint("<mujoco>\n<worldbody>\n"), HasSubstr("XML"));
-  EXPECT_THAT(complaint("<robot name=\"upkie\"></robot>"), HasSubstr("<mujoco>"));
+  EXPECT_THAT(complaint("<robot name=\"upkie\"></robot>"), HasSubstr("links and joints"));
   EXPECT_THAT(complaint("<mujoco/>"), HasSubstr("<mujoco>"));
   EXPECT_THROW((void)compile_robot_model(folder_ / "nothing.xml", Terrain{}), InputError);
 }
@@ -297,11 +263,21 @@ TEST_F(RefusedRobot, HasOtherJointsAndNamesTheRemedy) {
   EXPECT_THAT(complaint(edited_upkie({{"left_hip", "hip_l"}})),
               AllOf(HasSubstr("expected a hinge joint named 'left_hip'"), HasSubstr("hip_l"),
                     HasSubstr("YAML")));
-  EXPECT_THAT(complaint("<robot name=\"a\"><link name=\"b\"/></robot>"),
-              AllOf(HasSubstr("<mujoco>"), HasSubstr("YAML file about this URDF")));
-  EXPECT_THAT(complaint("<robot><link name=\"b\"/><joint name=\"knee_l\" type=\"revolute\"/>"
-                        "<joint name=\"fix\" type=\"fixed\"/></robot>"),
-              HasSubstr("that names its joints: knee_l"));
+  // Rods on a leg, and a chain of two joints on the base.
+  const std::string rod =
+      "<body name=\"rod\"><inertial pos=\"0 0 0\" mass=\"0.1\" "
+      "diaginertia=\"1e-4 1e-4 1e-4\"/><joint name=\"rod\" axis=\"0 1 0\"/>";
+  const std::string wheel = "<body name=\"left_wheel\"";
+  EXPECT_THAT(complaint(edited_upkie({{wheel, rod + "</body>" + wheel}})),
+              AllOf(HasSubstr("joint 'rod'"), HasSubstr("closed chain"), Not(HasSubstr("`held`"))));
+  const std::string imu = "<site name=\"imu\"";
+  const std::string second =
+      "<body><inertial pos=\"0 0 0\" mass=\"0.1\" diaginertia=\"1e-4 1e-4 "
+      "1e-4\"/><joint name=\"coupler\" axis=\"0 1 0\"/></body></body>";
+  EXPECT_THAT(complaint(edited_upkie({{imu, rod + second + imu}})), HasSubstr("closed chain"));
+  EXPECT_THAT(complaint(edited_upkie({{imu, rod + "</body>" + imu}})),
+              AllOf(HasSubstr("joint 'rod'"), HasSubstr("`held`"), Not(HasSubstr("closed"))))
+      << "a head";
 }
 
 TEST_F(RefusedRobot, IsComplainedAboutAtTheLineInQuestion) {
@@ -327,7 +303,6 @@ TEST_F(RefusedRobot, IsComplainedAboutAtTheLineInQuestion) {
             "name=\"left_wheel\" pos"},
            {{"<geom name=\"left_tire\"", "<geom name=\"left_tyre\""}, "name=\"torso\" pos"},
            {{"<site name=\"imu\"", "<site name=\"sensor\""}, "name=\"torso\" pos"},
-           {{"<motor name=\"left_knee\"", "<motor name=\"knee_left\""}, "name=\"torso\" pos"},
            {{"<body name=\"torso\"",
              "<body name=\"other\"><freejoint/><inertial pos=\"0 0 0\" mass=\"1\" "
              "diaginertia=\"1 1 1\"/></body>\n<body name=\"torso\""},
@@ -438,8 +413,7 @@ TEST_F(RefusedRobot, HasNoMeshesThatCount) {
   const auto with = [&](const std::string& geom) {
     return edited_upkie({asset, {"<site name=\"imu\"", geom + "<site name=\"imu\""}});
   };
-  EXPECT_THAT(complaint(with("<geom type=\"mesh\" mesh=\"shell\" mass=\"0\"/>")),
-              AllOf(HasSubstr("mesh 'shell'"), HasSubstr("no such file"), HasSubstr("touches")));
+  EXPECT_EQ(complaint(with("<geom type=\"mesh\" mesh=\"shell\" mass=\"0\"/>")), "no complaint");
   EXPECT_THAT(
       complaint(with("<body name=\"hat\"><geom class=\"visual\" type=\"mesh\" mesh=\"shell\" "
                      "mass=\"1\"/></body>")),
