@@ -14,8 +14,8 @@ namespace {
 
 constexpr int robot_group = 1;
 constexpr int terrain_group = 2;
-/// Rounding radius of box edges (m). Bullet's default of 4 cm makes a groove where two boxes meet,
-/// which excites tyres that are springs.
+/// Rounding radius of box edges and hulls (m). Bullet's default of 4 cm makes a groove where two
+/// boxes meet, which excites tyres that are springs, and it grows hulls.
 constexpr double edge_radius = 1e-4;
 
 std::unique_ptr<btCollisionShape> convex_hull(const mjModel& model, int mesh) {
@@ -24,6 +24,7 @@ std::unique_ptr<btCollisionShape> convex_hull(const mjModel& model, int mesh) {
   for (int i = 0; i < model.mesh_vertnum[mesh]; ++i) {
     hull->addPoint(btVector3(vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2]), false);
   }
+  hull->setMargin(edge_radius);
   hull->recalcLocalAabb();
   return hull;
 }

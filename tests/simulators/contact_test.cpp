@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include "tests/scratch_folder.hpp"
 #include "tests/simulators/bodies.hpp"
 #include "tests/simulators/upkie.hpp"
 
@@ -68,6 +71,33 @@ TEST_P(Contact, ATorsoOnTheFloorIsNotAWheel) {
     touched = simulator->ground_truth().body_touches_terrain;
   }
   EXPECT_TRUE(touched);
+}
+
+TEST_P(Contact, AHullTouchesAtItsOwnHeight) {
+  ScratchFolder folder;
+  for (const char* vertices :  // a cube, a pyramid on its tip, a sliver
+       {"-1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1",
+        "0 0 -1 1 1 1 -1 1 1 1 -1 1 -1 -1 1", "3 0 -1 -3 0 -1 0 .1 -1 0 0 -.9"}) {
+    const auto file = folder.write(
+        "robot.xml",
+        edited_upkie({{"<asset>", fmt::format("<asset><mesh name=\"pad\" scale=\".02 .02 .02\" "
+                                              "vertex=\"{}\"/>",
+                                              vertices)},
+                      {"<site name=\"imu\"",
+                       "<geom class=\"collider\" type=\"mesh\" mesh=\"pad\" "
+                       "pos=\"0 0 -0.7\"/>$&"}}));
+    const auto simulator = make(
+        std::make_shared<models::RobotModel>(models::compile_robot_model(file, models::Terrain{})));
+    constexpr double bottom = 0.72;  // m below the base
+    simulator->reset(at_height(bottom + 0.005));
+    double height = 0.0;
+    for (int i = 0; i < 100 && !simulator->ground_truth().body_touches_terrain; ++i) {
+      height = simulator->state().position.z() - bottom;
+      simulator->step(torques());
+    }
+    EXPECT_TRUE(simulator->ground_truth().body_touches_terrain);
+    EXPECT_NEAR(height, 0.0, 1e-3) << vertices;
+  }
 }
 
 TEST_P(Contact, FrictionIsThatOfTheTerrain) {
