@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -15,6 +17,7 @@
 #include "scenarios/scenario.hpp"
 #include "scenarios/scenario_file.hpp"
 #include "simulators/registry.hpp"
+#include "simulators/tyres.hpp"
 
 namespace touchdown::scenarios {
 
@@ -62,17 +65,6 @@ double lever_of(const models::RobotModel& robot, double hip, double knee) {
   return std::abs(foot_jacobian(leg_geometry(robot), leg, false).lower_z);
 }
 
-bool has_shape(const models::RobotModel& robot, int type) {
-  const mjModel& mj = *robot.mj;
-  for (int geom = 0; geom < mj.ngeom; ++geom) {
-    if (mj.body_rootid[mj.geom_bodyid[geom]] == robot.base_body && mj.geom_contype[geom] != 0 &&
-        mj.geom_type[geom] == type) {
-      return true;
-    }
-  }
-  return false;
-}
-
 std::vector<std::string> differences(const models::RobotModel& robot) {
   std::vector<std::string> all;
   if (robot.tyre.law == models::Tyre::Law::engine) {
@@ -84,9 +76,6 @@ std::vector<std::string> differences(const models::RobotModel& robot) {
     all.emplace_back(
         "tyres: cylinders have several contact points on flat ground, and their number "
         "differs; spheres have one");
-  }
-  if (has_shape(robot, mjGEOM_MESH)) {
-    all.emplace_back("meshes: both engines use the convex hull, Bullet with a rounding margin");
   }
   const bool has_rotors = std::any_of(robot.actuator.begin(), robot.actuator.end(),
                                       [](const auto& a) { return a.armature != 0.0; });
@@ -114,7 +103,9 @@ CheckedStand stand(const Scenario& scenario, const std::string& engine, const Ro
   };
   const logs::Recording recording = play(scenario, engine, 0, 0, is_wanted);
   if (!is_wanted()) throw Stopped("stopped");
-  CheckedStand stand{.engine = engine, .ending = ending_text(recording, scenario.end)};
+  CheckedStand stand{
+      .engine = engine,
+      .ending = ending_text(recording, scenario.end) + part_on_terrain(scenario, recording)};
   stand.given_way = given_way(recording, check.held);
   stand.stands = recording.info.outcome == logs::Outcome::finished;
   stand.moved = (recording.truth.back().base_position - recording.truth.front().base_position)
@@ -202,6 +193,44 @@ void read_robot(const Scenario& scenario, RobotCheck& check) {
 
 }  // namespace
 
+std::string part_on_terrain(const Scenario& scenario, const logs::Recording& recording) {
+  if (recording.info.outcome != logs::Outcome::fell || recording.truth.empty() ||
+      !recording.truth.back().body_touches_terrain) {
+    return {};
+  }
+  const models::RobotModel robot = models::compile_robot_model(scenario.robot, scenario.terrain);
+  mjModel& mj = *robot.mj;
+  const models::MjDataPtr data = models::at_reference(robot);
+  const models::GroundTruth& last = recording.truth.back();
+  std::array<double, models::servo_count> joints = {};
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    joints[i] = recording.observation.back().servo[i].position;
+  }
+  models::write_pose(robot, last.base_position, last.base_orientation, joints, data->qpos);
+  constexpr double near = 0.01;  // m: the step after the last record
+  std::fill_n(mj.geom_margin, mj.ngeom, near);
+  mj_kinematics(&mj, data.get());
+  mj_comPos(&mj, data.get());
+  mj_collision(&mj, data.get());
+  int part = -1;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < data->ncon; ++i) {
+    const mjContact& contact = data->contact[i];
+    const int geom = std::max(contact.geom1, contact.geom2);
+    const int other = std::min(contact.geom1, contact.geom2);
+    const int own = mj.geom_bodyid[geom] == 0 ? other : geom;
+    if (simulators::wheel_of_tyre(robot, own) || contact.dist >= lowest) continue;
+    lowest = contact.dist;
+    part = own;
+  }
+  if (part < 0) return {};
+  const char* name = mj_id2name(&mj, mjOBJ_GEOM, part);
+  if (name == nullptr) name = mj_id2name(&mj, mjOBJ_BODY, mj.geom_bodyid[part]);
+  if (name == nullptr) return {};
+  return fmt::format(": '{0}' (`no_collision: [{0}]` in the robot's YAML file leaves it out)",
+                     name);
+}
+
 RobotCheck check_robot(const std::filesystem::path& file,
                        const std::function<bool()>& should_continue) {
   RobotCheck check;
@@ -223,7 +252,8 @@ RobotCheck check_robot(const std::filesystem::path& file,
       }
     }
   } catch (const InputError& error) {
-    check.complaints.emplace_back(error.what());
+    std::istringstream lines(error.what());
+    for (std::string line; std::getline(lines, line);) check.complaints.push_back(line);
   }
   return check;
 }

@@ -8,7 +8,9 @@
 
 #include <Eigen/Core>
 
+#include "logs/recording.hpp"
 #include "models/robot.hpp"
+#include "scenarios/scenario.hpp"
 
 namespace touchdown::scenarios {
 
@@ -66,8 +68,13 @@ struct RobotCheck {
   std::vector<std::string> complaints;   ///< none if the robot is usable
 };
 
+/// ": 'left_guard' (`no_collision: [left_guard]` leaves it out)": the collider nearest to the
+/// terrain at the end of a run, tyres left out, by the name of its geom or body. Empty unless the
+/// robot fell as a part other than a tyre touched the terrain.
+std::string part_on_terrain(const Scenario& scenario, const logs::Recording& recording);
+
 /// Compiles a robot and lets it stand for two seconds in every engine. A file that is refused has
-/// one complaint, and nothing else is filled in. `should_continue` is called repeatedly while it
+/// complaints, and nothing else is filled in. `should_continue` is called repeatedly while it
 /// stands. Errors: `Stopped`.
 RobotCheck check_robot(const std::filesystem::path& file,
                        const std::function<bool()>& should_continue = {});

@@ -148,9 +148,9 @@ Json json_of(const std::string& path, const RobotCheck& check) {
   return json;
 }
 
-/// Whether a file describes a robot, by its extension: .xml, .urdf, .yaml, .yml.
+/// Whether a file describes a robot, by its extension.
 bool is_robot_file(const std::string& path) {
-  constexpr std::array extensions = {".xml", ".urdf", ".yaml", ".yml"};
+  constexpr std::array extensions = {".xml", ".urdf", ".xacro", ".yaml", ".yml"};
   const std::string extension = std::filesystem::path(path).extension().string();
   return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
 }

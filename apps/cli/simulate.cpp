@@ -22,6 +22,7 @@
 #include "noise/sensor_profile.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/generation/generate.hpp"
+#include "scenarios/robot_check.hpp"
 #include "scenarios/scenario.hpp"
 #include "scenarios/scenario_file.hpp"
 #include "scoring/labels.hpp"
@@ -114,7 +115,9 @@ void simulate(SimulateFlags flags, const CliSession& session) {
   logs::write_recording(recording, flags.output);
   const auto all = scoring::flights(scoring::any_wheel(scoring::contact_labels(recording, {})));
   print("{}: {} {}, {} flight{}\n", flags.output, recording.info.scenario,
-        scenarios::ending_text(recording, scenario.end), all.size(), all.size() == 1 ? "" : "s");
+        scenarios::ending_text(recording, scenario.end) +
+            scenarios::part_on_terrain(scenario, recording),
+        all.size(), all.size() == 1 ? "" : "s");
 }
 
 }  // namespace
