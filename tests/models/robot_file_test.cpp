@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -34,9 +35,9 @@ class FoundFile : public ::testing::Test {
   ScratchFolder folder_;
 };
 
-const std::string joint = "<joint name=\"left_hip\"";
-const std::string motor = "<motor name=\"left_hip\" joint=\"left_hip\" ctrlrange=\"-16 16\"";
-const std::string site = "<site name=\"imu\"";
+const std::string hip_joint = "<joint name=\"left_hip\"";
+const std::string hip_motor = "<motor name=\"left_hip\" joint=\"left_hip\" ctrlrange=\"-16 16\"";
+const std::string imu_site = "<site name=\"imu\"";
 
 TEST_F(FoundFile, OfMuJoCo3IsReadWhereTouchdownOverridesOrDrawsIt) {
   const std::string servo = "<position name=\"left_hip\" joint=\"left_hip\" kp=\"9\" ";
@@ -47,14 +48,14 @@ TEST_F(FoundFile, OfMuJoCo3IsReadWhereTouchdownOverridesOrDrawsIt) {
   const std::string material = "<material name=\"wood\"";
   for (const Edit& edit : std::vector<Edit>{
            {compiler, compiler + " assetdir=\".\" alignfree=\"true\" saveinertial=\"true\""},
-           {joint, joint + " actuatorgravcomp=\"true\""},
-           {motor, general + "actdim=\"2\" actearly=\"true\""},
-           {motor, servo + "kv=\"1\" forcerange=\"-9 9\""},
-           {motor, servo + "dampratio=\"1\" forcerange=\"-9 9\""},
-           {motor, servo + "timeconst=\"1\" inheritrange=\"1\" forcerange=\"-9 9\""},
-           {site, camera + "resolution=\"8 8\" sensorsize=\"1 1\" orthographic=\"true\"/>$&"},
-           {site, "<light bulbradius=\"0.1\"/>$&"},
-           {site,
+           {hip_joint, hip_joint + " actuatorgravcomp=\"true\""},
+           {hip_motor, general + "actdim=\"2\" actearly=\"true\""},
+           {hip_motor, servo + "kv=\"1\" forcerange=\"-9 9\""},
+           {hip_motor, servo + "dampratio=\"1\" forcerange=\"-9 9\""},
+           {hip_motor, servo + "timeconst=\"1\" inheritrange=\"1\" forcerange=\"-9 9\""},
+           {imu_site, camera + "resolution=\"8 8\" sensorsize=\"1 1\" orthographic=\"true\"/>$&"},
+           {imu_site, "<light bulbradius=\"0.1\"/>$&"},
+           {imu_site,
             "<frame name=\"f\"><frame><geom class=\"visual\" size=\".1\"/></frame></frame>$&"},
            {material, material + " metallic=\"1\" roughness=\"1\""},
            {root, root + " align=\"false\""},
@@ -82,21 +83,21 @@ TEST_F(FoundFile, OfMuJoCo3IsReadWhereTouchdownOverridesOrDrawsIt) {
 TEST_F(FoundFile, LimitsTorquesByItsJointsAsMuJoCo3Does) {
   const std::string range = " actuatorfrcrange=\"-9 9\"";
   const auto effort = [&](const std::vector<Edit>& edits) { return robot(edits).effort[left_hip]; };
-  EXPECT_EQ(effort({{joint, joint + range}}), 9.0);
-  EXPECT_EQ(effort({{joint, joint + " actuatorforcerange=\"-9 9\""}}), 9.0);
-  EXPECT_EQ(effort({{joint, joint + range + " actuatorfrclimited=\"false\""}}), 16.0);
-  EXPECT_EQ(effort({{joint, joint + " actuatorfrcrange=\"-20 20\""}}), 16.0);
-  EXPECT_EQ(effort({{joint, joint + range}, {motor, motor + " gear=\"-3\""}}), 9.0);
+  EXPECT_EQ(effort({{hip_joint, hip_joint + range}}), 9.0);
+  EXPECT_EQ(effort({{hip_joint, hip_joint + " actuatorforcerange=\"-9 9\""}}), 9.0);
+  EXPECT_EQ(effort({{hip_joint, hip_joint + range + " actuatorfrclimited=\"false\""}}), 16.0);
+  EXPECT_EQ(effort({{hip_joint, hip_joint + " actuatorfrcrange=\"-20 20\""}}), 16.0);
+  EXPECT_EQ(effort({{hip_joint, hip_joint + range}, {hip_motor, hip_motor + " gear=\"-3\""}}), 9.0);
   EXPECT_EQ(effort({{"<default>", "<default><joint" + range + "/>"}}), 9.0);
-  EXPECT_EQ(effort({{joint, joint + range}, {motor + "/>", ""}}), 9.0);
-  EXPECT_EQ(effort({{joint, joint + range},
-                    {motor, "<position name=\"left_hip\" joint=\"left_hip\" kp=\"8\""}}),
+  EXPECT_EQ(effort({{hip_joint, hip_joint + range}, {hip_motor + "/>", ""}}), 9.0);
+  EXPECT_EQ(effort({{hip_joint, hip_joint + range},
+                    {hip_motor, "<position name=\"left_hip\" joint=\"left_hip\" kp=\"8\""}}),
             9.0);
 }
 
 TEST_F(FoundFile, HasTorqueLimitsFromTheYamlFileWhereItHasNone) {
   const std::string servo = "<position name=\"left_hip\" joint=\"left_hip\" kp=\"8\"";
-  const std::vector<Edit> edits = {{motor, servo}};
+  const std::vector<Edit> edits = {{hip_motor, servo}};
   EXPECT_EQ(robot(edits, "actuators: {hip: {maximum_torque: 7}}\n").effort[left_hip], 7.0);
   EXPECT_THAT(complaint_of([&] { (void)robot(edits); }),
               AllOf(HasSubstr("forcerange"), HasSubstr("actuators: {hip: {maximum_torque")));
@@ -136,8 +137,11 @@ TEST_F(FoundFile, MayHaveABaseThatFacesElsewhere) {
            {0.0, "forward: x\n", "x"},
            {-quarter, "tyre: {law: spring_damper, width: 0.04}\n", "-y"}}) {
     const RobotModel robot = this->robot(turned(yaw), "mass: 1\n" + keys);
-    EXPECT_THAT(robot.ignored, forward == "x" ? Not(Contains(HasSubstr("`forward`")))
-                                              : Contains(HasSubstr("it faces " + forward + ",")));
+    const bool is_named =
+        std::any_of(robot.ignored.begin(), robot.ignored.end(), [&](const std::string& note) {
+          return note.find("it faces " + forward + ",") != std::string::npos;
+        });
+    EXPECT_EQ(is_named, forward != "x") << forward;
     EXPECT_EQ(robot.joint_name[left_hip], "left_hip");
     EXPECT_LT((robot.imu_position - straight.imu_position).norm(), 1e-9);
     const MjDataPtr expected = at_zero(straight);
