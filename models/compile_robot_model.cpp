@@ -3,7 +3,6 @@
 #include <cstring>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/error.hpp"
 #include "models/contract.hpp"
@@ -31,11 +30,6 @@ void require_mjcf(const MjcfDocument& document) {
   document.fail(root, fmt::format("{}: expected a robot in <mujoco>...</mujoco>, or the <robot> of "
                                   "a URDF",
                                   root.Name()));
-}
-
-/// All complaints about a robot's file, one per line.
-void require_none(const std::vector<std::string>& complaints) {
-  if (!complaints.empty()) throw InputError(fmt::format("{}", fmt::join(complaints, "\n")));
 }
 
 RobotFile robot_file(const RobotDescription& description, const RobotKeys& keys) {

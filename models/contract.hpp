@@ -79,6 +79,9 @@ void add_strips(MjcfDocument& document, const RobotModel& robot);
 /// Finds the strips that `add_strips` added.
 void find_strips(RobotModel& robot, const Contract& contract);
 
+/// Whether body `below` is moved by what moves body `above`.
+bool is_below(const mjModel& model, int below, int above);
+
 /// Turns the base frame about its z axis until x is forward: from `forward` (x, -x, y, -y), or, if
 /// this is empty, across the wheels' axes, with the left tyre on the left. A base with axes along y
 /// stays as it is, as sides may be called otherwise. Returns the former axis that faces forward.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "models/contract.hpp"
+#include "models/mjcf/robot_file.hpp"
 #include "models/resizing.hpp"
 
 namespace touchdown::models {
@@ -32,14 +33,6 @@ void check_axis(const Vector3d& axis, std::size_t servo, const Contract& contrac
       fmt::format("its axis in the base is ({:g} {:g} {:g}), expected (0 {:g} 0) or its "
                   "opposite: x is forward, y left, z up",
                   rounded(axis.x()), rounded(axis.y()), rounded(axis.z()), expected_sign(servo)));
-}
-
-/// Whether body `below` is moved by what moves body `above`.
-bool is_below(const mjModel& model, int below, int above) {
-  for (int body = below; body > 0; body = model.body_parentid[body]) {
-    if (body == above) return true;
-  }
-  return false;
 }
 
 void check_chain(const RobotModel& robot, const Contract& contract) {
@@ -170,15 +163,23 @@ void set_limits(mjModel& model) {
   }
 }
 
-}  // namespace
-
-static std::string forward_axis(const RobotModel& robot) {
+/// The axis of the base that faces forward, across the wheels' axes.
+std::string forward_axis(const RobotModel& robot) {
   const MjDataPtr data = at_reference(robot);
   const Vector3d axle = vector_at(data->xaxis, robot.joint[index(wheel_servos[0])]);
   constexpr double least = 0.97;  // cosine of 14°
   if (std::abs(axle.x()) < least) return "x";
   const double left = data->geom_xpos[3 * robot.tyre_geom[0]];
   return left > data->geom_xpos[3 * robot.tyre_geom[1]] ? "-y" : "y";
+}
+
+}  // namespace
+
+bool is_below(const mjModel& model, int below, int above) {
+  for (int body = below; body > 0; body = model.body_parentid[body]) {
+    if (body == above) return true;
+  }
+  return false;
 }
 
 std::string turn_base(RobotModel& robot, std::string_view given) {
@@ -189,32 +190,27 @@ std::string turn_base(RobotModel& robot, std::string_view given) {
                                   : forward == "y" ? Eigen::Quaterniond(half, 0.0, 0.0, -half)
                                                    : Eigen::Quaterniond(half, 0.0, 0.0, half);
   mjModel& model = *robot.mj;
-  const auto turn_row = [&](mjtNum* position, mjtNum* orientation, int row) {
-    const Vector3d at = turn * vector_at(position, row);
-    const Eigen::Quaterniond as = turn * quaternion_at(orientation, row);
-    std::copy_n(at.data(), 3, position + 3 * row);
-    const std::array<double, 4> wxyz = {as.w(), as.x(), as.y(), as.z()};
-    std::copy_n(wxyz.data(), 4, orientation + 4 * row);
+  /// Turns what is on the base, by rows of MuJoCo's arrays.
+  const auto turn_those = [&](int count, const int* body, mjtNum* position, mjtNum* orientation) {
+    for (int row = 0; row < count; ++row) {
+      if (body[row] != robot.base_body) continue;
+      const Vector3d at = turn * vector_at(position, row);
+      const Eigen::Quaterniond as = turn * quaternion_at(orientation, row);
+      std::copy_n(at.data(), 3, position + 3 * row);
+      const std::array<double, 4> wxyz = {as.w(), as.x(), as.y(), as.z()};
+      std::copy_n(wxyz.data(), 4, orientation + 4 * row);
+    }
   };
   const int base = robot.base_body;
-  turn_row(model.body_ipos, model.body_iquat, base);
-  model.body_sameframe[base] = 0;
-  for (int body = base + 1; body < model.nbody; ++body) {
-    if (model.body_parentid[body] == base) turn_row(model.body_pos, model.body_quat, body);
-  }
-  for (int geom = 0; geom < model.ngeom; ++geom) {
-    if (model.geom_bodyid[geom] != base) continue;
-    turn_row(model.geom_pos, model.geom_quat, geom);
-    model.geom_sameframe[geom] = 0;
-  }
-  for (int site = 0; site < model.nsite; ++site) {
-    if (model.site_bodyid[site] != base) continue;
-    turn_row(model.site_pos, model.site_quat, site);
-    model.site_sameframe[site] = 0;
-  }
-  for (int camera = 0; camera < model.ncam; ++camera) {
-    if (model.cam_bodyid[camera] == base) turn_row(model.cam_pos, model.cam_quat, camera);
-  }
+  turn_those(1, &base, &model.body_ipos[3 * base], &model.body_iquat[4 * base]);
+  turn_those(model.nbody, model.body_parentid, model.body_pos, model.body_quat);
+  turn_those(model.ngeom, model.geom_bodyid, model.geom_pos, model.geom_quat);
+  turn_those(model.nsite, model.site_bodyid, model.site_pos, model.site_quat);
+  turn_those(model.ncam, model.cam_bodyid, model.cam_pos, model.cam_quat);
+  // Frames may differ now that MuJoCo took for the same.
+  std::fill_n(model.body_sameframe, model.nbody, mjtByte{0});
+  std::fill_n(model.geom_sameframe, model.ngeom, mjtByte{0});
+  std::fill_n(model.site_sameframe, model.nsite, mjtByte{0});
   recompute(model);
   return forward;
 }
@@ -234,14 +230,16 @@ void apply_conventions(RobotModel& robot, const Contract& contract) {
   mjModel& model = *robot.mj;
   check_chain(robot, contract);
   const MjDataPtr data = at_reference(robot);
+  std::vector<std::string> complaints;
   for (std::size_t i = 0; i < servo_count; ++i) {
     if (!robot.has(i)) continue;
     const Vector3d axis = vector_at(data->xaxis, robot.joint[i]);
-    check_axis(axis, i, contract);
+    collect(complaints, [&] { check_axis(axis, i, contract); });
     if (axis.y() * expected_sign(i) > 0.0) continue;
     reverse(model, robot.joint[i]);
     robot.is_reversed[i] = true;
   }
+  require_none(complaints);
   set_zeros(robot, contract);
   set_imu(robot, contract);
   set_contacts(robot, contract);

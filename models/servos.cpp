@@ -7,6 +7,7 @@
 
 #include "models/contract.hpp"
 #include "models/mjcf/parts.hpp"
+#include "models/mjcf/robot_file.hpp"
 
 namespace touchdown::models {
 
@@ -117,11 +118,9 @@ int find_joint(const mjModel& model, const Contract& contract, std::size_t servo
   return joint;
 }
 
-/// Whether a body is `above`, or below it.
-bool is_within(const mjModel& model, int body, int above) {
-  while (body > above) body = model.body_parentid[body];
-  return body == above;
-}
+constexpr std::string_view rod_text =
+    "a chain that ends without a tyre: a rod of a closed chain, cut open in this file? Held, it "
+    "carries no load, and torques of the leg are not the robot's";
 
 /// Whether a joint that moves no wheel is a rod's: it is on a leg, or moves another joint.
 bool is_rod(const RobotModel& robot, int joint) {
@@ -131,11 +130,11 @@ bool is_rod(const RobotModel& robot, int joint) {
   for (std::size_t i = 0; i < servo_count; ++i) {
     if (!robot.has(i)) continue;
     const int moved = model.jnt_bodyid[robot.joint[i]];
-    if (is_within(model, moved, body)) return false;
-    is_on_leg = is_on_leg || is_within(model, body, moved);
+    if (is_below(model, moved, body)) return false;
+    is_on_leg = is_on_leg || is_below(model, body, moved);
   }
   for (int other = 0; other < model.njnt && !is_on_leg; ++other) {
-    is_on_leg = other != joint && is_within(model, model.jnt_bodyid[other], body);
+    is_on_leg = other != joint && is_below(model, model.jnt_bodyid[other], body);
   }
   return is_on_leg;
 }
@@ -157,10 +156,7 @@ void refuse_other_joints(const RobotModel& robot, const Contract& contract) {
   if (first < 0) return;
   std::string message;
   if (!rods.empty()) {
-    message = fmt::format(
-        "joint {}: a chain that ends without a tyre: expected none: rods of a closed chain, cut "
-        "open in this file? Held, they would bear the leg",
-        fmt::join(rods, ", "));
+    message = fmt::format("joint {}: {}, expected none", fmt::join(rods, ", "), rod_text);
   }
   if (!others.empty()) {
     message += fmt::format(
@@ -169,18 +165,6 @@ void refuse_other_joints(const RobotModel& robot, const Contract& contract) {
         message.empty() ? "" : "; ", fmt::join(others, ", "));
   }
   contract.fail_at_joint(first, message);
-}
-
-int find_motor(const RobotModel& robot, const Contract& contract, std::size_t servo) {
-  const mjModel& model = *robot.mj;
-  const int motor = contract.find(mjOBJ_ACTUATOR, "motor", servo_names[servo]);
-  if ((model.actuator_trntype[motor] != mjTRN_JOINT &&
-       model.actuator_trntype[motor] != mjTRN_JOINTINPARENT) ||
-      model.actuator_trnid[2 * motor] != robot.joint[servo]) {
-    contract.fail_at_motor(servo,
-                           fmt::format("expected it to drive joint '{}'", servo_names[servo]));
-  }
-  return motor;
 }
 
 /// Gains of a servo on its joint; zero where a motor has none.
@@ -310,12 +294,16 @@ void find_servos(RobotModel& robot, const RobotDescription& description, const C
   robot.base_body = find_base(model, contract);
   std::array<int, servo_count> motor = {-1, -1, -1, -1, -1, -1};
   robot.joint.fill(-1);
+  std::vector<std::string> complaints;
   for (std::size_t i = 0; i < servo_count; ++i) {
     if (i % 3 == 0 && !contract.parts().has_hips) continue;
-    robot.joint[i] = find_joint(model, contract, i);
-    motor[i] = find_motor(robot, contract, i);
+    collect(complaints, [&] {
+      robot.joint[i] = find_joint(model, contract, i);
+      motor[i] = contract.find(mjOBJ_ACTUATOR, "motor", servo_names[i]);
+    });
   }
-  refuse_other_joints(robot, contract);
+  require_none(complaints);
+  collect(complaints, [&] { refuse_other_joints(robot, contract); });
   for (std::size_t i = 0; i < servo_count; ++i) {
     robot.qpos_address[i] = robot.dof_address[i] = -1;
     if (!robot.has(i)) continue;
@@ -323,16 +311,18 @@ void find_servos(RobotModel& robot, const RobotDescription& description, const C
     robot.qpos_address[i] = model.jnt_qposadr[joint];
     robot.dof_address[i] = model.jnt_dofadr[joint];
     const auto& given = description.actuator(static_cast<Servo>(i));
-    robot.effort[i] = torque_limit(
-        model, motor[i], given ? given->maximum_torque : no_limit, [&](const std::string& message) {
-          contract.fail_at_motor(
-              i, fmt::format("{}, or 'actuators: {{{}: {{maximum_torque: …}}}}' in the YAML file",
-                             message, std::array{"hip", "knee", "wheel"}[i % 3]));
-        });
+    const double otherwise = given ? given->maximum_torque : no_limit;
+    const auto fail = [&](const std::string& message) {
+      contract.fail_at_motor(
+          i, fmt::format("{}, or 'actuators: {{{}: {{maximum_torque: …}}}}' in the YAML file",
+                         message, std::array{"hip", "knee", "wheel"}[i % 3]));
+    };
+    collect(complaints, [&] { robot.effort[i] = torque_limit(model, motor[i], otherwise, fail); });
     robot.actuator[i] = {.friction = model.dof_frictionloss[robot.dof_address[i]],
                          .viscous = model.dof_damping[robot.dof_address[i]],
                          .armature = model.dof_armature[robot.dof_address[i]]};
   }
+  require_none(complaints);
   for (int i = 0; i < model.nu; ++i) {
     const char* const name = mj_id2name(&model, mjOBJ_ACTUATOR, i);
     if (is_held_name(name)) continue;
@@ -356,6 +346,9 @@ void find_held(RobotModel& robot, const RobotDescription& description, const Con
   std::vector<HeldJoint> held;
   for (std::size_t i = 0; i < contract.parts().held.size(); ++i) {
     held.push_back(Held(robot, contract, i).held(description.held_servo, robots));
+    if (!is_rod(robot, held.back().joint)) continue;
+    robot.ignored.push_back(
+        fmt::format("{}: joint '{}': {}", description.mjcf.string(), held.back().name, rod_text));
   }
   robot.held = std::move(held);
 }

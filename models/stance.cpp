@@ -1,8 +1,8 @@
 #include "models/stance.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -17,37 +17,45 @@ Stance zeros_of(const RobotModel& robot) {
   return {robot.zero[index(Servo::left_hip)], -robot.zero[index(Servo::left_knee)]};
 }
 
+/// The sign of a joint's angle in a stance: hips forward, knees backward.
+double stance_sign(std::size_t servo) { return (servo < 3) == (servo % 3 == 0) ? 1.0 : -1.0; }
+
+/// The range of both hips, or of both knees, in the signs of a stance.
+std::pair<double, double> common_range(const RobotModel& robot, bool is_hip) {
+  std::pair<double, double> common = {-std::numbers::pi, std::numbers::pi};
+  for (const std::size_t servo : {is_hip ? 0U : 1U, is_hip ? 3U : 4U}) {
+    const int joint = robot.joint[servo];
+    if (joint < 0 || robot.mj->jnt_limited[joint] == 0) continue;
+    const double sign = stance_sign(servo);
+    const mjtNum* const range = &robot.mj->jnt_range[2 * joint];
+    common.first = std::max(common.first, std::min(sign * range[0], sign * range[1]));
+    common.second = std::min(common.second, std::max(sign * range[0], sign * range[1]));
+  }
+  return common;
+}
+
+/// The angle within a range and with some room to move that is nearest to another.
+double within(const std::pair<double, double>& range, double angle) {
+  const double room = std::min(0.05, 0.5 * (range.second - range.first));  // rad
+  return std::min(std::max(angle, range.first + room), range.second - room);
+}
+
 /// The stance within the ranges of both legs that bends the knees most nearly as Upkie's crouch
-/// does, either way, with the axle as nearly as possible below the first joint.
-std::optional<Stance> stance_within_ranges(const RobotModel& robot) {
+/// does, either way, with the axle as nearly as possible below the first joint. The joints may
+/// have no such stance.
+Stance stance_within_ranges(const RobotModel& robot) {
   const MjDataPtr data = at_zero(robot);
   const auto at = [&](Servo servo) { return vector_at(data->xanchor, robot.joint[index(servo)]); };
-  const bool has_hips = robot.has(index(Servo::left_hip));
+  const double bend = Stance().knee;
+  const std::pair<double, double> knees = common_range(robot, false);
+  const double backward = within(knees, bend);
+  const double forward = within(knees, -bend);
+  const double knee = std::abs(backward - bend) <= std::abs(forward + bend) ? backward : forward;
+  if (!robot.has(index(Servo::left_hip))) return {0.0, knee};
   const double lower = (at(Servo::left_wheel) - at(Servo::left_knee)).norm();
-  const double upper = has_hips ? (at(Servo::left_knee) - at(Servo::left_hip)).norm() : 0.0;
-  std::optional<Stance> best;
-  double least = std::numeric_limits<double>::infinity();
-  constexpr double step = 0.02;  // rad
-  constexpr int half_turn = 157;
-  for (int k = -half_turn; k <= half_turn; ++k) {
-    const double knee = step * k;
-    for (int h = has_hips ? -half_turn : 0; h <= (has_hips ? half_turn : 0); ++h) {
-      const Stance stance{step * h, knee};
-      const double off = upper * std::sin(stance.hip) + lower * std::sin(stance.hip - knee);
-      const double height = upper * std::cos(stance.hip) + lower * std::cos(stance.hip - knee);
-      const double bend = std::abs(std::abs(knee) - Stance().knee);
-      const double cost = std::abs(off) / (upper + lower) + bend;
-      constexpr double within = 0.05;  // rad: room to move
-      if (height <= 0.0 || cost >= least ||
-          stance_error(robot, {stance.hip - within, knee - within}) ||
-          stance_error(robot, {stance.hip + within, knee + within})) {
-        continue;
-      }
-      least = cost;
-      best = stance;
-    }
-  }
-  return best;
+  const double upper = (at(Servo::left_knee) - at(Servo::left_hip)).norm();
+  const double above = std::atan2(lower * std::sin(knee), upper + lower * std::cos(knee));
+  return {within(common_range(robot, true), above), knee};
 }
 
 }  // namespace
@@ -71,7 +79,8 @@ Stance usual_stance(const RobotModel& robot) {
   const Stance mirrored = {-crouch.hip, -crouch.knee};
   if (!stance_error(robot, crouch)) return crouch;
   if (!stance_error(robot, mirrored)) return mirrored;
-  if (const auto found = stance_within_ranges(robot)) return *found;
+  const Stance nearest = stance_within_ranges(robot);
+  if (!stance_error(robot, nearest)) return nearest;
   const std::size_t hip = index(Servo::left_hip);
   return {robot.has(hip) ? robot.reference(hip) : 0.0, -robot.reference(hip + 1)};
 }
@@ -84,8 +93,7 @@ std::optional<StanceError> stance_error(const RobotModel& robot, const Stance& s
   for (std::size_t i = 0; i < servo_count; ++i) {
     if (i % 3 == 2 || !robot.has(i) || can_turn(robot, i, angle[i])) continue;
     const bool is_hip = i % 3 == 0;
-    // In the signs of a stance, hip forward and knee backward.
-    const double sign = (i < 3) == is_hip ? 1.0 : -1.0;
+    const double sign = stance_sign(i);
     const double zero = is_hip ? zeros.hip : zeros.knee;
     const mjtNum* const range = &robot.mj->jnt_range[2 * robot.joint[i]];
     double low = sign * range[0];

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -209,19 +208,17 @@ std::string part_on_terrain(const Scenario& scenario, const logs::Recording& rec
   models::write_pose(robot, last.base_position, last.base_orientation, joints, data->qpos);
   constexpr double near = 0.01;  // m: the step after the last record
   std::fill_n(mj.geom_margin, mj.ngeom, near);
-  mj_kinematics(&mj, data.get());
-  mj_comPos(&mj, data.get());
-  mj_collision(&mj, data.get());
+  mj_fwdPosition(&mj, data.get());
   int part = -1;
-  double lowest = std::numeric_limits<double>::infinity();
+  double lowest = near;
   for (int i = 0; i < data->ncon; ++i) {
     const mjContact& contact = data->contact[i];
-    const int geom = std::max(contact.geom1, contact.geom2);
-    const int other = std::min(contact.geom1, contact.geom2);
-    const int own = mj.geom_bodyid[geom] == 0 ? other : geom;
-    if (simulators::wheel_of_tyre(robot, own) || contact.dist >= lowest) continue;
-    lowest = contact.dist;
-    part = own;
+    for (const int geom : {contact.geom1, contact.geom2}) {
+      const bool is_terrain = mj.geom_bodyid[geom] == 0;
+      if (is_terrain || simulators::wheel_of_tyre(robot, geom) || contact.dist >= lowest) continue;
+      lowest = contact.dist;
+      part = geom;
+    }
   }
   if (part < 0) return {};
   const char* name = mj_id2name(&mj, mjOBJ_GEOM, part);

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <regex>
 #include <set>
 #include <sstream>
 
@@ -16,94 +15,66 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// Elements and attributes by the version that introduced them: from MuJoCo's changelog
-/// (doc/changelog.rst of google-deepmind/mujoco), and from the notes of its releases 3.11.0 and
-/// 3.12.0. `kv` and `timeconst` were no attributes of position servos before, and `inertia` none of
-/// meshes.
-const std::map<std::string, std::set<std::string>> features = {
-    {"2.3.0", {"assetdir", "extension", "plugin"}},
-    {"2.3.1", {"actdim", "gravcomp"}},
-    {"2.3.6", {"tausmooth"}},
-    {"2.3.7", {"actuatorforcelimited", "actuatorforcerange", "content_type"}},
-    {"3.0.0",
-     {"actearly", "actuatorfrclimited", "actuatorfrcrange", "deformable", "flex", "flexcomp",
-      "focal", "focalpixel", "principal", "principalpixel", "resolution", "sensorsize"}},
-    {"3.1.0", {"frame", "kv"}},
-    {"3.1.3", {"inheritrange"}},
-    {"3.1.4", {"actuatorgravcomp"}},
-    {"3.1.5", {"bulbradius", "metallic", "replicate", "roughness"}},
-    {"3.1.6", {"dampratio", "timeconst"}},
-    {"3.2.0", {"attach", "maxhullvert", "orthographic"}},
-    {"3.2.3", {"align", "alignfree"}},
-    {"3.2.5", {"inertia", "layer"}},
-    {"3.3.1", {"saveinertial"}},
-    {"3.11.0", {"surfacevel"}},
-    {"3.12.0", {"pid"}}};
+constexpr std::string_view flattened =
+    "MuJoCo 3 writes a file without it: `python3 -c \"import mujoco as m; "
+    "m.mj_saveLastXML('flat.xml', m.MjModel.from_xml_path('robot.xml'))\"`";
+constexpr std::string_view rigid = "deformable bodies are not simulated";
 
-/// Attributes that touchdown overrides: those of a servo's law, and of gravity on actuators.
-const std::set<std::string, std::less<>> overridden = {"kv",
-                                                       "dampratio",
-                                                       "timeconst",
-                                                       "inheritrange",
-                                                       "actdim",
-                                                       "actearly",
-                                                       "actuatorfrcrange",
-                                                       "actuatorforcerange",
-                                                       "actuatorfrclimited",
-                                                       "actuatorgravcomp",
-                                                       "align",
-                                                       "actuatorforcelimited"};
-/// Elements of which nothing acts on the robot but what this version of MuJoCo reads, too.
-const std::set<std::string, std::less<>> drawn = {"mesh", "texture", "material", "camera", "light",
-                                                  "site", "skin",    "compiler", "layer"};
-/// What another file would write instead.
-const std::map<std::string, std::string, std::less<>> equivalents = {
-    {"gravcomp", "the weight of all bodies counts"},
-    {"surfacevel", "the ground is the scenario's terrain"},
-    {"pid", "expected a <motor> or <position> with a forcerange"}};
+struct Addition {
+  std::string_view version;
+  std::string_view instead;
+};
+/// What later versions added and what acts on the robot, from MuJoCo's changelog (doc/changelog.rst
+/// of google-deepmind/mujoco), and from the notes of its releases 3.11.0 and 3.12.0.
+const std::map<std::string_view, Addition> additions = {
+    {"plugin", {"2.3.0", "plugins are not run"}},
+    {"gravcomp", {"2.3.1", "the weight of all bodies counts"}},
+    {"deformable", {"3.0.0", rigid}},
+    {"flexcomp", {"3.0.0", rigid}},
+    {"frame", {"3.1.0", flattened}},
+    {"replicate", {"3.1.5", flattened}},
+    {"attach", {"3.2.0", flattened}},
+    {"surfacevel", {"3.11.0", "the ground is the scenario's terrain"}},
+    {"pid", {"3.12.0", "expected a <motor> or <position> with a forcerange"}}};
 
-std::string equivalent_of(std::string_view name) {
-  const auto found = equivalents.find(name);
-  if (found != equivalents.end()) return found->second;
-  return "MuJoCo 3 writes a file without it: `python3 -c \"import mujoco as m; "
-         "m.mj_saveLastXML('flat.xml', m.MjModel.from_xml_path('robot.xml'))\"`";
-}
+/// Attributes that touchdown overrides, such as those of a servo's law, or that are translated.
+const std::set<std::string_view> overridden = {
+    "kv",           "dampratio",        "timeconst",          "inheritrange",
+    "actdim",       "actearly",         "actuatorfrcrange",   "actuatorfrclimited",
+    "align",        "actuatorgravcomp", "actuatorforcerange", "actuatorforcelimited",
+    "alignfree",    "saveinertial",     "assetdir",           "inertia",
+    "content_type", "maxhullvert"};
+/// Elements that do not act on the robot.
+const std::set<std::string_view> drawn = {"texture", "material", "camera", "light",
+                                          "site",    "skin",     "layer"};
 
 std::string version_text(std::string_view name) {
-  for (const auto& [version, names] : features) {
-    if (!names.contains(std::string(name))) continue;
-    return fmt::format("`{}` came with MuJoCo {}; this is MuJoCo {}: {}", name, version,
-                       mj_versionString(), equivalent_of(name));
+  if (const auto found = additions.find(name); found != additions.end()) {
+    return fmt::format("`{}` came with MuJoCo {}; this is MuJoCo {}: {}", name,
+                       found->second.version, mj_versionString(), found->second.instead);
   }
   return fmt::format("unrecognized: this is MuJoCo {}, `{}` may be of a later version",
                      mj_versionString(), name);
 }
 
-/// The attributes that this version of MuJoCo reads, by section and tag, such as "asset/mesh".
-using Schema = std::map<std::string, std::set<std::string>>;
-
-Schema read_schema() {
+/// The attributes that this version of MuJoCo reads, by tag.
+std::map<std::string, std::set<std::string>> read_schema() {
   constexpr int most = 1 << 18;
   std::string text(most, '\0');
   text.resize(static_cast<std::size_t>(mj_printSchema(nullptr, text.data(), most, 0, 0)));
-  const std::regex element(R"(^( *)(\S+) +\(.\)(.*)$)");
-  Schema schema = {{"worldbody/worldbody", {}}, {"default/default", {"class"}}};
-  std::string section;
+  std::map<std::string, std::set<std::string>> schema = {{"worldbody", {}}};
+  std::istringstream words(text + " end");
   std::set<std::string>* attributes = nullptr;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    std::smatch match;
-    if (std::regex_match(line, match, element)) {
-      constexpr int indent = 3;
-      const bool is_body = match[2] == "(world)body";
-      if (match[1].length() == indent) section = is_body ? "worldbody" : match[2].str();
-      attributes = &schema[section + "/" + (is_body ? "body" : match[2].str())];
-      line = match[3].str();
+  std::string name;
+  // Each tag is followed by how often it may occur, such as "(*)", and by its attributes.
+  for (std::string word; words >> word;) {
+    if (word.size() == 3 && word.front() == '(') {
+      attributes = &schema[name == "(world)body" ? "body" : name];
+      name.clear();
+      continue;
     }
-    std::istringstream words(line);
-    for (std::string word; words >> word;) {
-      if (attributes != nullptr) attributes->insert(word);
-    }
+    if (attributes != nullptr && !name.empty()) attributes->insert(name);
+    name = word;
   }
   return schema;
 }
@@ -113,77 +84,60 @@ class Translation {
   Translation(MjcfDocument& document, FileFindings& findings)
       : document_(document), findings_(findings) {}
 
-  void translate() {
-    for (XMLElement* const section : children(document_.root())) {
-      const std::string_view tag = section->Name();
-      // Those that `keep_robot_only` refuses have one complaint already.
-      if (tag == "equality" || tag == "tendon" || tag == "extension") continue;
-      translate(*section, std::string(tag));
-    }
-  }
-
- private:
-  void complain(const XMLElement& element, std::string_view name) {
-    findings_.complaints.push_back(fmt::format("{}: {}: {}", document_.place_of(element),
-                                               title_of(element), version_text(name)));
-  }
-  void ignore(const XMLElement& element, std::string_view name) {
-    findings_.ignored.push_back(
-        fmt::format("{}: {}: {}: of a later MuJoCo, and without effect here",
-                    document_.place_of(element), title_of(element), name));
-  }
-
-  void translate(XMLElement& element, const std::string& section) {
-    const auto known = schema_.find(section + "/" + element.Name());
-    if (known == schema_.end()) {
-      if (splice(element)) return;
-      if (!drawn.contains(element.Name())) return complain(element, element.Name());
-      ignore(element, element.Name());
-      return document_.remove(element);
-    }
+  void translate(XMLElement& element) {
+    const auto known = schema_.find(element.Name());
+    if (known == schema_.end()) return translate_unknown(element);
     for (const auto* a = element.FirstAttribute(); a != nullptr;) {
       const std::string name = a->Name();
       a = a->Next();
       if (known->second.contains(name)) continue;
-      if (!is_without_effect(element, name)) {
-        complain(element, name);
-        continue;
-      }
-      if (name.find("frc") == std::string::npos && name.find("force") == std::string::npos) {
-        ignore(element, name);
-      }
-      element.DeleteAttribute(name.c_str());
+      const bool is_ignored = is_without_effect(element, name);
+      if (!name.starts_with("actuatorf")) note(element, name, is_ignored);
+      if (is_ignored) element.DeleteAttribute(name.c_str());
     }
-    for (XMLElement* const child : children(element)) translate(*child, section);
+    for (XMLElement* const child : children(element)) translate(*child);
+  }
+
+ private:
+  void note(const XMLElement& element, std::string_view name, bool is_ignored) {
+    (is_ignored ? findings_.ignored : findings_.complaints)
+        .push_back(fmt::format(
+            "{}: {}: {}", document_.place_of(element), title_of(element),
+            is_ignored ? fmt::format("{}: of a later MuJoCo, and without effect here", name)
+                       : version_text(name)));
+  }
+
+  void translate_unknown(XMLElement& element) {
+    const std::string_view tag = element.Name();
+    const auto* const first = element.FirstAttribute();
+    const bool has_pose =
+        first != nullptr && (std::string_view(first->Name()) != "name" || first->Next() != nullptr);
+    if (tag == "frame" && !has_pose) {
+      for (XMLElement* const child : children(element)) {
+        document_.move_before(element, *child);
+        translate(*child);
+      }
+    } else {
+      note(element, tag, drawn.contains(tag));
+      if (!drawn.contains(tag)) return;
+    }
+    document_.remove(element);
   }
 
   bool is_without_effect(const XMLElement& element, const std::string& name) const {
-    const std::string_view tag = element.Name();
-    if (drawn.contains(tag) || overridden.contains(name)) return true;
+    const std::string_view value = attribute(element, name.c_str());
+    if (name == "inertia" && value == "shell") return false;
+    if (drawn.contains(element.Name()) || overridden.contains(name)) return true;
     if (name == "gravcomp" || name == "surfacevel") {
-      const std::vector<double> values = numbers(attribute(element, name.c_str()));
+      const std::vector<double> values = numbers(value);
       return std::all_of(values.begin(), values.end(), [](double x) { return x == 0.0; });
     }
-    return tag == "geom" && is_visual(document_, element);
-  }
-
-  /// Puts the children of a <frame> without a pose in its place.
-  bool splice(XMLElement& frame) {
-    const auto* const only = frame.FirstAttribute();
-    if (std::string_view(frame.Name()) != "frame" ||
-        (only != nullptr && (std::string_view(only->Name()) != "name" || only->Next() != nullptr)))
-      return false;
-    for (XMLElement* const child : children(frame)) {
-      document_.move_before(frame, *child);
-      translate(*child, "worldbody");
-    }
-    document_.remove(frame);
-    return true;
+    return std::string_view(element.Name()) == "geom" && is_visual(document_, element);
   }
 
   MjcfDocument& document_;
   FileFindings& findings_;
-  const Schema schema_ = read_schema();
+  const std::map<std::string, std::set<std::string>> schema_ = read_schema();
 };
 
 /// The value of an actuator's attribute; its class may give it to any kind of actuator.
@@ -274,7 +228,7 @@ void translate_later_versions(MjcfDocument& document, FileFindings& findings) {
   write_folders(document);
   write_damping(document);
   write_limits(document, findings);
-  Translation(document, findings).translate();
+  Translation(document, findings).translate(document.root());
 }
 
 }  // namespace touchdown::models

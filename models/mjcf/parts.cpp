@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/error.hpp"
 #include "core/yaml.hpp"
 #include "models/mjcf/document.hpp"
 
@@ -55,7 +54,9 @@ std::vector<XMLElement*> motors_of(MjcfDocument& document, std::string_view join
   for (auto* section = actuators_of(document); section != nullptr;
        section = section->NextSiblingElement("actuator")) {
     for (auto* motor : children(*section)) {
-      if (attribute(*motor, "joint") == joint) motors.push_back(motor);
+      if (attribute(*motor, "joint") == joint || attribute(*motor, "jointinparent") == joint) {
+        motors.push_back(motor);
+      }
     }
   }
   return motors;
@@ -97,21 +98,12 @@ XMLElement* only_motor_of(MjcfDocument& document, const std::string& joint) {
   return motors.empty() ? nullptr : motors.front();
 }
 
-/// Runs a step and keeps its complaint.
-template <typename Step>
-void collect(FileFindings& findings, const Step& step) {
-  try {
-    step();
-  } catch (const InputError& error) {
-    findings.complaints.emplace_back(error.what());
-  }
-}
-
 void rename(XMLElement& joint, XMLElement* motor, const std::string& name) {
   joint.SetAttribute("name", name.c_str());
   if (motor == nullptr) return;
   motor->SetAttribute("name", name.c_str());
   motor->SetAttribute("joint", name.c_str());
+  motor->DeleteAttribute("jointinparent");  // the same for hinges
 }
 
 /// A named joint.
@@ -124,17 +116,17 @@ XMLElement& joint_named(const MjcfDocument& document, const std::string& name,
 
 void name_held(MjcfDocument& document, const std::vector<std::string>& held, FileFindings& findings,
                const RobotKeys& keys) {
-  const std::map<std::string, double>& effort = findings.effort;
-  for (std::size_t i = 0; i < held.size(); ++i)
-    collect(findings, [&] {
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    collect(findings.complaints, [&] {
       XMLElement& joint = joint_named(document, held[i], fmt::format("held.{}", i), keys);
       XMLElement* const motor = only_motor_of(document, held[i]);
       rename(joint, motor, held_name(i));
-      const auto limit = effort.find(held[i]);
-      if (motor == nullptr && limit != effort.end()) {
+      const auto limit = findings.effort.find(held[i]);
+      if (motor == nullptr && limit != findings.effort.end()) {
         add_motor(document, held_name(i), limit->second);
       }
     });
+  }
 }
 
 /// Refuses a joint that has the name of a servo, but is none: its name would be taken.
@@ -158,7 +150,8 @@ void name_servos(MjcfDocument& document, const RobotDescription& description,
   for (std::size_t i = 0; i < servo_count; ++i) {
     const std::string& own = description.parts.joint[i];
     if (i % 3 == 0 && own.empty() && !description.parts.has_hips) continue;
-    collect(findings, [&] {
+    collect(findings.complaints, [&] {
+      motors[i] = only_motor_of(document, own_name(description.parts, i));
       if (own.empty()) {
         // The compiled model has the complaint about a joint that is missing.
         joints[i] = document.find("joint", servo_names[i]);
@@ -166,7 +159,6 @@ void name_servos(MjcfDocument& document, const RobotDescription& description,
         joints[i] = &joint_named(document, own, fmt::format("joints.{}", servo_names[i]), keys);
         require_free_name(document, description.parts, i);
       }
-      motors[i] = only_motor_of(document, own_name(description.parts, i));
     });
   }
   for (std::size_t i = 0; i < servo_count; ++i) {
@@ -174,7 +166,7 @@ void name_servos(MjcfDocument& document, const RobotDescription& description,
     const std::string name(servo_names[i]);
     rename(*joints[i], motors[i], name);
     if (motors[i] != nullptr) continue;
-    collect(findings, [&] {
+    collect(findings.complaints, [&] {
       add_motor(document, name,
                 limit_without_motor(document, *joints[i], description, findings.effort, i));
     });
@@ -254,21 +246,12 @@ XMLElement& sphere_about_axle(MjcfDocument& document, XMLElement& body, double r
   const Vector3d mass =
       inertial == nullptr ? anchor : vector_of(attribute(*inertial, "pos"), anchor);
   const Vector3d middle = anchor + axis * axis.dot(mass - anchor);
-  XMLElement* const geom = document.root().GetDocument()->NewElement("geom");
-  const std::string at = fmt::format("{} {} {}", middle.x(), middle.y(), middle.z());
-  for (const auto& [name, value] :
-       std::vector<std::pair<const char*, std::string>>{{"type", "sphere"},
-                                                        {"size", fmt::format("{}", radius)},
-                                                        {"pos", at},
-                                                        {"mass", "0"},
-                                                        {"group", "3"},
-                                                        {"contype", "1"},
-                                                        {"conaffinity", "1"},
-                                                        {"quat", "1 0 0 0"}}) {
-    geom->SetAttribute(name, value.c_str());
-  }
-  body.InsertEndChild(geom);
-  return *geom;
+  document.insert_before(
+      *body.FirstChildElement(),
+      fmt::format("<geom type=\"sphere\" size=\"{}\" pos=\"{} {} {}\" quat=\"1 0 0 0\" mass=\"0\" "
+                  "group=\"3\" contype=\"1\" conaffinity=\"1\"/>",
+                  radius, middle.x(), middle.y(), middle.z()));
+  return *body.FirstChildElement("geom");
 }
 
 void leave_untouched(XMLElement& geom) {
@@ -304,7 +287,7 @@ void name_tyres(MjcfDocument& document, const PartNames& parts, FileFindings& fi
                 const RobotKeys& keys) {
   std::array<XMLElement*, wheel_count> tyres = {};
   for (std::size_t i = 0; i < wheel_count; ++i) {
-    collect(findings, [&] { tyres[i] = tyre_of(document, parts, i, keys); });
+    collect(findings.complaints, [&] { tyres[i] = tyre_of(document, parts, i, keys); });
   }
   for (std::size_t i = 0; i < wheel_count; ++i) {
     if (tyres[i] == nullptr) continue;
@@ -333,8 +316,8 @@ void name_imu(MjcfDocument& document, const std::string& given, const RobotKeys&
 /// Lets the named geoms, and all geoms of the named bodies, touch nothing.
 void leave_untouched(MjcfDocument& document, const std::vector<std::string>& names,
                      FileFindings& findings, const RobotKeys& keys) {
-  for (std::size_t i = 0; i < names.size(); ++i)
-    collect(findings, [&] {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    collect(findings.complaints, [&] {
       if (XMLElement* const geom = document.find("geom", names[i])) return leave_untouched(*geom);
       XMLElement* const body = document.find("body", names[i]);
       if (body == nullptr) {
@@ -342,6 +325,7 @@ void leave_untouched(MjcfDocument& document, const std::vector<std::string>& nam
       }
       for (auto* geom : children(*body, "geom")) leave_untouched(*geom);
     });
+  }
 }
 
 /// The same part of the other leg; empty for any other name.
@@ -380,7 +364,7 @@ void name_parts(MjcfDocument& document, const RobotDescription& description, Fil
   name_held(document, parts.held, findings, keys);
   name_servos(document, description, findings, keys);
   name_tyres(document, parts, findings, keys);
-  collect(findings, [&] { name_imu(document, parts.imu, keys); });
+  collect(findings.complaints, [&] { name_imu(document, parts.imu, keys); });
 }
 
 std::string held_name(std::size_t number) { return fmt::format("{}{}", held_prefix, number); }

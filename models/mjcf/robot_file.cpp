@@ -26,6 +26,7 @@ void note(std::vector<std::string>& notes, const MjcfDocument& document, const X
   notes.push_back(document.place_of(element) + ": " + text);
 }
 
+/// Complains of the constraints that act. One complaint has all loops, as they belong together.
 void refuse_equality(const MjcfDocument& document, const XMLElement& section,
                      std::vector<std::string>& complaints) {
   std::vector<std::string> loops;
@@ -48,32 +49,34 @@ void refuse_equality(const MjcfDocument& document, const XMLElement& section,
                    fmt::join(loops, ", ")));
 }
 
-/// Checks a top-level section. Returns the note on it if it is removed.
-std::string removed_section(const MjcfDocument& document, XMLElement& section,
-                            std::vector<std::string>& complaints) {
+/// Complains of a top-level section that not every engine simulates. Returns whether it is one.
+bool is_refused(const MjcfDocument& document, const XMLElement& section,
+                std::vector<std::string>& complaints) {
   const std::string_view tag = section.Name();
-  if (tag == "option") {
-    return "option: time step, solver, flags and gravity are the scenario's; air is not simulated";
-  }
+  const XMLElement* const first = section.FirstChildElement();
   if (tag == "equality") {
-    const std::size_t before = complaints.size();
     refuse_equality(document, section, complaints);
-    return complaints.size() == before ? "equality: inactive" : "";
-  }
-  if (tag == "tendon") {
-    const XMLElement* first = section.FirstChildElement();
+  } else if (tag == "tendon") {
     note(complaints, document, first != nullptr ? *first : section,
          fmt::format("tendon{}: expected none: tendons are not supported",
                      first != nullptr ? " " + title_of(*first) : ""));
-  }
-  if (tag == "extension") {
+  } else if (tag == "extension") {
     note(complaints, document, section, "extension: expected none: plugins are not run");
+  } else {
+    return false;
   }
-  if (tag == "contact") return "contact: parts of the robot do not collide with each other";
-  if (tag == "keyframe") return "keyframe: the start is the scenario's";
-  if (tag == "sensor") return "sensor: joints and the IMU are measured, nothing else";
-  if (is_any_of(tag, {"visual", "statistic", "custom"})) return fmt::format("{}: ignored", tag);
-  return {};
+  return true;
+}
+
+/// Why a top-level section does not count; empty if it does.
+std::string_view reason_to_ignore(std::string_view tag) {
+  if (tag == "option") {
+    return "time step, solver, flags and gravity are the scenario's; air is not simulated";
+  }
+  if (tag == "contact") return "parts of the robot do not collide with each other";
+  if (tag == "keyframe") return "the start is the scenario's";
+  if (tag == "sensor") return "joints and the IMU are measured, nothing else";
+  return is_any_of(tag, {"visual", "statistic", "custom"}) ? "ignored" : "";
 }
 
 /// Refuses actuators with a state of their own. (MuJoCo's complaint would be about their order.)
@@ -129,21 +132,25 @@ std::string removed_from_world(const MjcfDocument& document, XMLElement& element
 }
 
 /// Lets a robot float that is fixed to the world in its file.
-void let_float(MjcfDocument& document, XMLElement& world, FileFindings& findings) {
-  const std::vector<XMLElement*> bodies = children(world, "body");
-  if (bodies.empty()) return;
+void let_float(MjcfDocument& document, FileFindings& findings) {
+  std::vector<XMLElement*> bodies;
+  std::vector<std::string> titles;
+  for (auto* world : children(document.root(), "worldbody")) {
+    for (auto* body : children(*world, "body")) {
+      bodies.push_back(body);
+      titles.push_back(title_of(*body));
+    }
+  }
   if (bodies.size() == 1) {
     bodies[0]->InsertFirstChild(document.root().GetDocument()->NewElement("freejoint"));
     note(findings.ignored, document, *bodies[0],
-         title_of(*bodies[0]) + ": fixed to the world: it floats here");
-    return;
+         titles[0] + ": fixed to the world: it floats here");
+  } else if (!bodies.empty()) {
+    note(findings.complaints, document, *bodies[0],
+         fmt::format("{}: expected one body with a <freejoint/>: the world is their base; put what "
+                     "moves into <body name=\"base\"><freejoint/><inertial …/> … </body>",
+                     fmt::join(titles, ", ")));
   }
-  std::vector<std::string> titles;
-  for (const XMLElement* const body : bodies) titles.push_back(title_of(*body));
-  note(findings.complaints, document, *bodies[0],
-       fmt::format("{}: expected one body with a <freejoint/>: the world is their base; put what "
-                   "moves into <body name=\"base\"><freejoint/><inertial …/> … </body>",
-                   fmt::join(titles, ", ")));
 }
 
 void reduce_world(MjcfDocument& document, XMLElement& world, bool has_robot,
@@ -154,7 +161,6 @@ void reduce_world(MjcfDocument& document, XMLElement& world, bool has_robot,
     note(findings.ignored, document, *e, removed);
     document.remove(*e);
   }
-  if (!has_robot) let_float(document, world, findings);
   int geoms = 0;
   for_each_element(world, [&](XMLElement& e) {
     const std::string_view tag = e.Name();
@@ -198,6 +204,10 @@ void limit_by_ranges(MjcfDocument& document) {
 
 }  // namespace
 
+void require_none(const std::vector<std::string>& complaints) {
+  if (!complaints.empty()) throw InputError(fmt::format("{}", fmt::join(complaints, "\n")));
+}
+
 void keep_robot_only(MjcfDocument& document, FileFindings& findings) {
   limit_by_ranges(document);
   XMLElement& root = document.root();
@@ -208,10 +218,12 @@ void keep_robot_only(MjcfDocument& document, FileFindings& findings) {
     }
   }
   for (XMLElement* const section : children(root)) {
-    const std::string removed = removed_section(document, *section, findings.complaints);
     const std::string_view tag = section->Name();
-    if (!removed.empty()) {
-      note(findings.ignored, document, *section, removed);
+    const std::string_view reason = reason_to_ignore(tag);
+    if (is_refused(document, *section, findings.complaints)) {
+      document.remove(*section);
+    } else if (!reason.empty()) {
+      note(findings.ignored, document, *section, fmt::format("{}: {}", tag, reason));
       document.remove(*section);
     } else if (tag == "worldbody") {
       reduce_world(document, *section, has_robot, findings);
@@ -221,6 +233,7 @@ void keep_robot_only(MjcfDocument& document, FileFindings& findings) {
       reduce_sizes(*section);
     }
   }
+  if (!has_robot) let_float(document, findings);
 }
 
 }  // namespace touchdown::models

@@ -7,9 +7,23 @@
 #include <string_view>
 #include <vector>
 
+#include "core/error.hpp"
 #include "models/mjcf/document.hpp"
 
 namespace touchdown::models {
+
+/// Runs a step and keeps its complaint, so that those of other steps come with it.
+template <typename Step>
+void collect(std::vector<std::string>& complaints, const Step& step) {
+  try {
+    step();
+  } catch (const InputError& error) {
+    complaints.emplace_back(error.what());
+  }
+}
+
+/// Throws an `InputError` with all complaints, one per line, if there are any.
+void require_none(const std::vector<std::string>& complaints);
 
 /// What is found in a robot's file.
 struct FileFindings {

@@ -116,11 +116,11 @@ TEST_F(FoundFile, KeepsTheDampingOfPositionServosThatHoldJoints) {
 
 /// Upkie on a base body that is turned against its torso.
 std::vector<Edit> turned(double yaw) {
-  return {{"<body name=\"torso\"([^>]*)>\\s*<freejoint name=\"root\"/>",
+  return {{"<body name=\"torso\"([^>]*)>\\s*(<inertial[^>]*>)\\s*<freejoint name=\"root\"/>",
            fmt::format("<body name=\"plate\" $1><freejoint/><inertial pos=\"0 0 0\" mass=\"0.01\" "
                        "diaginertia=\"1e-5 1e-5 1e-5\"/><geom name=\"plate\" type=\"box\" "
                        "size=\".01 .02 .01\" pos=\".03 0 0\" mass=\"0\"/><body name=\"torso\" "
-                       "euler=\"0 0 {}\">",
+                       "euler=\"0 0 {}\">$2",
                        yaw)},
           {"</body>\\s*</worldbody>", "</body></body></worldbody>"}};
 }
