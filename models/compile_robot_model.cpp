@@ -42,7 +42,7 @@ RobotFile robot_file(const RobotDescription& description, const RobotKeys& keys)
   keep_robot_only(robot.document, findings);
   translate_later_versions(robot.document, findings);
   drop_missing_assets(robot.document, findings);
-  name_parts(robot.document, description, findings, keys);
+  name_parts(robot.document, description.parts, findings, keys);
   require_none(findings.complaints);
   return robot;
 }
@@ -119,13 +119,13 @@ void check_places(const mjModel& model, const Contract& contract) {
 
 /// Looks up the robot's parts in the model of its file.
 RobotModel with_parts(MjModelPtr mj, const RobotDescription& description,
-                      const Contract& contract) {
+                      const FileFindings& findings, const Contract& contract) {
   RobotModel robot;
   robot.mj = std::move(mj);
   robot.tyre = description.tyre;
   robot.name = robot.mj->names;  // the model's own name comes first
   check_places(*robot.mj, contract);
-  find_servos(robot, description, contract);
+  find_servos(robot, description, findings.effort, contract);
   find_tyres(robot, contract);
   return robot;
 }
@@ -147,7 +147,7 @@ RobotModel compile_robot_model(const std::filesystem::path& file, const Terrain&
   PartNames& parts = description.parts;
   MjModelPtr mj = compile(source, terrain);
   const Contract contract(source.document, parts, *mj);
-  RobotModel robot = with_parts(std::move(mj), description, contract);
+  RobotModel robot = with_parts(std::move(mj), description, source.findings, contract);
   const std::string forward = turn_base(robot, parts.forward);
   if (forward != "x") {
     source.findings.ignored.push_back(
@@ -158,6 +158,7 @@ RobotModel compile_robot_model(const std::filesystem::path& file, const Terrain&
   const bool has_strips = description.tyre.strips().size() > 1;
   if (swapped) {
     swap_sides(source.document);
+    for (std::size_t i = 0; i < servo_count; ++i) parts.joint[i] = own_name(parts, i);
     std::swap_ranges(parts.joint.begin(), parts.joint.begin() + 3, parts.joint.begin() + 3);
     std::swap(parts.tyre[0], parts.tyre[1]);
   }
@@ -166,16 +167,13 @@ RobotModel compile_robot_model(const std::filesystem::path& file, const Terrain&
   if (swapped || has_strips) {
     MjModelPtr again = compile(source, terrain);
     const Contract renewed(source.document, parts, *again);
-    robot = with_parts(std::move(again), description, renewed);
+    robot = with_parts(std::move(again), description, source.findings, renewed);
     (void)turn_base(robot, forward);
     if (has_strips) find_strips(robot, renewed);
   }
   const Contract final_contract(source.document, parts, *robot.mj);
   for (std::size_t i = 0; i < servo_count; ++i) {
-    // A swapped leg keeps the file's name.
-    robot.joint_name[i] = parts.joint[i].empty()
-                              ? std::string(servo_names[swapped ? (i + 3) % servo_count : i])
-                              : parts.joint[i];
+    robot.joint_name[i] = own_name(parts, i);  // a swapped leg keeps the file's name
   }
   robot.ignored.insert(robot.ignored.begin(), source.findings.ignored.begin(),
                        source.findings.ignored.end());
@@ -183,7 +181,7 @@ RobotModel compile_robot_model(const std::filesystem::path& file, const Terrain&
   check_stance(robot, description, keys);
   set_actuators(robot, description);
   set_size(robot, description, keys);
-  find_held(robot, description, final_contract);
+  find_held(robot, description, source.findings.effort, final_contract);
   return robot;
 }
 

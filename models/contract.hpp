@@ -2,6 +2,7 @@
 
 #include <array>
 #include <initializer_list>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -58,15 +59,18 @@ class Contract {
 /// Finds the floating base, the servos' joints and the torque limits of their motors,
 /// and checks them. The laws of position and velocity servos are removed. Errors: `InputError` for
 /// anything that would act besides the servos: other joints, springs, several motors on a joint,
-/// activations; and for limits that are not symmetric, or absent in the description, too.
-void find_servos(RobotModel& robot, const RobotDescription& description, const Contract& contract);
+/// activations; and for limits that are not symmetric, or absent. The description may have some,
+/// too, and `efforts`, by joint of the file.
+void find_servos(RobotModel& robot, const RobotDescription& description,
+                 const std::map<std::string, double>& efforts, const Contract& contract);
 
 /// Finds the held joints and the servos that hold them. A position servo of the file keeps its
 /// gains. Others get those that `gains: lqr` gives to hips and knees, of a pendulum of the robot's
 /// weight and leg length. MuJoCo simulates their rotors; the simulators add everything else.
 /// Errors: `InputError` for a joint that is no hinge, has a spring or shares its body with another
 /// joint, and for one without a torque limit.
-void find_held(RobotModel& robot, const RobotDescription& description, const Contract& contract);
+void find_held(RobotModel& robot, const RobotDescription& description,
+               const std::map<std::string, double>& efforts, const Contract& contract);
 
 /// Finds the tyres. Errors: `InputError` for tyres that are not round about their wheel's axle, of
 /// different radii, not on the body that the wheel's joint moves, or with a width and no sphere.
@@ -83,8 +87,8 @@ void find_strips(RobotModel& robot, const Contract& contract);
 bool is_below(const mjModel& model, int below, int above);
 
 /// Turns the base frame about its z axis until x is forward: from `forward` (x, -x, y, -y), or, if
-/// this is empty, across the wheels' axes, with the left tyre on the left. A base with axes along y
-/// stays as it is, as sides may be called otherwise. Returns the former axis that faces forward.
+/// this is empty, across the wheels' axes, with the left tyre on the left. A base with axes along
+/// y stays as it is, as sides may be called otherwise. Returns the former axis that faces forward.
 std::string turn_base(RobotModel& robot, std::string_view forward);
 
 /// Whether the leg called left is on the right. Errors: `InputError` unless the tyres are side by

@@ -13,10 +13,18 @@ namespace touchdown::models {
 
 namespace {
 
+using Efforts = std::map<std::string, double>;
+
 /// Throws an `InputError` about a motor.
 using FailAtMotor = std::function<void(const std::string& message)>;
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+/// The torque limit of a joint, beside that of its motor.
+double limit_of(const Efforts& efforts, const std::string& joint) {
+  const auto found = efforts.find(joint);
+  return found == efforts.end() ? no_limit : found->second;
+}
 
 /// The upper end of a range that must be symmetric.
 double symmetric(const mjtNum* range, const char* what, const FailAtMotor& fail) {
@@ -28,10 +36,9 @@ double symmetric(const mjtNum* range, const char* what, const FailAtMotor& fail)
 }
 
 /// The torque limit of a motor on its joint (N·m): the control range times the gain, within the
-/// force range, times the gear. Position and velocity servos count with their force range. Errors:
-/// `fail` for activations, limits that are not symmetric, and motors without a limit, unless one is
-/// `given`.
-double torque_limit(const mjModel& model, int motor, double given, const FailAtMotor& fail) {
+/// force range, times the gear, and at most `most`. Position and velocity servos count with their
+/// force range. Errors: `fail` for activations, limits that are not symmetric, and none at all.
+double torque_limit(const mjModel& model, int motor, double most, const FailAtMotor& fail) {
   if (model.actuator_dyntype[motor] != mjDYN_NONE) {
     fail("expected a motor, found an activation (dyntype)");
   }
@@ -44,9 +51,9 @@ double torque_limit(const mjModel& model, int motor, double given, const FailAtM
   const bool has_force = model.actuator_forcelimited[motor] != 0;
   const bool has_control = is_motor && model.actuator_ctrllimited[motor] != 0;
   if (!has_force && !has_control) {
-    if (std::isfinite(given)) return given;
-    fail(is_motor ? "expected a ctrlrange or forcerange, its torque limit (N·m)"
-                  : "expected a motor, or a forcerange, its torque limit (N·m)");
+    if (std::isfinite(most)) return most;
+    fail(fmt::format("expected a {}, its torque limit (N·m), an effort limit in a URDF",
+                     is_motor ? "ctrlrange or forcerange" : "motor, or a forcerange"));
   }
   double limit = no_limit;
   if (has_control) {
@@ -58,7 +65,7 @@ double torque_limit(const mjModel& model, int motor, double given, const FailAtM
   }
   limit *= std::abs(model.actuator_gear[6 * motor]);
   if (!(limit > 0.0)) fail("expected a torque limit above 0 N·m");
-  return limit;
+  return std::min(limit, most);
 }
 
 /// Removes the law of a position or velocity servo: MuJoCo must not add it to touchdown's. Returns
@@ -176,7 +183,7 @@ struct Gains {
 /// The gains of a position or velocity servo: force = gain·control − kp·length − kv·velocity, with
 /// gear × angle as length.
 Gains own_gains(const mjModel& model, int motor) {
-  if (motor < 0 || model.actuator_biastype[motor] != mjBIAS_AFFINE) return {};
+  if (model.actuator_biastype[motor] != mjBIAS_AFFINE) return {};
   const double gear = model.actuator_gear[6 * motor];
   const mjtNum* const bias = &model.actuator_biasprm[mjNBIAS * motor];
   return {-bias[1] * gear * gear, -bias[2] * gear * gear};
@@ -209,18 +216,18 @@ class Held {
       : model_(*robot.mj), contract_(contract), name_(held_name(number)) {
     held_.name = contract.parts().held[number];
     held_.joint = contract.find(mjOBJ_JOINT, "joint", name_);
-    motor_ = mj_name2id(&model_, mjOBJ_ACTUATOR, name_.c_str());
+    motor_ = contract.find(mjOBJ_ACTUATOR, "motor", name_);
   }
 
-  HeldJoint held(const HeldServo& given, const Gains& robots) {
+  HeldJoint held(const HeldServo& given, const Gains& robots, const Efforts& efforts) {
     check_joint();
     held_.qpos_address = model_.jnt_qposadr[held_.joint];
     held_.dof_address = model_.jnt_dofadr[held_.joint];
     held_.reference = model_.qpos0[held_.qpos_address];
     set_gains(given, robots);
-    set_limit(given);
+    set_limit(given, limit_of(efforts, held_.name));
     set_actuator();
-    if (motor_ >= 0) (void)remove_law(model_, motor_);
+    (void)remove_law(model_, motor_);
     return held_;
   }
 
@@ -254,17 +261,12 @@ class Held {
     held_.kd = given.kd.value_or(own.kd > 0.0 ? own.kd : robots.kd * held_.kp / robots.kp);
   }
 
-  void set_limit(const HeldServo& given) {
+  void set_limit(const HeldServo& given, double most) {
     if (given.maximum_torque) {
       held_.effort = *given.maximum_torque;
       return;
     }
-    if (motor_ < 0) {
-      fail(
-          "expected a motor that holds it, an effort limit in the URDF, or 'held_servo: "
-          "{maximum_torque: …}' in the YAML file");
-    }
-    held_.effort = torque_limit(model_, motor_, no_limit, [&](const std::string& message) {
+    held_.effort = torque_limit(model_, motor_, most, [&](const std::string& message) {
       contract_.fail_at_actuator(
           motor_, fmt::format("motor of joint '{}': {}, or 'held_servo: {{maximum_torque: …}}' in "
                               "the YAML file",
@@ -289,7 +291,8 @@ class Held {
 
 }  // namespace
 
-void find_servos(RobotModel& robot, const RobotDescription& description, const Contract& contract) {
+void find_servos(RobotModel& robot, const RobotDescription& description, const Efforts& efforts,
+                 const Contract& contract) {
   mjModel& model = *robot.mj;
   robot.base_body = find_base(model, contract);
   std::array<int, servo_count> motor = {-1, -1, -1, -1, -1, -1};
@@ -311,13 +314,14 @@ void find_servos(RobotModel& robot, const RobotDescription& description, const C
     robot.qpos_address[i] = model.jnt_qposadr[joint];
     robot.dof_address[i] = model.jnt_dofadr[joint];
     const auto& given = description.actuator(static_cast<Servo>(i));
-    const double otherwise = given ? given->maximum_torque : no_limit;
+    const double most = std::min(given ? given->maximum_torque : no_limit,
+                                 limit_of(efforts, own_name(contract.parts(), i)));
     const auto fail = [&](const std::string& message) {
       contract.fail_at_motor(
           i, fmt::format("{}, or 'actuators: {{{}: {{maximum_torque: …}}}}' in the YAML file",
                          message, std::array{"hip", "knee", "wheel"}[i % 3]));
     };
-    collect(complaints, [&] { robot.effort[i] = torque_limit(model, motor[i], otherwise, fail); });
+    collect(complaints, [&] { robot.effort[i] = torque_limit(model, motor[i], most, fail); });
     robot.actuator[i] = {.friction = model.dof_frictionloss[robot.dof_address[i]],
                          .viscous = model.dof_damping[robot.dof_address[i]],
                          .armature = model.dof_armature[robot.dof_address[i]]};
@@ -339,13 +343,14 @@ void find_servos(RobotModel& robot, const RobotDescription& description, const C
   }
 }
 
-void find_held(RobotModel& robot, const RobotDescription& description, const Contract& contract) {
+void find_held(RobotModel& robot, const RobotDescription& description, const Efforts& efforts,
+               const Contract& contract) {
   robot.held.clear();
   if (contract.parts().held.empty()) return;
   const Gains robots = gains_for(robot);
   std::vector<HeldJoint> held;
   for (std::size_t i = 0; i < contract.parts().held.size(); ++i) {
-    held.push_back(Held(robot, contract, i).held(description.held_servo, robots));
+    held.push_back(Held(robot, contract, i).held(description.held_servo, robots, efforts));
     if (!is_rod(robot, held.back().joint)) continue;
     robot.ignored.push_back(
         fmt::format("{}: joint '{}': {}", description.mjcf.string(), held.back().name, rod_text));

@@ -34,8 +34,9 @@ std::filesystem::path file_of(const MjcfDocument& document, const XMLElement& as
                               const char* folder) {
   std::filesystem::path file(std::string(attribute(asset, "file")));
   if (compiler_attribute(document, "strippath") == "true") file = file.filename();
-  const std::filesystem::path beside = document.file().parent_path();
-  return (beside / compiler_attribute(document, folder) / file).lexically_normal();
+  std::string own = compiler_attribute(document, folder);
+  if (own.empty()) own = compiler_attribute(document, "assetdir");  // of MuJoCo 3
+  return (document.file().parent_path() / own / file).lexically_normal();
 }
 
 bool is_missing(const std::filesystem::path& file) {

@@ -262,14 +262,16 @@ void MjcfDocument::remove(XMLElement& element) {
   element.Parent()->DeleteChild(&element);
 }
 
+XMLElement& MjcfDocument::add(XMLElement& parent, const char* tag, const XMLElement& like) {
+  XMLElement* const added = parent.InsertNewChildElement(tag);
+  if (const auto place = place_.find(&like); place != place_.end()) place_[added] = place->second;
+  return *added;
+}
+
 void MjcfDocument::insert_before(XMLElement& next, const std::string& elements) {
   const auto added = parsed("<added>" + elements + "</added>", file_);
-  tinyxml2::XMLNode* const parent = next.Parent();
-  tinyxml2::XMLNode* before = next.PreviousSibling();
   for (auto* from : children(*added->RootElement())) {
-    tinyxml2::XMLNode* const clone = from->DeepClone(document_.get());
-    before = before == nullptr ? parent->InsertFirstChild(clone)
-                               : parent->InsertAfterChild(before, clone);
+    move_before(next, *from->DeepClone(document_.get())->ToElement());
   }
 }
 

@@ -44,6 +44,10 @@ class MjcfDocument {
   /// Removes an element with all below it.
   void remove(tinyxml2::XMLElement& element);
 
+  /// Adds an empty element to the end of another one. It has the place of `like`.
+  tinyxml2::XMLElement& add(tinyxml2::XMLElement& parent, const char* tag,
+                            const tinyxml2::XMLElement& like);
+
   /// Parses elements and inserts them before `next`.
   void insert_before(tinyxml2::XMLElement& next, const std::string& elements);
 

@@ -172,19 +172,8 @@ void write_damping(MjcfDocument& document) {
   }
 }
 
-/// Limits the motors of a joint to the torque that the joint lets them have.
-void limit_motors(MjcfDocument& document, std::string_view joint, double limit) {
-  for (XMLElement* const motor : all_actuators(document)) {
-    if (attribute(*motor, "joint") != joint) continue;
-    const double gear = std::abs(first_of(values_of(document, *motor, "gear"), 1.0));
-    const std::vector<double> own = values_of(document, *motor, "forcerange");
-    if (gear == 0.0 || (own.size() == 2 && own[1] * gear <= limit)) continue;
-    motor->SetAttribute("forcelimited", "true");
-    motor->SetAttribute("forcerange", fmt::format("{} {}", -limit / gear, limit / gear).c_str());
-  }
-}
-
-void write_limits(MjcfDocument& document, FileFindings& findings) {
+/// Finds the torque limits of joints.
+void find_limits(MjcfDocument& document, FileFindings& findings) {
   for (auto* world : children(document.root(), "worldbody")) {
     for_each_element(*world, [&](XMLElement& joint) {
       if (std::string_view(joint.Name()) != "joint") return;
@@ -204,7 +193,6 @@ void write_limits(MjcfDocument& document, FileFindings& findings) {
           continue;
         }
         findings.effort[std::string(attribute(joint, "name"))] = ends[1];
-        limit_motors(document, attribute(joint, "name"), ends[1]);
       }
     });
   }
@@ -227,7 +215,7 @@ void write_folders(MjcfDocument& document) {
 void translate_later_versions(MjcfDocument& document, FileFindings& findings) {
   write_folders(document);
   write_damping(document);
-  write_limits(document, findings);
+  find_limits(document, findings);
   Translation(document, findings).translate(document.root());
 }
 

@@ -1,7 +1,6 @@
 #include "models/mjcf/parts.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <initializer_list>
 
 #include <Eigen/Core>
@@ -44,15 +43,9 @@ std::string missing(const MjcfDocument& document, std::initializer_list<std::str
                      found_text(name, names_of(document, tags)));
 }
 
-/// The element that holds the actuators, if any.
-XMLElement* actuators_of(MjcfDocument& document) {
-  return document.root().FirstChildElement("actuator");
-}
-
 std::vector<XMLElement*> motors_of(MjcfDocument& document, std::string_view joint) {
   std::vector<XMLElement*> motors;
-  for (auto* section = actuators_of(document); section != nullptr;
-       section = section->NextSiblingElement("actuator")) {
+  for (auto* section : children(document.root(), "actuator")) {
     for (auto* motor : children(*section)) {
       if (attribute(*motor, "joint") == joint || attribute(*motor, "jointinparent") == joint) {
         motors.push_back(motor);
@@ -62,30 +55,12 @@ std::vector<XMLElement*> motors_of(MjcfDocument& document, std::string_view join
   return motors;
 }
 
-/// The torque limit of a servo that has no motor in the file.
-double limit_without_motor(const MjcfDocument& document, const XMLElement& element,
-                           const RobotDescription& description,
-                           const std::map<std::string, double>& effort, std::size_t servo) {
-  const std::string joint = own_name(description.parts, servo);
-  if (const auto found = effort.find(joint); found != effort.end()) return found->second;
-  const auto& actuator = description.actuator(static_cast<Servo>(servo));
-  if (actuator && std::isfinite(actuator->maximum_torque)) return actuator->maximum_torque;
-  document.fail(
-      element,
-      fmt::format("joint '{}': expected a motor that drives it, an effort limit in the URDF, or "
-                  "'actuators: {{{}: {{maximum_torque: …}}}}' in the YAML file",
-                  joint, std::array{"hip", "knee", "wheel"}[servo % 3]));
-}
-
-void add_motor(MjcfDocument& document, const std::string& joint, double limit) {
-  if (actuators_of(document) == nullptr) {
-    document.root().InsertEndChild(document.root().GetDocument()->NewElement("actuator"));
-  }
-  XMLElement* const motor = document.root().GetDocument()->NewElement("motor");
-  motor->SetAttribute("name", joint.c_str());
-  motor->SetAttribute("joint", joint.c_str());
-  motor->SetAttribute("ctrlrange", fmt::format("{} {}", -limit, limit).c_str());
-  actuators_of(document)->InsertEndChild(motor);
+/// Adds a motor to a joint that has none. Its torque limit is not in the file's motors.
+XMLElement& add_motor(MjcfDocument& document, const XMLElement& joint) {
+  XMLElement* const section = document.root().FirstChildElement("actuator");
+  return document.add(
+      section != nullptr ? *section : document.add(document.root(), "actuator", joint), "motor",
+      joint);
 }
 
 /// The motor of a joint; null if there is none.
@@ -98,9 +73,10 @@ XMLElement* only_motor_of(MjcfDocument& document, const std::string& joint) {
   return motors.empty() ? nullptr : motors.front();
 }
 
-void rename(XMLElement& joint, XMLElement* motor, const std::string& name) {
+/// Names a joint and its motor, which is added if it is null.
+void rename(MjcfDocument& document, XMLElement& joint, XMLElement* motor, const std::string& name) {
   joint.SetAttribute("name", name.c_str());
-  if (motor == nullptr) return;
+  if (motor == nullptr) motor = &add_motor(document, joint);
   motor->SetAttribute("name", name.c_str());
   motor->SetAttribute("joint", name.c_str());
   motor->DeleteAttribute("jointinparent");  // the same for hinges
@@ -119,12 +95,7 @@ void name_held(MjcfDocument& document, const std::vector<std::string>& held, Fil
   for (std::size_t i = 0; i < held.size(); ++i) {
     collect(findings.complaints, [&] {
       XMLElement& joint = joint_named(document, held[i], fmt::format("held.{}", i), keys);
-      XMLElement* const motor = only_motor_of(document, held[i]);
-      rename(joint, motor, held_name(i));
-      const auto limit = findings.effort.find(held[i]);
-      if (motor == nullptr && limit != findings.effort.end()) {
-        add_motor(document, held_name(i), limit->second);
-      }
+      rename(document, joint, only_motor_of(document, held[i]), held_name(i));
     });
   }
 }
@@ -142,34 +113,29 @@ void require_free_name(const MjcfDocument& document, const PartNames& parts, std
                                     name, parts.joint[servo], name));
 }
 
-void name_servos(MjcfDocument& document, const RobotDescription& description,
-                 FileFindings& findings, const RobotKeys& keys) {
+void name_servos(MjcfDocument& document, const PartNames& parts, FileFindings& findings,
+                 const RobotKeys& keys) {
   // Found first and named afterwards, so that names can be exchanged.
   std::array<XMLElement*, servo_count> joints = {};
   std::array<XMLElement*, servo_count> motors = {};
   for (std::size_t i = 0; i < servo_count; ++i) {
-    const std::string& own = description.parts.joint[i];
-    if (i % 3 == 0 && own.empty() && !description.parts.has_hips) continue;
+    const std::string& own = parts.joint[i];
+    if (i % 3 == 0 && own.empty() && !parts.has_hips) continue;
     collect(findings.complaints, [&] {
-      motors[i] = only_motor_of(document, own_name(description.parts, i));
+      motors[i] = only_motor_of(document, own_name(parts, i));
       if (own.empty()) {
         // The compiled model has the complaint about a joint that is missing.
         joints[i] = document.find("joint", servo_names[i]);
       } else {
         joints[i] = &joint_named(document, own, fmt::format("joints.{}", servo_names[i]), keys);
-        require_free_name(document, description.parts, i);
+        require_free_name(document, parts, i);
       }
     });
   }
   for (std::size_t i = 0; i < servo_count; ++i) {
-    if (joints[i] == nullptr) continue;
-    const std::string name(servo_names[i]);
-    rename(*joints[i], motors[i], name);
-    if (motors[i] != nullptr) continue;
-    collect(findings.complaints, [&] {
-      add_motor(document, name,
-                limit_without_motor(document, *joints[i], description, findings.effort, i));
-    });
+    if (joints[i] != nullptr) {
+      rename(document, *joints[i], motors[i], std::string(servo_names[i]));
+    }
   }
 }
 
@@ -204,8 +170,9 @@ XMLElement& largest_round_collider(const MjcfDocument& document, XMLElement& bod
   add_round_colliders(document, body, found);
   if (found.empty()) {
     document.fail(body,
-                  fmt::format("{}: {}: expected a sphere, cylinder or capsule as its collider", key,
-                              title_of(body)));
+                  fmt::format("{}: {}: expected a sphere, cylinder or capsule as its collider (for "
+                              "a wheel that is a mesh, 'tyres: {{radius: …}}' in the YAML file)",
+                              key, title_of(body)));
   }
   const auto is_smaller = [&](const XMLElement* a, const XMLElement* b) {
     return radius_of(document, *a) < radius_of(document, *b);
@@ -305,9 +272,7 @@ void name_imu(MjcfDocument& document, const std::string& given, const RobotKeys&
   if (XMLElement* const site = document.find("site", own)) {
     site->SetAttribute("name", "imu");
   } else if (XMLElement* const body = document.find("body", own)) {
-    XMLElement* const added = document.root().GetDocument()->NewElement("site");
-    added->SetAttribute("name", "imu");
-    body->InsertEndChild(added);
+    document.add(*body, "site", *body).SetAttribute("name", "imu");
   } else if (!given.empty()) {
     keys.fail("imu", missing(document, {"site", "body"}, own));
   }
@@ -357,12 +322,11 @@ void RobotKeys::fail(std::string_view key, const std::string& message) const {
                                shown.empty() ? key : shown, message));
 }
 
-void name_parts(MjcfDocument& document, const RobotDescription& description, FileFindings& findings,
+void name_parts(MjcfDocument& document, const PartNames& parts, FileFindings& findings,
                 const RobotKeys& keys) {
-  const PartNames& parts = description.parts;
   leave_untouched(document, parts.no_collision, findings, keys);
   name_held(document, parts.held, findings, keys);
-  name_servos(document, description, findings, keys);
+  name_servos(document, parts, findings, keys);
   name_tyres(document, parts, findings, keys);
   collect(findings.complaints, [&] { name_imu(document, parts.imu, keys); });
 }

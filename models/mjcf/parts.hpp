@@ -24,11 +24,10 @@ class RobotKeys {
 
 /// Gives the parts of an MJCF the names of the contract. The robot's YAML file names them; parts
 /// that it does not name have these names already. Held joints and their motors get the names of
-/// `held_name`. A joint without a motor gets one, with the effort of the findings or the
-/// description's `maximum_torque`. Tyres of a given radius become spheres; what is named under
-/// `no_collision` touches nothing. There is a complaint for each name that the MJCF does not have,
-/// and for parts that do not fit.
-void name_parts(MjcfDocument& document, const RobotDescription& description, FileFindings& findings,
+/// `held_name`. A joint without a motor gets one, without a limit. Tyres of a given radius become
+/// spheres; what is named under `no_collision` touches nothing. There is a complaint for each name
+/// that the MJCF does not have, and for parts that do not fit.
+void name_parts(MjcfDocument& document, const PartNames& parts, FileFindings& findings,
                 const RobotKeys& keys);
 
 /// The name of a held joint and its motor in the renamed MJCF, by its place in `PartNames::held`.

@@ -142,7 +142,7 @@ void let_float(MjcfDocument& document, FileFindings& findings) {
     }
   }
   if (bodies.size() == 1) {
-    bodies[0]->InsertFirstChild(document.root().GetDocument()->NewElement("freejoint"));
+    document.add(*bodies[0], "freejoint", *bodies[0]);
     note(findings.ignored, document, *bodies[0],
          titles[0] + ": fixed to the world: it floats here");
   } else if (!bodies.empty()) {

@@ -41,9 +41,9 @@ struct FileFindings {
 void keep_robot_only(MjcfDocument& document, FileFindings& findings);
 
 /// Writes what later versions of MuJoCo added in the words of this one: the torque limits of
-/// joints, the damping of position servos, frames without a pose. What touchdown overrides or only
-/// draws is removed. There is a complaint for each other element and attribute that this version
-/// lacks.
+/// joints (in the findings), the damping of position servos, frames without a pose. What touchdown
+/// overrides or only draws is removed. There is a complaint for each other element and attribute
+/// that this version lacks.
 void translate_later_versions(MjcfDocument& document, FileFindings& findings);
 
 /// Removes meshes and textures without their files, and the geoms that need them. Files are

@@ -150,7 +150,7 @@ void let_float(MjcfDocument& mjcf, const std::string& base) {
   }
   if (body->Parent() != world) world->InsertEndChild(body);
   if (joint != nullptr || body->FirstChildElement("freejoint") != nullptr) return;
-  body->InsertFirstChild(mjcf.root().GetDocument()->NewElement("freejoint"));
+  mjcf.add(*body, "freejoint", *body);
 }
 
 }  // namespace

@@ -54,14 +54,13 @@ tyres: {left: lt, right: rim}
 imu: chip
 )";
 
-models::RobotDescription named_robot() {
-  models::RobotDescription robot;
-  robot.parts.joint = {"lh", "lk", "lw", "rh", "rk", "rw"};
-  robot.parts.held = {"arm"};
-  robot.parts.tyre = {"lt", "rim"};
-  robot.parts.imu = "chip";
-  robot.is_named = true;
-  return robot;
+models::PartNames own_parts() {
+  models::PartNames parts;
+  parts.joint = {"lh", "lk", "lw", "rh", "rk", "rw"};
+  parts.held = {"arm"};
+  parts.tyre = {"lt", "rim"};
+  parts.imu = "chip";
+  return parts;
 }
 
 }  // namespace
@@ -70,14 +69,14 @@ models::RobotDescription named_robot() {
 TOUCHDOWN_FUZZ(mjcf) {
   static const MemoryFile keys(own_part_names);
   const MemoryFile file(input);
-  for (const models::RobotDescription& robot : {models::RobotDescription(), named_robot()}) {
+  for (const models::PartNames& parts : {models::PartNames(), own_parts()}) {
     try {
       models::MjcfDocument document = models::MjcfDocument::load(file.path());
       models::FileFindings findings;
       models::keep_robot_only(document, findings);
       models::translate_later_versions(document, findings);
       models::drop_missing_assets(document, findings);
-      models::name_parts(document, robot, findings, models::RobotKeys(keys.path()));
+      models::name_parts(document, parts, findings, models::RobotKeys(keys.path()));
       models::swap_sides(document);
       (void)document.text("<option/>\n").place_of_name("left_hip");
     } catch (const Error& error) {

@@ -113,7 +113,7 @@ TEST_F(RefusedRobot, HasNamesKindsAxesOrShapesThatAreNotOurs) {
   expect(
       {{{"site name=\"imu\"", "site name=\"sensor\""}, "site named 'imu'"},
        {{"name=\"left_hip\" joint=\"left_hip\"", "name=\"left_hip\" joint=\"right_hip\""},
-        "joint 'left_hip': expected a motor that drives it"},
+        "motor 'right_hip': expected one motor for joint 'right_hip'"},
        {{"<joint name=\"left_knee\"", "<joint type=\"slide\" name=\"left_knee\""},
         "'left_knee': expected a hinge"},
        {{"joint=\"left_hip\" ctrlrange=\"-16 16\"", "joint=\"left_hip\""}, "ctrlrange"},
@@ -392,7 +392,7 @@ TEST_F(RefusedRobot, HasHeldJointsThatNoServoCanHold) {
   const std::string keys = "held: [left_roll, right_roll]\n";
   const std::string motor = "<motor joint=\"{0}_roll\" ctrlrange=\"-9 9\"/>\n";
   for (const auto& [mjcf, words] : std::vector<RefusedText>{
-           {rolling_upkie("", ""), "joint 'left_roll': expected a motor that holds it"},
+           {rolling_upkie("", ""), "motor of joint 'left_roll': expected a ctrlrange"},
            {rolling_upkie("", "<position joint=\"{0}_roll\" kp=\"9\"/>\n"), "forcerange"},
            {rolling_upkie("", "<motor joint=\"{0}_roll\" ctrlrange=\"0 9\"/>\n"), "symmetric"},
            {rolling_upkie("", motor + motor), "several"},

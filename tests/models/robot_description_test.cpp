@@ -73,16 +73,20 @@ TEST_F(RobotFile, ListsEveryFileThatItOpens) {
   folder_.write("upkie.xml", text);
   folder_.write("outer.xml", "<mujoco><include file=\"parts/inner.xml\"/></mujoco>");
   folder_.write("parts/inner.xml",
-                "<mujoco><compiler meshdir=\"shapes\"/><asset>"
+                "<mujoco><compiler meshdir=\"shapes\" assetdir=\"art\"/><asset>"
                 "<mesh name=\"torso\" file=\"torso.stl\"/><mesh file=\"gone.obj\"/>"
                 "<texture type=\"2d\" file=\"wood.png\"/></asset></mujoco>");
   folder_.write("shapes/torso.stl", "t");
-  folder_.write("wood.png", "w");
+  folder_.write("art/wood.png", "w");
+  folder_.write("hats/hat.stl", "h");
   folder_.write("shapes/unused.stl", "u");
-  folder_.write("made/robot.urdf",
-                "<robot name=\"r\"><link name=\"base\"><collision><geometry>"
-                "<mesh filename=\"package://shapes/torso.stl\"/></geometry></collision></link>"
-                "</robot>");
+  folder_.write(
+      "made/robot.urdf",
+      "<robot name=\"r\"><mujoco><compiler meshdir=\"../hats\"/></mujoco><link name=\"base\">"
+      "<collision><geometry><mesh filename=\"hat.stl\"/></geometry></collision>"
+      "<collision><geometry>"
+      "<mesh filename=\"package://shapes/torso.stl\"/></geometry></collision></link>"
+      "</robot>");
   const auto names = [&](const std::filesystem::path& file) {
     std::vector<std::string> all;
     for (const auto& one : robot_files(file)) {
@@ -92,11 +96,12 @@ TEST_F(RobotFile, ListsEveryFileThatItOpens) {
   };
   const std::filesystem::path file = with("mjcf: upkie.xml\n");
   EXPECT_THAT(names(file), ElementsAre("robot.yaml", "upkie.xml", "outer.xml", "parts/inner.xml",
-                                       "shapes/torso.stl", "wood.png"));
+                                       "shapes/torso.stl", "art/wood.png"));
   EXPECT_THAT(names(folder_ / "made/robot.urdf"),
-              ElementsAre("made/robot.urdf", "shapes/torso.stl"));
+              ElementsAre("made/robot.urdf", "hats/hat.stl", "shapes/torso.stl"));
   const std::string before = robot_digest(file);
-  for (const std::string name : {"outer.xml", "parts/inner.xml", "shapes/torso.stl", "wood.png"}) {
+  for (const std::string name :
+       {"outer.xml", "parts/inner.xml", "shapes/torso.stl", "art/wood.png"}) {
     const std::string content = read_file(folder_ / name);
     folder_.write(name, content + "\n");
     EXPECT_NE(robot_digest(file), before) << name;

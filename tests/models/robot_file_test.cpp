@@ -90,9 +90,20 @@ TEST_F(FoundFile, LimitsTorquesByItsJointsAsMuJoCo3Does) {
   EXPECT_EQ(effort({{hip_joint, hip_joint + range}, {hip_motor, hip_motor + " gear=\"-3\""}}), 9.0);
   EXPECT_EQ(effort({{"<default>", "<default><joint" + range + "/>"}}), 9.0);
   EXPECT_EQ(effort({{hip_joint, hip_joint + range}, {hip_motor + "/>", ""}}), 9.0);
+  EXPECT_EQ(written(rolling_upkie("actuatorfrcrange=\"-5 5\""), "held: [left_roll, right_roll]\n")
+                .held[0]
+                .effort,
+            5.0);
   EXPECT_EQ(effort({{hip_joint, hip_joint + range},
                     {hip_motor, "<position name=\"left_hip\" joint=\"left_hip\" kp=\"8\""}}),
             9.0);
+}
+
+TEST_F(FoundFile, MayDriveItsJointsInTheParentsFrame) {
+  const RobotModel robot = this->robot(
+      {{hip_motor, "<motor name=\"actuator1\" jointinparent=\"left_hip\" ctrlrange=\"-7 7\""}});
+  EXPECT_EQ(robot.effort[left_hip], 7.0);
+  EXPECT_EQ(robot.mj->nu, 6);
 }
 
 TEST_F(FoundFile, HasTorqueLimitsFromTheYamlFileWhereItHasNone) {

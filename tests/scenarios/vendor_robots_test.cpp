@@ -1,4 +1,5 @@
 #include <array>
+#include <numbers>
 #include <regex>
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::Contains;
+using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -163,13 +165,12 @@ TEST(AUrdfOfAVendor, IsComplainedAboutAtItsLines) {
            {"<limit effort=\"20\" lower=\"-1.3\" ",
             "<mimic joint=\"left_knee_joint\"/>" + limit + " ",
             "joint 'left_hip_joint': expected no <mimic>"},
-           {"<geometry><box size=\"0.2 0.16 0.1\"/>",
-            "<geometry><mesh filename=\"package://vendor_description/meshes/trunk.stl\"/>",
-            "mesh 'package://vendor_description/meshes/trunk.stl': no such file; it is a collider"},
            {"<material name=\"black\"><color", "<xacro:include filename=\"a.xacro\"/>\n$&",
             "expected a URDF, found xacro"},
            {"<limit effort=\"20\" lower=\"-1.3\"", "<limit lower=\"-1.3\"",
-            "joint 'left_hip_joint': expected a motor that drives it, an effort limit"},
+            "_hip_joint': expected a ctrlrange or forcerange, its torque limit (N·m), "
+            "an "
+            "effort limit in a URDF, or 'actuators: {hip: {maximum_torque"},
            {"<geometry><cylinder length=\"0.03\" radius=\"0.07\"/>",
             "<origin rpy=\"1.5707963 0 0\"/>$&",
             "tyre of joint 'left_wheel_joint': its axis in the base is (0 0 "},
@@ -186,8 +187,9 @@ TEST(AUrdfOfAVendor, IsComplainedAboutAtItsLines) {
     folder.write("vendor.urdf", std::regex_replace(vendor_urdf(), std::regex(what), by));
     const RobotCheck check = check_robot(folder.write("vendor.yaml", urdf_keys));
     EXPECT_THAT(check.complaints,
-                ElementsAre(AllOf(MatchesRegex("[^:]*vendor.urdf:[0-9]+:1: .*"), HasSubstr(words),
-                                  Not(HasSubstr("vendor.urdf:1:1")))))
+                AllOf(Each(AllOf(MatchesRegex("[^:]*vendor.urdf:[0-9]+:1: .*"), HasSubstr(words),
+                                 Not(HasSubstr("vendor.urdf:1:1")))),
+                      Not(IsEmpty())))
         << by;
   }
 }
@@ -220,7 +222,7 @@ TEST(AUrdfOfAVendor, MayHaveColliderMeshesInItsPackage) {
     const RobotCheck check =
         check_robot(folder.write("vendor_description/urdf/vendor.yaml", urdf_keys));
     EXPECT_THAT(check.complaints, IsEmpty()) << address;
-    EXPECT_THAT(check.differences, Contains(HasSubstr("convex hull"))) << address;
+    EXPECT_THAT(check.differences, Not(Contains(HasSubstr("mesh")))) << address;
   }
 }
 
@@ -338,12 +340,13 @@ TEST(AnMjcfOfAVendor, CrouchesAsItsKneesCan) {
   const RobotCheck mirrored = check(vendor_mjcf(), "");
   EXPECT_EQ(mirrored.hip, -0.455);
   EXPECT_EQ(mirrored.knee, -0.791);
-  // With narrow ranges neither: the pose of the file is left.
+  // With narrow ranges neither: the nearest bend with room to move, and the axle below the hip.
   const double thigh = std::atan2(-0.15, 0.26);
   const RobotCheck own = check(
       std::regex_replace(vendor_mjcf(), std::regex("range=\"-50 78\""), "range=\"-10 10\""), "");
-  EXPECT_NEAR(own.hip, thigh, 1e-4);
-  EXPECT_NEAR(own.knee, 2.0 * thigh, 1e-4) << "backward positive";
+  constexpr double least = 10.0 * std::numbers::pi / 180.0 - 0.05;
+  EXPECT_NEAR(own.knee, 2.0 * thigh + least, 1e-4) << "backward positive";
+  EXPECT_NEAR(own.hip, 0.5 * own.knee, 0.01);
   const RobotCheck given = check(vendor_mjcf(), "stance: {hip: 0.1, knee: 0.1}\n");
   EXPECT_NEAR(given.hip, thigh + 0.1, 1e-4) << "from the zeros of the file";
 }
