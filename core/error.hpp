@@ -12,7 +12,7 @@ class Error : public std::runtime_error {
 };
 
 /// The request itself was wrong: a configuration, a model, a log or a flag. The command line exits
-/// with code 2. The message is one line, `file:line:column: what was expected`, or several of them.
+/// with code 2. The message is one line, `file:line:column: what was expected`.
 class InputError : public Error {
  public:
   using Error::Error;

@@ -181,7 +181,7 @@ void print_warnings(const std::vector<std::string>& warnings) {
 }
 
 int complain(const std::string& message, ExitCode code) {
-  print_message(fmt::format("touchdown: {}\n", terminal_text(message, "\n")));
+  print_message(fmt::format("touchdown: {}\n", terminal_text(message)));
   return code;
 }
 

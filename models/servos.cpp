@@ -163,7 +163,7 @@ void refuse_other_joints(const RobotModel& robot, const Contract& contract) {
   if (first < 0) return;
   std::string message;
   if (!rods.empty()) {
-    message = fmt::format("joint {}: {}, expected none", fmt::join(rods, ", "), rod_text);
+    message = fmt::format("joint {}: expected none, found {}", fmt::join(rods, ", "), rod_text);
   }
   if (!others.empty()) {
     message += fmt::format(
