@@ -217,11 +217,12 @@ TEST_F(CheckOfARobot, PrintsWhatItReadAsTextOrJsonAndExitsWithZero) {
   EXPECT_EQ(json["stands"].size(), 2U);
 }
 
-TEST_F(CheckOfARobot, PrintsItsComplaintAndExitsWithOne) {
-  folder_.write("robot.xml", edited_upkie({added("<option density=\"1\"/>")}));
+TEST_F(CheckOfARobot, PrintsItsComplaintsAndExitsWithOne) {
+  folder_.write("robot.xml", edited_upkie({added("<tendon/>\n<extension/>")}));
   const Ended ended = folder_.run("check robot.xml");
   EXPECT_EQ(ended.exit_code, 1);
-  EXPECT_THAT(ended.output, AllOf(HasSubstr("complaint: "), HasSubstr("robot.xml:149:1: option")));
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("complaint: robot.xml:149:1: tendon"),
+                                  HasSubstr("\ncomplaint: robot.xml:150:1: extension")));
 }
 
 }  // namespace
