@@ -20,14 +20,21 @@ std::string link_of(const XMLElement& joint, const char* end) {
 }
 
 /// The link that is no other link's child.
-std::string root_link(const XMLElement& robot) {
+std::string root_link(const MjcfDocument& urdf) {
+  const XMLElement& robot = urdf.root();
   std::set<std::string> held;
   for (auto* joint : children(robot, "joint")) held.insert(link_of(*joint, "child"));
+  std::string root;
   for (auto* link : children(robot, "link")) {
-    std::string name(attribute(*link, "name"));
-    if (!held.contains(name)) return name;
+    const std::string name(attribute(*link, "name"));
+    if (held.contains(name)) continue;
+    if (!root.empty() && link->FirstChildElement("inertial") != nullptr) {
+      urdf.fail(*link, fmt::format("{}: expected a joint with this child: '{}' is the root",
+                                   title_of(*link), root));
+    }
+    if (root.empty()) root = name;
   }
-  return {};
+  return root;
 }
 
 std::vector<std::string> links_of(const XMLElement& robot) {
@@ -114,7 +121,7 @@ void reduce_mujoco_section(MjcfDocument& urdf, FileFindings& findings) {
 /// without mass above it, such as `world` and `base_footprint`.
 std::string floating_link(const MjcfDocument& urdf) {
   const XMLElement& robot = urdf.root();
-  std::string link = root_link(robot);
+  std::string link = root_link(urdf);
   const auto has_mass = [&](const std::string& name) {
     const XMLElement* const element = urdf.find("link", name);
     return element != nullptr && element->FirstChildElement("inertial") != nullptr;
@@ -162,7 +169,8 @@ MjcfDocument converted_urdf(const std::filesystem::path& file, const std::string
   if (robot.FirstChildElement() == nullptr) urdf.fail(robot, "robot: expected links and joints");
   prepare(urdf, findings);
   reduce_mujoco_section(urdf, findings);
-  const std::string floating = base.empty() ? floating_link(urdf) : base;
+  const std::string usual = floating_link(urdf);
+  const std::string& floating = base.empty() ? usual : base;
   if (urdf.find("link", floating) == nullptr) {
     urdf.fail(robot, fmt::format("base: expected a link named '{}'{}", floating,
                                  did_you_mean(floating, links_of(robot))));

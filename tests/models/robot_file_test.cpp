@@ -285,6 +285,22 @@ TEST_F(FoundFile, MayBeAUrdfWithASectionOfMuJoCo) {
               4.0, 1e-6);
 }
 
+TEST_F(FoundFile, IsNoUrdfOfTwoRobots) {
+  const std::string mass =
+      "<inertial><mass value=\"3\"/><inertia ixx=\".1\" iyy=\".1\" izz=\".1\" "
+      "ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>";
+  const auto complaint = [&](const std::string& link, const std::string& keys) {
+    std::string text = biped();
+    text.insert(text.find("</robot>"), link);
+    return complaint_of([&] { (void)written(text, keys, "robot.urdf"); });
+  };
+  for (const std::string keys : {"mass: 1\n", "base: base\n"}) {
+    EXPECT_THAT(complaint("<link name=\"rock\">" + mass + "</link>", keys),
+                HasSubstr("link 'rock': expected a joint with this child: 'base' is the root"));
+    EXPECT_EQ(complaint("<link name=\"map\"/>", keys), "no complaint");
+  }
+}
+
 TEST_F(FoundFile, MayBeAUrdfWithoutItsMeshes) {
   const auto with_mesh = [&](const std::string& file) {
     return written(biped("", "<collision><geometry><mesh filename=\"" + file +
