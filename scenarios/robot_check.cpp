@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/resources.hpp"
 #include "estimator/force/leg_geometry.hpp"
+#include "models/mjcf/robot_file.hpp"
 #include "models/robot_description.hpp"
 #include "models/robot_model.hpp"
 #include "scenarios/engine.hpp"
@@ -248,9 +248,10 @@ RobotCheck check_robot(const std::filesystem::path& file,
         check_loads(last, gravity * check.mass, check.complaints);
       }
     }
+  } catch (const models::RobotRefusal& refused) {
+    check.complaints = refused.complaints;
   } catch (const InputError& error) {
-    std::istringstream lines(error.what());
-    for (std::string line; std::getline(lines, line);) check.complaints.push_back(line);
+    check.complaints.emplace_back(error.what());
   }
   return check;
 }

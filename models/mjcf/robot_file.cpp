@@ -204,8 +204,15 @@ void limit_by_ranges(MjcfDocument& document) {
 
 }  // namespace
 
+RobotRefusal::RobotRefusal(const std::vector<std::string>& all)
+    : InputError(all.size() == 1 ? all[0]
+                                 : fmt::format("{} (the first of {} reasons; `touchdown check` of "
+                                               "this robot prints all)",
+                                               all[0], all.size())),
+      complaints(all) {}
+
 void require_none(const std::vector<std::string>& complaints) {
-  if (!complaints.empty()) throw InputError(fmt::format("{}", fmt::join(complaints, "\n")));
+  if (!complaints.empty()) throw RobotRefusal(complaints);
 }
 
 void keep_robot_only(MjcfDocument& document, FileFindings& findings) {

@@ -22,7 +22,15 @@ void collect(std::vector<std::string>& complaints, const Step& step) {
   }
 }
 
-/// Throws an `InputError` with all complaints, one per line, if there are any.
+/// A robot that cannot be simulated, with all reasons. The message is the first one, and how many
+/// there are.
+class RobotRefusal : public InputError {
+ public:
+  explicit RobotRefusal(const std::vector<std::string>& complaints);
+  std::vector<std::string> complaints;
+};
+
+/// Throws a `RobotRefusal` if there are complaints.
 void require_none(const std::vector<std::string>& complaints);
 
 /// What is found in a robot's file.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "models/mjcf/robot_file.hpp"
 #include "models/robot_model.hpp"
 #include "tests/complaint.hpp"
 #include "tests/models/upkie.hpp"
@@ -15,6 +16,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 using ::testing::Not;
+using ::testing::UnorderedElementsAre;
 
 /// A place in Upkie's MJCF with what is written there, and words of the complaint.
 using RefusedEdit = std::pair<Edit, std::string>;
@@ -182,20 +184,30 @@ TEST_F(RefusedRobot, HasAllItsComplaintsAtOnce) {
   const auto complaints = [&](const std::vector<Edit>& edits, const std::string& keys) {
     folder_.write("robot.xml", edited_upkie(edits));
     const auto file = folder_.write("robot.yaml", "mjcf: robot.xml\n" + keys);
-    return complaint_of([&] { (void)compile_robot_model(file, Terrain{}); });
+    try {
+      (void)compile_robot_model(file, Terrain{});
+    } catch (const RobotRefusal& refusal) {
+      const std::size_t count = refusal.complaints.size();
+      EXPECT_EQ(
+          refusal.what(),
+          fmt::format("{} (the first of {} reasons; `touchdown check` of this robot prints all)",
+                      refusal.complaints[0], count));
+      return refusal.complaints;
+    }
+    return std::vector<std::string>{};
   };
   const std::string knee = "<joint name=\"left_knee\"";
-  EXPECT_THAT(complaints({{"<body name=\"torso\"", "$& gravcomp=\"1\""},
-                          {knee, knee + " actuatorfrcrange=\"0 5\""},
-                          added("<tendon><fixed name=\"rope\"/></tendon>"),
-                          added("<equality><weld body1=\"torso\"/><connect "
-                                "name=\"loop\"/></equality>")},
-                         "imu: gyro\nheld: [arm]\nno_collision: [guard]\n"),
-              AllOf(HasSubstr("gravcomp"), HasSubstr("symmetric"), HasSubstr("'rope'"),
-                    HasSubstr("weld, connect 'loop'"), HasSubstr("'gyro'"), HasSubstr("'arm'"),
-                    HasSubstr("'guard'"), MatchesRegex("([^\n]*: [^\n]+\n){6}[^\n]+")));
+  EXPECT_THAT(
+      complaints({{"<body name=\"torso\"", "$& gravcomp=\"1\""},
+                  {knee, knee + " actuatorfrcrange=\"0 5\""},
+                  added("<tendon><fixed name=\"rope\"/></tendon>"),
+                  added("<equality><weld body1=\"torso\"/><connect name=\"loop\"/></equality>")},
+                 "imu: gyro\nheld: [arm]\nno_collision: [guard]\n"),
+      UnorderedElementsAre(HasSubstr("gravcomp"), HasSubstr("symmetric"), HasSubstr("'rope'"),
+                           HasSubstr("weld, connect 'loop'"), HasSubstr("'gyro'"),
+                           HasSubstr("'arm'"), HasSubstr("'guard'")));
   EXPECT_THAT(complaints({}, "joints: {left_hip: a, right_knee: b}\ntyres: {left: c}\n"),
-              AllOf(HasSubstr("'a'"), HasSubstr("'b'"), HasSubstr("'c'")));
+              UnorderedElementsAre(HasSubstr("'a'"), HasSubstr("'b'"), HasSubstr("'c'")));
 }
 
 /// MuJoCo 2.2 knows these already.
