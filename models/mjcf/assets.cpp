@@ -3,6 +3,7 @@
 #include <cctype>
 #include <charconv>
 #include <cstdint>
+#include <map>
 #include <sstream>
 #include <system_error>
 
@@ -18,24 +19,26 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// A compiler attribute, of an MJCF or of MuJoCo's section of a URDF; the last one counts.
-std::string compiler_attribute(const MjcfDocument& document, const char* name) {
-  std::string value;
+/// The compiler attributes of an MJCF, or of MuJoCo's section of a URDF; the last ones count.
+using Compiler = std::map<std::string, std::string>;
+
+Compiler compiler_of(const MjcfDocument& document) {
+  Compiler compiler;
   document.visit([&](const XMLElement& e) {
-    if (std::string_view(e.Name()) == "compiler" && e.Attribute(name) != nullptr) {
-      value = attribute(e, name);
+    if (std::string_view(e.Name()) != "compiler") return;
+    for (const auto* a = e.FirstAttribute(); a != nullptr; a = a->Next()) {
+      compiler[a->Name()] = a->Value();
     }
   });
-  return value;
+  return compiler;
 }
 
 /// The file of an asset, as MuJoCo searches it.
-std::filesystem::path file_of(const MjcfDocument& document, const XMLElement& asset,
-                              const char* folder) {
+std::filesystem::path file_of(const MjcfDocument& document, Compiler& compiler,
+                              const XMLElement& asset, const char* folder) {
   std::filesystem::path file(std::string(attribute(asset, "file")));
-  if (compiler_attribute(document, "strippath") == "true") file = file.filename();
-  std::string own = compiler_attribute(document, folder);
-  if (own.empty()) own = compiler_attribute(document, "assetdir");  // of MuJoCo 3
+  if (compiler["strippath"] == "true") file = file.filename();
+  const std::string& own = compiler[folder].empty() ? compiler["assetdir"] : compiler[folder];
   return (document.file().parent_path() / own / file).lexically_normal();
 }
 
@@ -51,18 +54,18 @@ std::string name_of(const XMLElement& asset) {
                       : name;
 }
 
-std::vector<XMLElement*> elements_with(MjcfDocument& document, const char* tag, const char* name,
-                                       const std::string& value) {
-  std::vector<XMLElement*> found;
+/// Elements by the asset that they use.
+using Users = std::multimap<std::string, XMLElement*>;
+
+Users users_of(MjcfDocument& document, const char* tag, const char* name) {
+  Users users;
   for_each_element(document.root(), [&](XMLElement& e) {
     const XMLElement* const parent = e.Parent()->ToElement();
     const bool is_default = parent != nullptr && std::string_view(parent->Name()) == "default";
-    if (std::string_view(e.Name()) == tag && !is_default &&
-        attribute_or_default(document, e, name) == value) {
-      found.push_back(&e);
-    }
+    if (std::string_view(e.Name()) != tag || is_default) return;
+    users.emplace(attribute_or_default(document, e, name), &e);
   });
-  return found;
+  return users;
 }
 
 /// Whether a body's mass and inertia do not depend on one of its geoms.
@@ -72,13 +75,15 @@ bool has_own_mass(const MjcfDocument& document, const XMLElement& geom) {
   return numbers(attribute_or_default(document, geom, "mass")) == std::vector<double>{0.0};
 }
 
-void drop_mesh(MjcfDocument& document, XMLElement& mesh, const std::string& file,
+void drop_mesh(MjcfDocument& document, XMLElement& mesh, const std::string& file, Users& users,
                FileFindings& findings) {
   const std::string name = name_of(mesh);
   const std::string about =
       fmt::format("{}: mesh '{}': {}: no such file", document.place_of(mesh), name, file);
   std::string untouched;
-  for (XMLElement* const geom : elements_with(document, "geom", "mesh", name)) {
+  const auto [begin, end] = users.equal_range(name);
+  for (auto user = begin; user != end; ++user) {
+    XMLElement* const geom = user->second;
     const std::string body = title_of(*geom->Parent()->ToElement());
     if (!has_own_mass(document, *geom)) {
       findings.complaints.push_back(
@@ -87,15 +92,14 @@ void drop_mesh(MjcfDocument& document, XMLElement& mesh, const std::string& file
     if (!is_visual(document, *geom)) untouched = ", and " + body + " does not touch with it";
     document.remove(*geom);
   }
+  users.erase(begin, end);
   findings.ignored.push_back(about + ": not drawn" + untouched);
 }
 
-std::string drop_texture(MjcfDocument& document, const XMLElement& texture,
-                         const std::string& file) {
+std::string drop_texture(const XMLElement& texture, const std::string& file, const Users& users) {
   const std::string name = name_of(texture);
-  for (XMLElement* const material : elements_with(document, "material", "texture", name)) {
-    material->DeleteAttribute("texture");
-  }
+  const auto [begin, end] = users.equal_range(name);
+  for (auto user = begin; user != end; ++user) user->second->DeleteAttribute("texture");
   return fmt::format("texture '{}': {}: no such file: not drawn", name, file);
 }
 
@@ -168,7 +172,7 @@ std::filesystem::path urdf_asset(std::string_view address, const MjcfDocument& u
     candidates.push_back(folder /
                          (address.starts_with(plain) ? address.substr(plain.size()) : address));
   }
-  for (const auto& beside : {folder / compiler_attribute(urdf, "meshdir"), folder}) {
+  for (const auto& beside : {folder / compiler_of(urdf)["meshdir"], folder}) {
     candidates.push_back(beside / std::filesystem::path(address).filename());
   }
   const auto file = std::find_if_not(candidates.begin(), candidates.end(), is_missing);
@@ -178,13 +182,14 @@ std::filesystem::path urdf_asset(std::string_view address, const MjcfDocument& u
 std::vector<std::filesystem::path> opened_files(const std::filesystem::path& file) {
   const MjcfDocument document = MjcfDocument::load(file);
   std::vector<std::filesystem::path> files = document.files();
+  Compiler compiler = compiler_of(document);
   document.visit([&](const XMLElement& element) {
     std::vector<std::filesystem::path> candidates;
     if (element.Attribute("filename") != nullptr) {
       candidates = {urdf_asset(attribute(element, "filename"), document)};
     } else if (element.Attribute("file") != nullptr) {
-      candidates = {file_of(document, element, "meshdir"),
-                    file_of(document, element, "texturedir")};
+      candidates = {file_of(document, compiler, element, "meshdir"),
+                    file_of(document, compiler, element, "texturedir")};
     }
     for (const std::filesystem::path& candidate : candidates) {
       const bool is_listed = std::find(files.begin(), files.end(), candidate) != files.end();
@@ -195,22 +200,25 @@ std::vector<std::filesystem::path> opened_files(const std::filesystem::path& fil
 }
 
 void drop_missing_assets(MjcfDocument& document, FileFindings& findings) {
+  Compiler compiler = compiler_of(document);
+  Users geoms = users_of(document, "geom", "mesh");
+  const Users materials = users_of(document, "material", "texture");
   for (auto* section : children(document.root(), "asset")) {
     for (XMLElement* const asset : children(*section)) {
       const std::string_view tag = asset->Name();
       const bool is_mesh = tag == "mesh";
       if ((!is_mesh && tag != "texture") || asset->Attribute("file") == nullptr) continue;
       const std::filesystem::path file =
-          file_of(document, *asset, is_mesh ? "meshdir" : "texturedir");
+          file_of(document, compiler, *asset, is_mesh ? "meshdir" : "texturedir");
       const std::string place = document.place_of(*asset) + ": ";
       if (!is_missing(file)) {
         const std::string fault = is_mesh ? fault_of_mesh(file) : "";
         if (fault.empty()) continue;
         findings.complaints.push_back(place + fmt::format("mesh '{}': {}", name_of(*asset), fault));
       } else if (is_mesh) {
-        drop_mesh(document, *asset, file.string(), findings);
+        drop_mesh(document, *asset, file.string(), geoms, findings);
       } else {
-        findings.ignored.push_back(place + drop_texture(document, *asset, file.string()));
+        findings.ignored.push_back(place + drop_texture(*asset, file.string(), materials));
       }
       document.remove(*asset);
     }
