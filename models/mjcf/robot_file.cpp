@@ -164,9 +164,8 @@ void reduce_world(MjcfDocument& document, XMLElement& world, bool has_robot,
   int geoms = 0;
   for_each_element(world, [&](XMLElement& e) {
     const std::string_view tag = e.Name();
-    if (tag == "geom" && ++geoms == most_geoms + 1) {
-      note(findings.complaints, document, e,
-           fmt::format("geom: expected at most {} geoms", most_geoms));
+    if (tag == "geom" && ++geoms > most_geoms) {
+      document.fail(e, fmt::format("geom: expected at most {} geoms", most_geoms));
     }
     if (tag == "geom" && attribute(e, "type") == "hfield") {
       note(findings.complaints, document, e,
