@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "estimator/force/servo_law.hpp"
 #include "logs/plausibility/rules.hpp"
 
 namespace touchdown::logs {
@@ -26,8 +27,10 @@ const JointTarget& target_of(const ServoTargets& targets, std::size_t i) {
 void add_law(const models::ServoReading& servo, const JointTarget& own, const JointTarget& other,
              CheckedWindow::Joint& joint) {
   const auto law = [&](const JointTarget& target, double factor) {
-    return own.kp * (factor * target.position - servo.position) +
-           own.kd * (factor * target.velocity - servo.velocity) + own.feedforward_torque;
+    JointTarget meant = own;
+    meant.position = factor * target.position;
+    meant.velocity = factor * target.velocity;
+    return servo_torque({servo.position, servo.velocity, servo.torque}, meant);
   };
   constexpr double degree = std::numbers::pi / 180.0;
   const std::array<double, 4> laws = {law(own, 1.0), law(own, -1.0), law(other, 1.0),
