@@ -21,11 +21,13 @@ bool is_belief(const Belief& belief) noexcept {
 
 const Belief& ContactEstimator::update(const Signals& signals) noexcept {
   const SignalIndex unusable = check_.first_unusable(signals);
-  if (unusable == SignalIndex::none && stopped_.update(signals) == 0) {
+  const std::uint32_t stopped = unusable == SignalIndex::none
+                                    ? stopped_.update(signals)
+                                    : stopped_.update(check_.without_unusable(signals));
+  if (unusable == SignalIndex::none && stopped == 0) {
     const Belief& belief = estimate(signals);
     return is_belief(belief) ? belief : reported(belief, unusable);
   }
-  const std::uint32_t stopped = stopped_.update(check_.without_unusable(signals));
   const Belief& belief = reported(estimate(check_.without_unusable(signals, stopped)), unusable);
   const int first = std::countr_zero(stopped);
   if (stopped == 0 || (unusable != SignalIndex::none && first > static_cast<int>(unusable))) {
