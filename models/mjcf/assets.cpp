@@ -157,10 +157,13 @@ std::string fault_of_mesh(const std::filesystem::path& file) {
   return "";
 }
 
-std::filesystem::path urdf_asset(std::string_view address, const MjcfDocument& urdf) {
+std::string mesh_folder(const MjcfDocument& document) { return compiler_of(document)["meshdir"]; }
+
+std::filesystem::path urdf_asset(std::string_view address, const std::filesystem::path& urdf,
+                                 const std::string& meshdir) {
   constexpr std::string_view plain = "file://";
   std::vector<std::filesystem::path> candidates;
-  const std::filesystem::path folder = absolute_path(urdf.file()).parent_path();
+  const std::filesystem::path folder = absolute_path(urdf).parent_path();
   if (address.starts_with(package_address)) {
     const std::filesystem::path path(address.substr(package_address.size()));
     const std::filesystem::path inside = path.lexically_relative(*path.begin());
@@ -172,7 +175,7 @@ std::filesystem::path urdf_asset(std::string_view address, const MjcfDocument& u
     candidates.push_back(folder /
                          (address.starts_with(plain) ? address.substr(plain.size()) : address));
   }
-  for (const auto& beside : {folder / compiler_of(urdf)["meshdir"], folder}) {
+  for (const auto& beside : {folder / meshdir, folder}) {
     candidates.push_back(beside / std::filesystem::path(address).filename());
   }
   const auto file = std::find_if_not(candidates.begin(), candidates.end(), is_missing);
@@ -186,7 +189,8 @@ std::vector<std::filesystem::path> opened_files(const std::filesystem::path& fil
   document.visit([&](const XMLElement& element) {
     std::vector<std::filesystem::path> candidates;
     if (element.Attribute("filename") != nullptr) {
-      candidates = {urdf_asset(attribute(element, "filename"), document)};
+      candidates = {
+          urdf_asset(attribute(element, "filename"), document.file(), compiler["meshdir"])};
     } else if (element.Attribute("file") != nullptr) {
       candidates = {file_of(document, compiler, element, "meshdir"),
                     file_of(document, compiler, element, "texturedir")};

@@ -67,10 +67,14 @@ std::string fault_of_mesh(const std::filesystem::path& file);
 /// What the address of a file in a package begins with.
 inline constexpr std::string_view package_address = "package://";
 
+/// `meshdir` of an MJCF's compiler, or of MuJoCo's section of a URDF.
+std::string mesh_folder(const MjcfDocument& document);
+
 /// The file that the address of a URDF's mesh means. A package is a folder of this name, or any
-/// folder, above the URDF; MuJoCo itself searches beside the URDF, or in its `meshdir`. Empty if
-/// there is no such file.
-std::filesystem::path urdf_asset(std::string_view address, const MjcfDocument& urdf);
+/// folder, above the URDF; MuJoCo itself searches beside the URDF, or in its `mesh_folder`. Empty
+/// if there is no such file.
+std::filesystem::path urdf_asset(std::string_view address, const std::filesystem::path& urdf,
+                                 const std::string& mesh_folder);
 
 /// The files that are opened for an MJCF or a URDF: itself, what it includes, and its meshes and
 /// textures as far as they exist. Errors: those of `MjcfDocument::load`.

@@ -76,6 +76,7 @@ void prepare(MjcfDocument& urdf, FileFindings& findings) {
               fmt::format("{}: expected a URDF, found xacro: `xacro {} > {}` writes one",
                           element.Name(), file, file.substr(0, file.find('.')) + "_flat.urdf"));
   });
+  const std::string meshdir = mesh_folder(urdf);
   for (auto* link : children(urdf.root(), "link")) {
     for (auto* visual : children(*link, "visual")) urdf.remove(*visual);
     for (auto* collider : children(*link, "collision")) {
@@ -83,7 +84,7 @@ void prepare(MjcfDocument& urdf, FileFindings& findings) {
       XMLElement* const mesh = geometry == nullptr ? nullptr : geometry->FirstChildElement("mesh");
       if (mesh == nullptr) continue;
       const std::string address(attribute(*mesh, "filename"));
-      const std::filesystem::path file = urdf_asset(address, urdf);
+      const std::filesystem::path file = urdf_asset(address, urdf.file(), meshdir);
       if (!file.empty()) {
         const std::string fault = fault_of_mesh(file);
         if (!fault.empty()) urdf.fail(*mesh, fmt::format("mesh '{}': {}", address, fault));
