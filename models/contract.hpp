@@ -87,7 +87,7 @@ void find_strips(RobotModel& robot, const Contract& contract);
 bool is_below(const mjModel& model, int below, int above);
 
 /// Turns the base frame about its z axis until x is forward: from `forward` (x, -x, y, -y), or, if
-/// this is empty, across the wheels' axes, with the left tyre on the left. A base with axes along
+/// this is `auto`, across the wheels' axes, with the left tyre on the left. A base with axes along
 /// y stays as it is, as sides may be called otherwise. Returns the former axis that faces forward.
 std::string turn_base(RobotModel& robot, std::string_view forward);
 

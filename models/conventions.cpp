@@ -183,7 +183,7 @@ bool is_below(const mjModel& model, int below, int above) {
 }
 
 std::string turn_base(RobotModel& robot, std::string_view given) {
-  std::string forward = given.empty() ? forward_axis(robot) : std::string(given);
+  std::string forward = given == "auto" ? forward_axis(robot) : std::string(given);
   if (forward == "x") return forward;
   const double half = std::numbers::sqrt2 / 2.0;
   const Eigen::Quaterniond turn = forward == "-x"  ? Eigen::Quaterniond(0.0, 0.0, 0.0, 1.0)

@@ -122,13 +122,11 @@ static void describe_parts(Fields& fields, PartNames& parts) {
     fields("no_collision", parts.no_collision)
         .doc("Colliders that touch nothing: geoms, or bodies with all of theirs.");
   }
-  std::string forward = parts.forward.empty() ? "auto" : parts.forward;
   fields.know("forward");
-  if (fields.present("forward", !parts.forward.empty())) {
-    fields.choose("forward", {"auto", "x", "-x", "y", "-y"}, forward)
+  if (fields.present("forward", parts.forward != "auto")) {
+    fields.choose("forward", {"auto", "x", "-x", "y", "-y"}, parts.forward)
         .doc("Axis of the base that faces forward; `auto`: across the wheels' axes.");
   }
-  parts.forward = forward == "auto" ? "" : forward;
   describe_name(fields, "imu", parts.imu)
       .fallback("imu")
       .doc("Site of the IMU, or a body that is fixed to the base.");
@@ -184,7 +182,6 @@ RobotDescription robot_description(const std::filesystem::path& file) {
   const YamlDocument document = YamlDocument::load(file);
   auto robot = from_yaml<RobotDescription>(document);
   robot.mjcf = file.parent_path() / robot.mjcf;
-  robot.is_named = true;
   robot.has_stance = document.root()["stance"].IsDefined();
   // Checked here, as the model may be compiled later, for the controller gains only.
   std::error_code ignored;

@@ -47,7 +47,7 @@ struct PartNames {
   std::array<std::string, wheel_count> tyre;   ///< geoms, or bodies with one round collider
   double tyre_radius = 0.0;                    ///< of spheres in place of these colliders (m)
   std::vector<std::string> no_collision;       ///< geoms, or bodies, that touch nothing
-  std::string forward;                         ///< the base's axis that faces forward: x, -x, y, -y
+  std::string forward = "auto";                ///< the axis that faces forward: x, -x, y, -y
   std::string imu;                             ///< a site, or a body with the frame of the IMU
   std::string base;                            ///< the floating link of a URDF
 };
@@ -89,7 +89,6 @@ struct RobotDescription {
   Tyre tyre;
   PartNames parts;
   HeldServo held_servo;
-  bool is_named = false;  ///< whether a YAML file gave this description, not an MJCF alone
 
   /// The actuator of a servo, if the file specifies one.
   const std::optional<Actuator>& actuator(Servo servo) const;
