@@ -60,11 +60,11 @@ void describe(Fields& fields, WheelBalancerConfig& config, const LqrGains& lqr) 
       .doc("m", "Limit of the position error.");
   fields("air_decay_time", config.air_decay_time, 1e-3, 1e3)
       .doc("s", "Time constant of the integral's decay without contact.");
-  fields("wheel_kd_scale", config.wheel_kd_scale, 0.0, 100.0)
+  fields("wheel_kd_scale", config.wheel_kd_scale, 0.0, 1e4)
       .doc("Factor on the wheels' velocity gain.");
-  fields("yaw_stiffness", config.yaw_stiffness, 0.0, 100.0)
+  fields("yaw_stiffness", config.yaw_stiffness, 0.0, 1e4)
       .doc("N·m/rad", "Differential wheel torque per heading error.");
-  fields("yaw_damping", config.yaw_damping, 0.0, 100.0)
+  fields("yaw_damping", config.yaw_damping, 0.0, 1e4)
       .doc("N·m·s/rad", "Differential wheel torque per yaw-rate error.");
   fields("lateral_stiffness", config.lateral_stiffness, 0.0, 100.0)
       .doc("rad/m", "Heading per lateral error.");
@@ -72,9 +72,9 @@ void describe(Fields& fields, WheelBalancerConfig& config, const LqrGains& lqr) 
       .doc("m", "Limit of the lateral error.");
   fields("keep_heading", config.keep_heading)
       .doc("Whether the course is along the initial heading, not along the world's x axis.");
-  fields("leg_kp_scale", config.leg_kp_scale, 0.0, 100.0)
+  fields("leg_kp_scale", config.leg_kp_scale, 0.0, 1e4)
       .doc("Factor on the position gains of hips and knees.");
-  fields("leg_kd_scale", config.leg_kd_scale, 0.0, 100.0)
+  fields("leg_kd_scale", config.leg_kd_scale, 0.0, 1e4)
       .doc("Factor on the velocity gains of hips and knees.");
 }
 

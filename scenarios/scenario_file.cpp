@@ -13,6 +13,7 @@
 #include "core/table.hpp"
 #include "models/robot_description.hpp"
 #include "models/stance.hpp"
+#include "policies/servo_stability.hpp"
 #include "policies/wheeled_pendulum.hpp"
 #include "scenarios/start_pose.hpp"
 
@@ -39,12 +40,14 @@ class DescribedRobot {
 };
 
 /// LQR gains of a robot at rest on level ground.
-policies::LqrGains lqr_gains(DescribedRobot& robot, const Start& start) {
-  return [&robot, legs = Start{.hip = start.hip, .knee = start.knee}](
+policies::LqrGains lqr_gains(DescribedRobot& robot, const Start& start, double period) {
+  return [&robot, period, legs = Start{.hip = start.hip, .knee = start.knee}](
              const policies::WheelBalancerConfig& config) {
     const simulators::RobotState pose = start_pose(robot.model(), {}, legs);
-    return with_lqr_gains(
-        config, policies::wheeled_pendulum(robot.model(), pose.orientation, pose.joint_position));
+    return with_stable_servos(
+        with_lqr_gains(config, policies::wheeled_pendulum(robot.model(), pose.orientation,
+                                                          pose.joint_position)),
+        robot.model(), {pose.orientation, pose.joint_position, period});
   };
 }
 
@@ -176,7 +179,8 @@ Scenario complete_scenario(const YamlDocument& document) {
   const models::Stance stance = stance_of(robot);
   defaults.start.hip = std::isnan(wanted.start.hip) ? stance.hip : wanted.start.hip;
   defaults.start.knee = std::isnan(wanted.start.knee) ? stance.knee : wanted.start.knee;
-  const policies::LqrGains lqr = lqr_gains(robot, defaults.start);
+  const policies::LqrGains lqr = lqr_gains(
+      robot, defaults.start, 1e-6 * static_cast<double>(wanted.simulation.steps.physics_us));
   defaults.balancer = balancer_of(defaults.robot, lqr);
   Scenario scenario = scenario_from_yaml(document, defaults, lqr);
   scenario.robot = defaults.robot;

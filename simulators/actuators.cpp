@@ -6,15 +6,12 @@
 namespace touchdown::simulators {
 
 JointFriction::JointFriction(const models::Actuator& actuator, double inertia, double period)
-    : limit_(actuator.friction),
-      // The limit keeps the spring's oscillation with the joint's inertia below 0.5 rad per step.
-      stiffness_(std::min(actuator.presliding_stiffness, 0.25 * inertia / (period * period))),
-      damping_(2.0 * std::sqrt(stiffness_ * inertia)) {}
+    : limit_(actuator.friction), presliding_(models::presliding(actuator, inertia, period)) {}
 
 double JointFriction::torque(double position, double velocity) {
-  torque_ = std::clamp(torque_ + stiffness_ * (position - position_), -limit_, limit_);
+  torque_ = std::clamp(torque_ + presliding_.stiffness * (position - position_), -limit_, limit_);
   position_ = position;
-  return std::clamp(torque_ + damping_ * velocity, -limit_, limit_);
+  return std::clamp(torque_ + presliding_.damping * velocity, -limit_, limit_);
 }
 
 double servo_torque(const models::ServoCommand& command, double position, double velocity,
@@ -99,10 +96,10 @@ HeldServos::HeldServos(const models::RobotModel& model, const StepSizes& steps)
   for (const models::HeldJoint& held : model.held) {
     const double inertia = 1.0 / model.mj->dof_invweight0[held.dof_address];
     joints_.push_back({.reference = held.reference,
-                       .kp = std::min(held.kp, 0.25 * inertia / (period * period)),
-                       .kd = std::min(held.kd, 0.5 * inertia / period),
+                       .kp = models::stable_stiffness(held.kp, inertia, period),
+                       .kd = models::stable_damping(held.kd, inertia, period),
                        .effort = held.effort,
-                       .viscous = std::min(held.actuator.viscous, 0.5 * inertia / period),
+                       .viscous = models::stable_damping(held.actuator.viscous, inertia, period),
                        .friction = JointFriction(held.actuator, inertia, period)});
   }
 }

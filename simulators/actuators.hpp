@@ -8,6 +8,7 @@
 #include "models/actuator.hpp"
 #include "models/robot.hpp"
 #include "models/robot_model.hpp"
+#include "models/simulated_joints.hpp"
 #include "simulators/options.hpp"
 
 namespace touchdown::simulators {
@@ -27,11 +28,10 @@ class JointFriction {
   double torque(double position, double velocity);
 
  private:
-  double limit_ = 0.0;      ///< N·m
-  double stiffness_ = 0.0;  ///< of presliding, limited by the time step (N·m/rad)
-  double damping_ = 0.0;    ///< of presliding, critical (N·m·s/rad)
-  double torque_ = 0.0;     ///< of the presliding spring (N·m)
-  double position_ = 0.0;   ///< at the last step (rad)
+  double limit_ = 0.0;  ///< N·m
+  models::Presliding presliding_;
+  double torque_ = 0.0;    ///< of the presliding spring (N·m)
+  double position_ = 0.0;  ///< at the last step (rad)
 };
 
 /// The torque that a moteus-like servo applies to its joint (N·m):

@@ -1,14 +1,12 @@
 #include <vector>
 
+#include "models/simulated_joints.hpp"
 #include "simulators/bullet.hpp"
 #include "simulators/engines.hpp"
 
 namespace touchdown::simulators {
 
 namespace {
-
-/// Weight of the newest acceleration. With 1, stiff standing robots oscillate; 0.5 suffices.
-constexpr double smoothing = 0.25;
 
 btVector3 axis_in_world(const btMultiBody& robot, int link) {
   return robot.localDirToWorld(link, robot.getLink(link).getAxisTop(0));
@@ -35,7 +33,7 @@ btVector3 angular_velocity(const btMultiBody& robot, int link) {
 ///
 /// is compensated by torques, with the accelerations of the last few physics steps. Faster motion
 /// sees the rotor as part of the link. This converges while the rotor's inertia is smaller than
-/// that of the joint's parent.
+/// that of the joint's parent. Derived gains allow for it (policies/servo_stability.cpp).
 class Rotors {
  public:
   Rotors(const models::RobotModel& model, const BulletWorld& world);
@@ -79,8 +77,8 @@ void Rotors::compensate(btMultiBody& robot, double period) {
     if (started_) {
       const double joint = (joint_velocity - rotor.joint_velocity) / period;
       const double parent = (parent_velocity - rotor.parent_velocity) / period;
-      rotor.joint_acceleration += smoothing * (joint - rotor.joint_acceleration);
-      rotor.parent_acceleration += smoothing * (parent - rotor.parent_acceleration);
+      rotor.joint_acceleration += models::rotor_smoothing * (joint - rotor.joint_acceleration);
+      rotor.parent_acceleration += models::rotor_smoothing * (parent - rotor.parent_acceleration);
       robot.addJointTorque(rotor.link, rotor.inertia * rotor.parent_acceleration);
       const btVector3 torque =
           rotor.inertia * (rotor.joint_acceleration + rotor.parent_acceleration) * axis;

@@ -1,5 +1,6 @@
 #include "policies/wheeled_pendulum.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
@@ -7,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "models/resizing.hpp"
+#include "policies/servo_stability.hpp"
 
 namespace touchdown::policies {
 namespace {
@@ -107,6 +109,106 @@ TEST(LqrGains, OfARobotThatHangsBelowItsAxleAreRefused) {
   const Eigen::Quaterniond upside_down(0.0, 0.0, 1.0, 0.0);
   const WheeledPendulum hangs = wheeled_pendulum(upkie(), upside_down, default_stance);
   EXPECT_THROW((void)with_lqr_gains({}, hangs), InputError);
+}
+
+/// Upkie with a heavier base, and the same legs.
+models::RobotModel with_base_of(double mass) {
+  models::RobotModel robot = upkie();
+  robot.mj->body_mass[robot.base_body] = mass;
+  models::recompute(*robot.mj);
+  return robot;
+}
+
+/// The share of steps of a free fall in which a hip's torque changes its sign, by MuJoCo's own
+/// integration. Torques approach the law's by `lag_gain` per step.
+double sign_changes(const models::RobotModel& robot, const WheelBalancerConfig& config,
+                    double lag_gain = 1.0) {
+  const mjModel& mj = *robot.mj;
+  const models::MjDataPtr data(mj_makeData(&mj));
+  models::write_pose(robot, {0, 0, 5}, Eigen::Quaterniond::Identity(), default_stance, data->qpos);
+  data->qvel[robot.dof_address[0]] = 0.1;
+  constexpr int steps = 400;
+  int changes = 0;
+  double last = 0.0;
+  for (int step = 0; step < steps; ++step) {
+    for (std::size_t i = 0; i < models::servo_count; ++i) {
+      const bool is_wheel = i % 3 == 2;
+      const double velocity = data->qvel[robot.dof_address[i]];
+      const double torque =
+          is_wheel ? -models::servo_kd * config.wheel_kd_scale * velocity
+                   : models::servo_kp * config.leg_kp_scale *
+                             (default_stance.at(i) - data->qpos[robot.qpos_address[i]]) -
+                         models::servo_kd * config.leg_kd_scale * velocity;
+      double& applied = data->qfrc_applied[robot.dof_address[i]];
+      applied += lag_gain * (std::clamp(torque, -robot.effort[i], robot.effort[i]) - applied);
+    }
+    const double torque = data->qfrc_applied[robot.dof_address[0]];
+    if (torque * last < 0.0) ++changes;
+    last = torque;
+    mj_step(&mj, data.get());
+  }
+  return static_cast<double>(changes) / steps;
+}
+
+const ServoPose at_rest{Eigen::Quaterniond::Identity(), default_stance, 1e-3};
+
+TEST(StableServos, OfUpkieKeepTheirGains) {
+  const models::RobotModel robot = upkie();
+  const WheelBalancerConfig derived = with_lqr_gains({}, pendulum_of(robot));
+  const WheelBalancerConfig stable = with_stable_servos(derived, robot, at_rest);
+  EXPECT_EQ(stable.leg_kp_scale, derived.leg_kp_scale);
+  EXPECT_EQ(stable.leg_kd_scale, derived.leg_kd_scale);
+  EXPECT_EQ(stable.wheel_kd_scale, derived.wheel_kd_scale);
+}
+
+TEST(StableServos, DoNotChatterInFlightHoweverHeavyTheBase) {
+  for (const double mass : {12.0, 25.0, 60.0}) {
+    const models::RobotModel robot = with_base_of(mass);
+    const WheelBalancerConfig derived = with_lqr_gains({}, pendulum_of(robot));
+    const WheelBalancerConfig stable = with_stable_servos(derived, robot, at_rest);
+    EXPECT_LT(sign_changes(robot, stable), 0.2) << mass;
+  }
+  const models::RobotModel heavy = with_base_of(60.0);
+  EXPECT_GT(sign_changes(heavy, with_lqr_gains({}, pendulum_of(heavy))), 0.8) << "without it";
+}
+
+TEST(ServoMargins, AreTheFactorAtWhichMuJoCoBecomesUnstable) {
+  for (const auto& [mass, lag] :
+       {std::pair{3.0, 0.0}, std::pair{17.0, 0.0}, std::pair{8.0, 7e-4}}) {
+    models::RobotModel robot = with_base_of(mass);
+    for (models::Actuator& actuator : robot.actuator) actuator.torque_lag = lag;
+    const double lag_gain = lag > 0.0 ? 1.0 - std::exp(-at_rest.period / lag) : 1.0;
+    const WheelBalancerConfig config;
+    const double margin = servo_margins(robot, at_rest, config).flight;
+    const auto changes = [&](double factor) {
+      WheelBalancerConfig scaled = config;
+      scaled.leg_kp_scale *= factor;
+      scaled.leg_kd_scale *= factor;
+      scaled.wheel_kd_scale *= factor;
+      return sign_changes(robot, scaled, lag_gain);
+    };
+    EXPECT_LT(changes(0.9 * margin), 0.9) << mass;
+    EXPECT_GT(changes(1.1 * margin), 0.9) << mass;
+  }
+}
+
+TEST(StableServos, HaveTheirMarginAtLongStepsAndWithRotors) {
+  for (const auto& [step, armature] :
+       {std::pair{5e-3, 0.0}, std::pair{1e-3, 0.03}, std::pair{2e-3, 0.007}}) {
+    models::RobotModel robot = with_base_of(25.0);
+    for (const int dof : robot.dof_address) robot.mj->dof_armature[dof] = armature;
+    models::recompute(*robot.mj);
+    ServoPose slow = at_rest;
+    slow.period = step;
+    const WheelBalancerConfig derived = with_lqr_gains({}, pendulum_of(robot));
+    const WheelBalancerConfig stable = with_stable_servos(derived, robot, slow);
+    const ServoMargins margins = servo_margins(robot, slow, stable);
+    EXPECT_GE(margins.flight, 0.999 * least_servo_margin);
+    EXPECT_GE(margins.standing, 0.999 * least_servo_margin);
+    EXPECT_LT(servo_margins(robot, slow, derived).flight, 1.0) << "without it";
+    EXPECT_NEAR(stable.yaw_damping / stable.wheel_kd_scale,
+                derived.yaw_damping / derived.wheel_kd_scale, 1e-9);
+  }
 }
 
 MatrixXd matrix(int rows, int columns, std::initializer_list<double> values) {

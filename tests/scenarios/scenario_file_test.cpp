@@ -256,8 +256,8 @@ TEST_F(ScenarioOfARobot, IsRefusedForItsRobot) {
   expect_refused({{"balancer: {pitch_stifness: 3}\n",
                    {"robot.yaml:2:12: balancer.pitch_stifness", "did you mean 'pitch_stiffness'?"}},
                   {"balancer: {gains: lqg}\n", {"robot.yaml:2:19", "did you mean 'lqr'?"}},
-                  {"mass: 100\nbalancer: {gains: lqr}\n",
-                   {"robot.yaml:3:19: balancer.gains: lqr", "leg_kp_scale: ex"}}},
+                  {"mass: 0.05\nactuators: {hip: {viscous: 10}}\nbalancer: {gains: lqr}\n",
+                   {"robot.yaml:4:19: balancer.gains: lqr", "no gains are stable at this"}}},
                  [&](const std::string& robot) { return with(robot, ""); });
 }
 
