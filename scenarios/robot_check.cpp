@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/resources.hpp"
 #include "estimator/force/leg_geometry.hpp"
+#include "logs/plausibility/chatter.hpp"
 #include "models/mjcf/robot_file.hpp"
 #include "models/robot_description.hpp"
 #include "models/robot_model.hpp"
@@ -15,6 +16,7 @@
 #include "scenarios/leg_geometry.hpp"
 #include "scenarios/scenario.hpp"
 #include "scenarios/scenario_file.hpp"
+#include "scenarios/start_pose.hpp"
 #include "simulators/registry.hpp"
 #include "simulators/tyres.hpp"
 
@@ -95,13 +97,19 @@ double given_way(const logs::Recording& recording, const std::vector<CheckedHeld
   return largest;
 }
 
-CheckedStand stand(const Scenario& scenario, const std::string& engine, const RobotCheck& check,
-                   const std::function<bool()>& should_continue) {
+logs::Recording played(const Scenario& scenario, const std::string& engine,
+                       const std::function<bool()>& should_continue) {
   const auto is_wanted = [&](double /*time*/ = 0.0) {
     return !should_continue || should_continue();
   };
-  const logs::Recording recording = play(scenario, engine, 0, 0, is_wanted);
+  logs::Recording recording = play(scenario, engine, 0, 0, is_wanted);
   if (!is_wanted()) throw Stopped("stopped");
+  return recording;
+}
+
+CheckedStand stand(const Scenario& scenario, const std::string& engine, const RobotCheck& check,
+                   const std::function<bool()>& should_continue) {
+  const logs::Recording recording = played(scenario, engine, should_continue);
   CheckedStand stand{
       .engine = engine,
       .ending = ending_text(recording, scenario.end) + part_on_terrain(scenario, recording)};
@@ -151,6 +159,23 @@ void check_loads(const CheckedStand& stand, double weight, std::vector<std::stri
   }
 }
 
+/// How a drop from 10 cm ended. Limit cycles of the servos are complaints.
+std::string drop(Scenario scenario, const std::string& engine,
+                 const std::function<bool()>& should_continue,
+                 std::vector<std::string>& complaints) {
+  scenario.start.clearance = 0.1;  // m
+  scenario.end.duration = 1.0;     // s
+  const logs::Recording recording = played(scenario, engine, should_continue);
+  logs::ChatterCheck chatter;
+  for (const models::Observation& record : recording.observation) chatter.add(record);
+  logs::Findings findings;
+  chatter.report(findings);
+  for (const std::string& line : findings.lines()) {
+    complaints.push_back(fmt::format("{}: dropped from 10 cm: {}", engine, line));
+  }
+  return ending_text(recording, scenario.end);
+}
+
 /// The way out for a robot that falls: its file does not choose gains, so they are Upkie's.
 std::string hint_about_gains(const std::filesystem::path& file) {
   const bool has_gains =
@@ -186,6 +211,18 @@ void read_robot(const Scenario& scenario, RobotCheck& check) {
   check.hip = robot.has(0) ? scenario.start.hip : 0.0;
   check.knee = scenario.start.knee;
   check.lever = lever_of(robot, check.hip, check.knee);
+  const simulators::RobotState pose = start_pose(robot, {}, {.hip = check.hip, .knee = check.knee});
+  check.margins =
+      policies::servo_margins(robot,
+                              {pose.orientation, pose.joint_position,
+                               1e-6 * static_cast<double>(scenario.simulation.steps.physics_us)},
+                              scenario.balancer);
+  if (const double least = std::min(check.margins.flight, check.margins.standing); least <= 1.0) {
+    check.complaints.push_back(
+        fmt::format("servos: unstable at this physics step, gain margin {:.2f}, expected above 1: "
+                    "lower the gains (balancer, held_servo)",
+                    least));
+  }
   check.ignored = robot.ignored;
   check.differences = differences(robot);
 }
@@ -247,6 +284,7 @@ RobotCheck check_robot(const std::filesystem::path& file,
       } else {
         check_loads(last, gravity * check.mass, check.complaints);
       }
+      check.stands.back().drop = drop(scenario, engine, should_continue, check.complaints);
     }
   } catch (const models::RobotRefusal& refused) {
     check.complaints = refused.complaints;

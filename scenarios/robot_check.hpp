@@ -10,6 +10,7 @@
 
 #include "logs/recording.hpp"
 #include "models/robot.hpp"
+#include "policies/servo_stability.hpp"
 #include "scenarios/scenario.hpp"
 
 namespace touchdown::scenarios {
@@ -39,7 +40,7 @@ struct CheckedHeldJoint {
   std::string actuator;       ///< friction, viscous friction and armature; empty if there are none
 };
 
-/// The robot standing still for two seconds in one engine.
+/// The robot standing still for two seconds in one engine, and dropped from 10 cm.
 struct CheckedStand {
   std::string engine;
   std::string ending;  ///< how and when the run ended, and why
@@ -47,6 +48,7 @@ struct CheckedStand {
   double moved = 0.0;                                 ///< along the ground (m)
   std::array<double, models::wheel_count> load = {};  ///< at the end, left and right (N)
   double given_way = 0.0;  ///< largest angle of a held joint from its reference (rad)
+  std::string drop = {};   ///< how it ended
 };
 
 /// What touchdown makes of a robot's file.
@@ -64,8 +66,10 @@ struct RobotCheck {
   double lever = 0.0;                    ///< knee torque per newton of load in the stance (m)
   std::vector<std::string> ignored;      ///< in the file, but not simulated
   std::vector<std::string> differences;  ///< between the engines
-  std::vector<CheckedStand> stands;      ///< in every engine
-  std::vector<std::string> complaints;   ///< none if the robot is usable
+  /// Factor on all gains at which the servos become unstable, in flight and standing.
+  policies::ServoMargins margins;
+  std::vector<CheckedStand> stands;     ///< in every engine
+  std::vector<std::string> complaints;  ///< none if the robot is usable
 };
 
 /// ": 'left_guard' (`no_collision: [left_guard]` leaves it out)": the collider nearest to the
@@ -73,9 +77,9 @@ struct RobotCheck {
 /// robot fell as a part other than a tyre touched the terrain.
 std::string part_on_terrain(const Scenario& scenario, const logs::Recording& recording);
 
-/// Compiles a robot and lets it stand for two seconds in every engine. A file that is refused has
-/// complaints, and nothing else is filled in. `should_continue` is called repeatedly while it
-/// stands. Errors: `Stopped`.
+/// Compiles a robot, lets it stand for two seconds in every engine, and drops it from 10 cm. A file
+/// that is refused has complaints, and nothing else is filled in. `should_continue` is called
+/// repeatedly while it stands. Errors: `Stopped`.
 RobotCheck check_robot(const std::filesystem::path& file,
                        const std::function<bool()>& should_continue = {});
 

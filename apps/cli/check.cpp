@@ -81,6 +81,10 @@ std::string text_of(const std::string& path, const RobotCheck& check) {
         vector_text(check.imu), joints_text(check), rounded(check.hip), rounded(check.knee),
         check.lever);
   }
+  if (!check.joints.empty()) {
+    text += fmt::format("servos: gain margin {:.2f} in flight, {:.2f} standing (unstable at 1)\n",
+                        check.margins.flight, check.margins.standing);
+  }
   for (const CheckedHeldJoint& held : check.held) text += text_of(held);
   for (const std::string& ignored : check.ignored) text += "ignored: " + ignored + "\n";
   for (const std::string& difference : check.differences) {
@@ -88,9 +92,11 @@ std::string text_of(const std::string& path, const RobotCheck& check) {
   }
   for (const CheckedStand& stand : check.stands) {
     text += fmt::format(
-        "{}: {}, moved {:.2f} m, {:.1f} N on the left tyre, {:.1f} N on the right{}\n",
+        "{}: {}, moved {:.2f} m, {:.1f} N on the left tyre, {:.1f} N on the right{}\n"
+        "{}: dropped from 10 cm: {}\n",
         stand.engine, stand.ending, stand.moved, stand.load[0], stand.load[1],
-        check.held.empty() ? "" : fmt::format(", held joints within {:.3f} rad", stand.given_way));
+        check.held.empty() ? "" : fmt::format(", held joints within {:.3f} rad", stand.given_way),
+        stand.engine, stand.drop);
   }
   for (const std::string& complaint : check.complaints) text += "complaint: " + complaint + "\n";
   return text;
@@ -135,6 +141,8 @@ Json json_of(const std::string& path, const RobotCheck& check) {
                {"ignored", check.ignored},
                {"differences", check.differences},
                {"stands", Json::array()}};
+  json["servo_gain_margin"] = {{"flight", rounded(check.margins.flight)},
+                               {"standing", rounded(check.margins.standing)}};
   for (const CheckedJoint& joint : check.joints) json["joints"].push_back(json_of(joint));
   for (const CheckedHeldJoint& held : check.held) json["held"].push_back(json_of(held));
   for (const CheckedStand& stand : check.stands) {
@@ -143,6 +151,7 @@ Json json_of(const std::string& path, const RobotCheck& check) {
                               {"ending", stand.ending},
                               {"moved_m", rounded(stand.moved)},
                               {"held_given_way_rad", rounded(stand.given_way)},
+                              {"drop", stand.drop},
                               {"load_n", {rounded(stand.load[0]), rounded(stand.load[1])}}});
   }
   return json;
@@ -234,11 +243,12 @@ void add_check(CLI::App& program, const CliSession& session) {
             "touchdown check robot.mpack --robot my_robot.xml --strict\n"
             "touchdown check rosbag2_2026_03_01/ --mapping robot.yaml\n\n"
             "Checks robots and logs. Of a robot it prints what was read from its file, what is\n"
-            "ignored, where the engines differ, and how it stands for two seconds in each. The\n"
-            "exit code is 1 if it cannot be simulated. Of a log it checks whether the signals can\n"
-            "be those of a wheeled biped: clock, units, signs, axes, gravity, loads, dead\n"
-            "channels. It prints one line per finding, with its likely cause. With --mapping it\n"
-            "reads another robot's logs: ROS 2 bags, CSV or NumPy arrays.");
+            "ignored, its servos' gain margins, where the engines differ, and how it stands for\n"
+            "two seconds in each and comes down from 10 cm. The exit code is 1 if it cannot be\n"
+            "simulated. Of a log it checks whether the signals can be those of a wheeled biped:\n"
+            "clock, units, signs, axes, gravity, loads, dead channels. It prints one line per\n"
+            "finding, with its likely cause. With --mapping it reads another robot's logs: ROS 2\n"
+            "bags, CSV or NumPy arrays.");
   const auto flags = std::make_shared<CheckFlags>();
   verb.option("file", &flags->files,
               "Robots: MJCF files, or YAML files about an MJCF or URDF. Logs in Upkie's layout, "

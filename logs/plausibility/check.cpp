@@ -38,6 +38,7 @@ void PlausibilityCheck::add(const models::Observation& reported, const ServoTarg
   // One value beyond its sensor's range would be the mean of a whole window.
   const models::Observation record = sensor_range_.add(reported);
   joint_range_.add(record);
+  chatter_.add(record);
   const std::optional<CheckedWindow> window = windows_.add(record, targets);
   if (!window) return;
   motion_.add(*window);
@@ -57,6 +58,7 @@ std::vector<std::string> PlausibilityCheck::findings() const {
   constant_.report(findings);
   stopped_.report(findings);
   sensor_range_.report(findings);
+  chatter_.report(findings);
   const bool has_positions = joint_range_.report(findings);
   motion_.report(findings);
   servo_law_.report(findings);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "logs/plausibility/chatter.hpp"
 #include "logs/plausibility/rules.hpp"
 
 namespace touchdown::logs {
@@ -37,6 +38,7 @@ class PlausibilityCheck {
   DrivingCheck driving_;
   GravityCheck gravity_;
   LoadCheck load_;
+  ChatterCheck chatter_;
 };
 
 }  // namespace touchdown::logs

@@ -57,6 +57,10 @@ void silence_knees(models::Observation& o, std::size_t /*k*/) {
   o.servo[1].torque = o.servo[4].torque = 0.0;
 }
 
+void alternate_a_wheel(models::Observation& o, std::size_t k) {
+  if (k > 3000 && k < 3200) o.servo[5].torque = k % 2 == 0 ? 1.7 : -1.7;
+}
+
 TEST_F(RobotsLog, IsPlausibleAsItIsAndEstimatedWithTheShippedModelByDefault) {
   write("robot.mpack", {});
   EXPECT_THAT(folder_.output_of("check robot.mpack --strict"),
@@ -83,7 +87,8 @@ TEST_F(RobotsLog, IsPlausibleAsItIsAndEstimatedWithTheShippedModelByDefault) {
 TEST_F(RobotsLog, WithImplausibleSignalsIsNamedByEveryCommandWithItsResult) {
   for (const auto& [change, finding] :
        std::vector<std::pair<Change, const char*>>{{negate_torques, "torques have the other sign"},
-                                                   {silence_knees, "torque is 0 throughout"}}) {
+                                                   {silence_knees, "torque is 0 throughout"},
+                                                   {alternate_a_wheel, "a limit cycle"}}) {
     write("wrong.mpack", change);
     EXPECT_THAT(folder_.output_of("check wrong.mpack"),
                 AllOf(HasSubstr("check it"), HasSubstr(finding)));

@@ -1,6 +1,13 @@
 #include "scenarios/robot_check.hpp"
 
+#include <algorithm>
+#include <regex>
+#include <utility>
+
+#include <fmt/format.h>
+
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/resources.hpp"
 #include "tests/models/upkie.hpp"
 #include "tests/scenarios/runs.hpp"
@@ -11,9 +18,11 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::Contains;
+using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 class RobotCheckOf : public ::testing::TestWithParam<std::string> {};
@@ -99,6 +108,47 @@ TEST(ARobotCheck, ComplainsOfRobotsThatCannotBeUsed) {
                              HasSubstr("a part other than a tyre touched the "
                                        "terrain: 'left_wheel'"),
                              HasSubstr("no_collision: [left_wheel]"))));
+}
+
+/// The check of a shipped robot with another base (kg), other rotors (kg·m²), and more keys.
+RobotCheck check_of(double base, double armature, const std::string& gains = "") {
+  const ScratchFolder folder;
+  const std::string urdf = read_file(TOUCHDOWN_SOURCE_DIR "/models/legs/ros_style.urdf");
+  folder.write("robot.urdf", std::regex_replace(urdf, std::regex("<mass value=\"5\"/>"),
+                                                fmt::format("<mass value=\"{}\"/>", base)));
+  const std::string yaml = read_file(TOUCHDOWN_SOURCE_DIR "/models/ros_style.yaml");
+  const std::string mine =
+      std::regex_replace(std::regex_replace(yaml, std::regex("legs/ros_style.urdf"), "robot.urdf"),
+                         std::regex("gains: lqr"), "gains: lqr" + gains);
+  std::string actuators = "actuators:\n";
+  for (const char* joint : {"hip", "knee", "wheel"}) {
+    actuators += fmt::format("  {}: {{armature: {}}}\n", joint, armature);
+  }
+  return check_robot(folder.write("robot.yaml", mine + actuators));
+}
+
+TEST(ARobotCheck, FindsNoLimitCycleWithDerivedGainsInEitherEngine) {
+  for (const auto& [base, armature] : std::vector<std::pair<double, double>>{
+           {4, 0}, {14, 0}, {20, 0.05}, {9, 0.012}, {31, 0.004}}) {
+    const RobotCheck check = check_of(base, armature);
+    EXPECT_THAT(check.complaints, Each(Not(HasSubstr("cycle")))) << base << ' ' << armature;
+    EXPECT_THAT(check.stands, SizeIs(2));
+    EXPECT_GT(std::min(check.margins.flight, check.margins.standing), 1.49);
+  }
+}
+
+TEST(ARobotCheck, ComplainsOfGainsWithALimitCycleInBothEngines) {
+  const auto cycle = [](const std::string& engine, const std::string& joint) {
+    return Contains(AllOf(HasSubstr(engine + ": dropped from 10 cm"), HasSubstr(joint),
+                          HasSubstr("changes its sign in most records")));
+  };
+  for (const auto& [gains, joint] : std::vector<std::pair<const char*, const char*>>{
+           {", leg_kd_scale: 16", "left_hip"}, {", wheel_kd_scale: 3", "right_wheel"}}) {
+    const RobotCheck check = check_of(11, 0, gains);
+    EXPECT_LT(check.margins.flight, 1.0);
+    EXPECT_THAT(check.complaints, Contains(HasSubstr("servos: unstable at this physics step")));
+    EXPECT_THAT(check.complaints, AllOf(cycle("mujoco", joint), cycle("bullet", joint)));
+  }
 }
 
 }  // namespace

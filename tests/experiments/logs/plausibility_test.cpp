@@ -321,6 +321,11 @@ std::vector<Damage> damages() {
          o.imu.linear_acceleration = measured + gravity;
        },
        "acceleration z: repeats -9.75 from 2.5"},
+      {"servos in a limit cycle",
+       [](O& o, std::size_t k) {
+         if (k / 200 % 10 == 7) o.servo[0].torque = o.servo[4].torque = k % 2 == 0 ? 6.0 : -9.0;
+       },
+       "left_hip, right_knee: torque changes its sign in most records"},
       {"a step back",
        [](O& o, std::size_t k) {
          if (k > 2500) o.time -= 0.2;
