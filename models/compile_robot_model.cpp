@@ -22,6 +22,7 @@ namespace {
 struct RobotFile {
   MjcfDocument document;
   FileFindings findings;
+  std::vector<LoopSites> loops;
 };
 
 void require_mjcf(const MjcfDocument& document) {
@@ -33,13 +34,14 @@ void require_mjcf(const MjcfDocument& document) {
 }
 
 RobotFile robot_file(const RobotDescription& description, const RobotKeys& keys) {
-  RobotFile robot{MjcfDocument::load(description.mjcf), {}};
+  RobotFile robot{MjcfDocument::load(description.mjcf), {}, {}};
   FileFindings& findings = robot.findings;
   if (std::strcmp(robot.document.root().Name(), "robot") == 0) {
     robot.document = converted_urdf(description.mjcf, description.parts.base, findings);
   }
   require_mjcf(robot.document);
   keep_robot_only(robot.document, findings);
+  robot.loops = complete_loops(robot.document, description.parts, findings, keys);
   translate_later_versions(robot.document, findings);
   drop_missing_assets(robot.document, findings);
   name_parts(robot.document, description.parts, findings, keys);
@@ -56,8 +58,8 @@ MjModelPtr compile(const RobotFile& robot, const Terrain& terrain) {
 void set_actuators(RobotModel& robot, const RobotDescription& description) {
   for (std::size_t i = 0; i < servo_count; ++i) {
     if (const auto& given = description.actuator(static_cast<Servo>(i))) robot.actuator[i] = *given;
-    if (!robot.has(i)) continue;
-    const int dof = robot.dof_address[i];
+    if (robot.motor_joint[i] < 0) continue;
+    const int dof = robot.mj->jnt_dofadr[robot.motor_joint[i]];
     robot.effort[i] = std::min(robot.effort[i], robot.actuator[i].maximum_torque);
     robot.mj->dof_armature[dof] = robot.actuator[i].armature;
     robot.mj->dof_damping[dof] = 0.0;
@@ -81,6 +83,7 @@ void set_size(RobotModel& robot, const RobotDescription& description, const Robo
   for (std::size_t leg = 0; leg < description.legs.one.size(); ++leg) {
     const double length = description.legs.both * description.legs.one[leg];
     if (length == 1.0) continue;
+    if (robot.closed_leg[leg]) keys.fail("legs", "expected none for a leg with closed loops");
     try {
       scale_leg(*robot.mj, leg, length);
     } catch (const InputError& error) {
@@ -178,9 +181,11 @@ RobotModel compile_robot_model(const std::filesystem::path& file, const Terrain&
   robot.ignored.insert(robot.ignored.begin(), source.findings.ignored.begin(),
                        source.findings.ignored.end());
   apply_conventions(robot, final_contract);
-  check_stance(robot, description, keys);
+  find_closed_legs(robot, description, source.findings.effort, final_contract);
   set_actuators(robot, description);
   set_size(robot, description, keys);
+  measure_closed_legs(robot, source.loops, final_contract);
+  check_stance(robot, description, keys);
   find_held(robot, description, source.findings.effort, final_contract);
   return robot;
 }

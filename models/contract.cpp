@@ -84,24 +84,29 @@ void Contract::fail_at_site(int site, const std::string& message) const {
   fail_at(document_.find("site", name == nullptr ? "" : name), message);
 }
 
-const tinyxml2::XMLElement* Contract::actuator_element(int actuator) const {
+const tinyxml2::XMLElement* Contract::section_element(std::string_view tag, int number) const {
   const tinyxml2::XMLElement* found = nullptr;
   int count = 0;
   document_.visit([&](const tinyxml2::XMLElement& element) {
     const auto* const section = element.Parent()->ToElement();
     if (section == nullptr || section->Parent() != &document_.root()) return;
-    if (std::string_view(section->Name()) == "actuator" && count++ == actuator) found = &element;
+    if (section->Name() == tag && count++ == number) found = &element;
   });
   return found;
 }
 
 std::string Contract::place_of_actuator(int actuator) const {
-  const tinyxml2::XMLElement* const found = actuator_element(actuator);
+  const tinyxml2::XMLElement* const found = section_element("actuator", actuator);
   return document_.place_of(found == nullptr ? document_.root() : *found);
 }
 
 void Contract::fail_at_actuator(int actuator, const std::string& message) const {
-  fail_at(actuator_element(actuator), message);
+  fail_at(section_element("actuator", actuator), message);
+}
+
+void Contract::fail_at_equality(int equality, const std::string& message) const {
+  const tinyxml2::XMLElement* const found = section_element("equality", equality);
+  fail_at(found, fmt::format("{}: {}", found == nullptr ? "connect" : title_of(*found), message));
 }
 
 void Contract::fail_at_servo(std::size_t servo, const std::string& message) const {

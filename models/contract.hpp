@@ -1,12 +1,15 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <initializer_list>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "models/mjcf/document.hpp"
+#include "models/mjcf/parts.hpp"
 #include "models/mjcf/types.hpp"
 #include "models/robot_description.hpp"
 #include "models/robot_model.hpp"
@@ -30,6 +33,8 @@ class Contract {
   [[noreturn]] void fail_at_joint(int joint, const std::string& message) const;
   [[noreturn]] void fail_at_geom(int geom, const std::string& message) const;
   [[noreturn]] void fail_at_actuator(int actuator, const std::string& message) const;
+  /// An error about a connection: "connect 'x': …".
+  [[noreturn]] void fail_at_equality(int equality, const std::string& message) const;
   [[noreturn]] void fail_at_site(int site, const std::string& message) const;
   /// An error about a servo's joint: "joint 'left_hip': …".
   [[noreturn]] void fail_at_servo(std::size_t servo, const std::string& message) const;
@@ -45,7 +50,8 @@ class Contract {
 
  private:
   const tinyxml2::XMLElement* body_element(int body) const;
-  const tinyxml2::XMLElement* actuator_element(int actuator) const;
+  /// The child of all top-level sections with this tag, by its number.
+  const tinyxml2::XMLElement* section_element(std::string_view tag, int number) const;
   /// The child of a body with one of these tags, by its number among them.
   const tinyxml2::XMLElement* child(int body, int number,
                                     std::initializer_list<std::string_view> tags) const;
@@ -63,6 +69,30 @@ class Contract {
 /// too, and `efforts`, by joint of the file.
 void find_servos(RobotModel& robot, const RobotDescription& description,
                  const std::map<std::string, double>& efforts, const Contract& contract);
+
+/// Finds the closed legs, if the model has connections: their hinges and motors, with limits as
+/// `find_servos` has them. Axes of one leg become parallel. Errors: `InputError` for loops that are
+/// not in the plane of one leg, joints that are in none, springs, and legs without one or two
+/// motors.
+void find_closed_legs(RobotModel& robot, const RobotDescription& description,
+                      const std::map<std::string, double>& efforts, const Contract& contract);
+
+/// Measures the closed legs at the final size and closes their loops: near the pose of the file,
+/// with ends in one plane. Errors: `InputError` for points that do not meet, and for motors that do
+/// not determine the wheel.
+void measure_closed_legs(RobotModel& robot, std::span<const LoopSites> sites,
+                         const Contract& contract);
+
+/// The torque limit of a joint of the file, beside that of its motor (N·m); infinite without one.
+double limit_of(const std::map<std::string, double>& efforts, const std::string& joint);
+
+/// Throws an `InputError` about a motor.
+using FailAtMotor = std::function<void(const std::string& message)>;
+
+/// The torque limit of a motor on its joint (N·m): the control range times the gain, within the
+/// force range, times the gear, and at most `most`. Position and velocity servos count with their
+/// force range. Errors: `fail` for activations, limits that are not symmetric, and none at all.
+double torque_limit(const mjModel& model, int motor, double most, const FailAtMotor& fail);
 
 /// Finds the held joints and the servos that hold them. A position servo of the file keeps its
 /// gains. Others get those that `gains: lqr` gives to hips and knees, of a pendulum of the robot's

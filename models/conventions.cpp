@@ -206,6 +206,14 @@ std::string turn_base(RobotModel& robot, std::string_view given) {
   turn_those(model.nbody, model.body_parentid, model.body_pos, model.body_quat);
   turn_those(model.ngeom, model.geom_bodyid, model.geom_pos, model.geom_quat);
   turn_those(model.nsite, model.site_bodyid, model.site_pos, model.site_quat);
+  for (int loop = 0; loop < model.neq; ++loop) {
+    mjtNum* const anchor = &model.eq_data[mjNEQDATA * loop];
+    for (const bool is_first : {true, false}) {
+      if ((is_first ? model.eq_obj1id : model.eq_obj2id)[loop] != base) continue;
+      const Vector3d at = turn * vector_at(anchor, is_first ? 0 : 1);
+      std::copy_n(at.data(), 3, anchor + (is_first ? 0 : 3));
+    }
+  }
   turn_those(model.ncam, model.cam_bodyid, model.cam_pos, model.cam_quat);
   // Frames may differ now that MuJoCo took for the same.
   std::fill_n(model.body_sameframe, model.nbody, mjtByte{0});

@@ -174,7 +174,10 @@ void recompute(mjModel& mj) {
   if (!data) throw Error("MuJoCo could not make its data: out of memory");
   // Rendering uses the scene's fixed size (models/scene_mjcf.hpp), not a recomputed one.
   const mjStatistic scene = mj.stat;
+  // MuJoCo would close loops in the pose of the file, which may have them open.
+  const std::vector<mjtNum> anchors(mj.eq_data, mj.eq_data + mjNEQDATA * mj.neq);
   mj_setConst(&mj, data.get());
+  std::copy(anchors.begin(), anchors.end(), mj.eq_data);
   mj.stat.extent = scene.extent;
   std::copy_n(scene.center, 3, mj.stat.center);
 }

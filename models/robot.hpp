@@ -80,6 +80,9 @@ struct Observation {
   /// Time since the reset (s): the step count times the control period.
   double time = 0.0;
   std::array<ServoReading, servo_count> servo;
+  /// Motors of closed legs, those of the left leg first; empty for open legs. `servo` has the
+  /// virtual legs (models/linkage.hpp), as they follow from the motors.
+  std::vector<ServoReading> motor = {};
   ImuReading imu;
   /// Pitch of the base, positive when it leans forward (rad), and its rate (rad/s), from the IMU.
   double pitch = 0.0;

@@ -70,6 +70,38 @@ static void check_held(const Fields& fields, const std::vector<std::string>& hel
   }
 }
 
+static void describe(Fields& fields, LoopKeys& loop) {
+  fields.require("bodies", loop.bodies).doc("The two bodies, links of a URDF.");
+  fields.check(loop.bodies.size() == 2, "bodies", "expected two bodies");
+  const auto point = [&](const char* key, std::vector<double>& numbers) {
+    const KeyNotes notes = fields.in_line(key, numbers);
+    fields.check(numbers.size() == 3, key, "expected three numbers: x, y, z");
+    return notes.type("list of x, y, z");
+  };
+  fields.require("anchor");
+  point("anchor", loop.anchor).doc("m", "The common point, in the first body.");
+  fields.know("second_anchor");
+  if (fields.present("second_anchor", !loop.second_anchor.empty())) {
+    point("second_anchor", loop.second_anchor)
+        .fallback("where `anchor` is in the pose of the file")
+        .doc("m", "The same point, in the second body.");
+  }
+}
+
+static void describe_loops(Fields& fields, PartNames& parts) {
+  fields.list_if_any("loops", parts.loops)
+      .doc("Loops of closed legs, where a URDF has cut them open.");
+  fields.know("motors");
+  if (!fields.present("motors", !parts.motors[0].empty() || !parts.motors[1].empty())) return;
+  fields
+      .within("motors",
+              [&](Fields& motors) {
+                motors.require("left", parts.motors[0]).doc("Joints of the left leg's motors.");
+                motors.require("right", parts.motors[1]).doc("Joints of the right leg's motors.");
+              })
+      .doc("Motors of closed legs, where the file has none: one or two a leg.");
+}
+
 static void describe_parts(Fields& fields, PartNames& parts) {
   fields.know("joints");
   const bool has_joints = std::any_of(parts.joint.begin(), parts.joint.end(),
@@ -99,6 +131,7 @@ static void describe_parts(Fields& fields, PartNames& parts) {
         .doc("Joints that servos keep at their reference, such as hip rolls.");
     check_held(fields, parts.held);
   }
+  describe_loops(fields, parts);
   fields.know("tyres");
   if (fields.present("tyres",
                      !parts.tyre[0].empty() || !parts.tyre[1].empty() || parts.tyre_radius > 0.0)) {

@@ -38,18 +38,29 @@ struct HeldServo {
   std::optional<double> maximum_torque;  ///< N·m
 };
 
+/// A point at which two bodies of a cut loop are one.
+struct LoopKeys {
+  std::vector<std::string> bodies;  ///< two
+  std::vector<double> anchor;       ///< in the first body (m)
+  /// In the second body (m); if empty, where `anchor` is in the pose of the file.
+  std::vector<double> second_anchor;
+};
+
 /// The parts of a robot in its MJCF or URDF. An empty name stands for the name in the contract
 /// (docs/guides/robots.md).
 struct PartNames {
   std::array<std::string, servo_count> joint;  ///< in servo order
   bool has_hips = true;                        ///< false: legs of a knee and a wheel
   std::vector<std::string> held;               ///< joints that a servo keeps at their reference
-  std::array<std::string, wheel_count> tyre;   ///< geoms, or bodies with one round collider
-  double tyre_radius = 0.0;                    ///< of spheres in place of these colliders (m)
-  std::vector<std::string> no_collision;       ///< geoms, or bodies, that touch nothing
-  std::string forward = "auto";                ///< the axis that faces forward: x, -x, y, -y
-  std::string imu;                             ///< a site, or a body with the frame of the IMU
-  std::string base;                            ///< the floating link of a URDF
+  std::vector<LoopKeys> loops;                 ///< besides the file's <connect>s
+  std::array<std::vector<std::string>, wheel_count>
+      motors;                                 ///< joints that get motors: left, right
+  std::array<std::string, wheel_count> tyre;  ///< geoms, or bodies with one round collider
+  double tyre_radius = 0.0;                   ///< of spheres in place of these colliders (m)
+  std::vector<std::string> no_collision;      ///< geoms, or bodies, that touch nothing
+  std::string forward = "auto";               ///< the axis that faces forward: x, -x, y, -y
+  std::string imu;                            ///< a site, or a body with the frame of the IMU
+  std::string base;                           ///< the floating link of a URDF
 };
 
 /// A robot as described by a file. The file is either an MJCF, with joints that may have
@@ -75,6 +86,8 @@ struct PartNames {
 ///     held: [l_hip_roll, r_hip_roll]
 ///     held_servo: {kp: 200, kd: 10, maximum_torque: 60}
 ///     tyres: {left: l_tire, right: r_tire}
+///     motors: {left: [l_front, l_rear], right: [r_front, r_rear]}       # of closed legs
+///     loops: [{bodies: [l_shank, l_rod], anchor: [0, 0, -0.28]}, …]
 ///     no_collision: [l_guard]
 ///     forward: -y
 ///     imu: imu_link

@@ -18,6 +18,18 @@ void write_pose(const RobotModel& robot, const Eigen::Vector3d& position,
   for (std::size_t i = 0; i < servo_count; ++i) {
     if (robot.has(i)) qpos[robot.qpos_address[i]] = joint_position[i];
   }
+  for (std::size_t leg = 0; leg < wheel_count; ++leg) {
+    // Measured legs only: those of a robot that is being compiled have no start yet.
+    if (!robot.closed_leg[leg] || robot.closed_leg[leg]->linkage.start.size() == 0) continue;
+    const Linkage& linkage = robot.closed_leg[leg]->linkage;
+    const std::vector<int>& joint = robot.closed_leg[leg]->joint;
+    LinkageVector q = linkage.start;
+    const bool closes =
+        move_virtual_leg(linkage, joint_position[3 * leg], joint_position[3 * leg + 1], q);
+    for (std::size_t i = closes ? 0 : 2; i < joint.size(); ++i) {
+      qpos[robot.mj->jnt_qposadr[joint[i]]] = q[static_cast<Eigen::Index>(i)];
+    }
+  }
 }
 
 void write_held(const RobotModel& robot, std::span<const double> position, mjtNum* qpos) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "models/actuator.hpp"
+#include "models/linkage.hpp"
 #include "models/mjcf/types.hpp"
 #include "models/robot.hpp"
 #include "models/terrain.hpp"
@@ -31,6 +33,14 @@ struct HeldJoint {
   double effort = 0.0;     ///< torque limit (N·m)
   Actuator actuator;       ///< friction, viscous friction and armature of the file
   std::string kp_source;   ///< where kp is from, for messages
+};
+
+/// A leg with closed loops. Its hip and knee are those of the virtual leg (models/linkage.hpp),
+/// which may have no motor.
+struct ClosedLeg {
+  Linkage linkage;
+  std::vector<int> joint;  ///< of each hinge, in the model: hip, knee, then cranks and rods
+  std::vector<int> equality;
 };
 
 /// A compiled robot on a terrain. Both physics engines and the renderer are built from it.
@@ -65,6 +75,14 @@ struct RobotModel {
   std::vector<HeldJoint> held;                      ///< in the order of the robot's file
   std::vector<std::string> ignored;                 ///< what of the file is not simulated
 
+  /// Left and right leg, if they have closed loops.
+  std::array<std::optional<ClosedLeg>, wheel_count> closed_leg;
+  /// Cranks and rods of closed legs: joints of the left leg, then of the right.
+  std::vector<int> linked;
+  /// The joint that each motor turns; −1 without one. In open legs this is `joint`. The motors of a
+  /// closed leg count as its hip and knee: `effort` and `actuator` are theirs.
+  std::array<int, servo_count> motor_joint = {};
+
   bool has(std::size_t servo) const { return joint[servo] >= 0; }
   /// The angle of a servo's joint at the reference pose, that of the file (rad).
   double reference(std::size_t servo) const { return mj->qpos0[qpos_address[servo]]; }
@@ -82,7 +100,9 @@ struct RobotModel {
 /// its warnings are dropped. MuJoCo's own handlers wait for a key press and write files.
 RobotModel compile_robot_model(const std::filesystem::path& robot, const Terrain& terrain);
 
-/// Writes the pose of the base and the joint positions into mjData::qpos.
+/// Writes the pose of the base and the joint positions into mjData::qpos. Cranks and rods of closed
+/// legs follow hip and knee, with one motor also the knee; where the loops do not close, they stay
+/// at their start.
 void write_pose(const RobotModel& robot, const Eigen::Vector3d& position,
                 const Eigen::Quaterniond& orientation,
                 const std::array<double, servo_count>& joint_position, mjtNum* qpos);

@@ -15,16 +15,7 @@ namespace {
 
 using Efforts = std::map<std::string, double>;
 
-/// Throws an `InputError` about a motor.
-using FailAtMotor = std::function<void(const std::string& message)>;
-
 constexpr double no_limit = std::numeric_limits<double>::infinity();
-
-/// The torque limit of a joint, beside that of its motor.
-double limit_of(const Efforts& efforts, const std::string& joint) {
-  const auto found = efforts.find(joint);
-  return found == efforts.end() ? no_limit : found->second;
-}
 
 /// The upper end of a range that must be symmetric.
 double symmetric(const mjtNum* range, const char* what, const FailAtMotor& fail) {
@@ -35,9 +26,13 @@ double symmetric(const mjtNum* range, const char* what, const FailAtMotor& fail)
   return range[1];
 }
 
-/// The torque limit of a motor on its joint (N·m): the control range times the gain, within the
-/// force range, times the gear, and at most `most`. Position and velocity servos count with their
-/// force range. Errors: `fail` for activations, limits that are not symmetric, and none at all.
+}  // namespace
+
+double limit_of(const Efforts& efforts, const std::string& joint) {
+  const auto found = efforts.find(joint);
+  return found == efforts.end() ? no_limit : found->second;
+}
+
 double torque_limit(const mjModel& model, int motor, double most, const FailAtMotor& fail) {
   if (model.actuator_dyntype[motor] != mjDYN_NONE) {
     fail("expected a motor, found an activation (dyntype)");
@@ -67,6 +62,8 @@ double torque_limit(const mjModel& model, int motor, double most, const FailAtMo
   if (!(limit > 0.0)) fail("expected a torque limit above 0 N·m");
   return std::min(limit, most);
 }
+
+namespace {
 
 /// Removes the law of a position or velocity servo: MuJoCo must not add it to touchdown's. Returns
 /// whether there was one.
@@ -302,17 +299,21 @@ void find_servos(RobotModel& robot, const RobotDescription& description, const E
     if (i % 3 == 0 && !contract.parts().has_hips) continue;
     collect(complaints, [&] {
       robot.joint[i] = find_joint(model, contract, i);
-      motor[i] = contract.find(mjOBJ_ACTUATOR, "motor", servo_names[i]);
+      if (i % 3 == 2 || model.neq == 0) {
+        motor[i] = contract.find(mjOBJ_ACTUATOR, "motor", servo_names[i]);
+      }
     });
   }
   require_none(complaints);
-  collect(complaints, [&] { refuse_other_joints(robot, contract); });
+  // Rods of closed legs are found with their loops.
+  if (model.neq == 0) collect(complaints, [&] { refuse_other_joints(robot, contract); });
   for (std::size_t i = 0; i < servo_count; ++i) {
     robot.qpos_address[i] = robot.dof_address[i] = -1;
     if (!robot.has(i)) continue;
     const int joint = robot.joint[i];
     robot.qpos_address[i] = model.jnt_qposadr[joint];
     robot.dof_address[i] = model.jnt_dofadr[joint];
+    if (motor[i] < 0) continue;
     const auto& given = description.actuator(static_cast<Servo>(i));
     const double most = std::min(given ? given->maximum_torque : no_limit,
                                  limit_of(efforts, own_name(contract.parts(), i)));
@@ -330,7 +331,7 @@ void find_servos(RobotModel& robot, const RobotDescription& description, const E
   for (int i = 0; i < model.nu; ++i) {
     const char* const name = mj_id2name(&model, mjOBJ_ACTUATOR, i);
     if (is_held_name(name)) continue;
-    if (std::find(motor.begin(), motor.end(), i) == motor.end()) {
+    if (model.neq == 0 && std::find(motor.begin(), motor.end(), i) == motor.end()) {
       contract.fail_at_actuator(
           i, fmt::format("actuator {}: expected one motor for each servo, and no other",
                          name == nullptr ? "without a name" : fmt::format("'{}'", name)));
@@ -338,9 +339,10 @@ void find_servos(RobotModel& robot, const RobotDescription& description, const E
     // The servos' law is touchdown's: MuJoCo must not add that of the file.
     if (remove_law(model, i)) {
       robot.ignored.push_back(fmt::format("{}: actuator '{}': its own law; its forcerange counts",
-                                          contract.place_of_actuator(i), name));
+                                          contract.place_of_actuator(i), name ? name : ""));
     }
   }
+  robot.motor_joint = robot.joint;
 }
 
 void find_held(RobotModel& robot, const RobotDescription& description, const Efforts& efforts,

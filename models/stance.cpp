@@ -60,6 +60,27 @@ Stance stance_within_ranges(const RobotModel& robot) {
 
 }  // namespace
 
+/// The complaint about a stance in which the loops of a leg do not close, or its motors do not
+/// determine the wheel.
+static std::optional<StanceError> loop_error(const RobotModel& robot,
+                                             const std::array<double, servo_count>& angle) {
+  for (std::size_t leg = 0; leg < wheel_count; ++leg) {
+    if (!robot.closed_leg[leg]) continue;
+    const Linkage& linkage = robot.closed_leg[leg]->linkage;
+    const char* const side = leg == 0 ? "left" : "right";
+    LinkageVector q = linkage.start;
+    if (!move_virtual_leg(linkage, angle[3 * leg], angle[3 * leg + 1], q)) {
+      return StanceError{"hip", fmt::format("the loops of the {} leg do not close there", side)};
+    }
+    if (!is_regular(linkage, q)) {
+      return StanceError{"hip", fmt::format("the rods of the {} leg are in line there: its motors "
+                                            "do not determine the wheel",
+                                            side)};
+    }
+  }
+  return std::nullopt;
+}
+
 bool can_turn(const RobotModel& robot, std::size_t servo, double angle) {
   const int joint = robot.joint[servo];
   const mjtNum* range = &robot.mj->jnt_range[2 * joint];
@@ -75,6 +96,7 @@ Stance from_straight(const RobotModel& robot, const Stance& stance) {
 }
 
 Stance usual_stance(const RobotModel& robot) {
+  if (const auto& leg = robot.closed_leg[0]) return {leg->linkage.start[0], -leg->linkage.start[1]};
   const Stance crouch;
   const Stance mirrored = {-crouch.hip, -crouch.knee};
   if (!stance_error(robot, crouch)) return crouch;
@@ -106,7 +128,7 @@ std::optional<StanceError> stance_error(const RobotModel& robot, const Stance& s
                     shown(high), robot.joint_name[i],
                     in_zeros_of_file ? "" : " from a straight leg", shown(sign * angle[i]))};
   }
-  return std::nullopt;
+  return loop_error(robot, angle);
 }
 
 }  // namespace touchdown::models

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace touchdown::simulators {
 
@@ -34,9 +35,10 @@ Actuators::Actuators(const models::RobotModel& model, const StepSizes& steps)
     Joint& joint = joint_[i];
     joint.actuator = model.actuator[i];
     joint.effort = model.effort[i];  // zero without a joint
-    if (!model.has(i)) continue;
-    joint.friction = JointFriction(
-        joint.actuator, 1.0 / model.mj->dof_invweight0[model.dof_address[i]], physics_period);
+    if (model.motor_joint[i] < 0) continue;
+    const int dof = model.mj->jnt_dofadr[model.motor_joint[i]];
+    joint.friction =
+        JointFriction(joint.actuator, 1.0 / model.mj->dof_invweight0[dof], physics_period);
     if (joint.actuator.torque_lag > 0.0) {
       joint.lag_gain = -std::expm1(-physics_period / joint.actuator.torque_lag);
     }
@@ -66,25 +68,45 @@ const models::Action& Actuators::delayed(const models::Action& action) {
   return executed_;
 }
 
+void Actuators::share_among_motors(const LegMotors& motors, JointTorques& torques) const {
+  for (std::size_t leg = 0; leg < motors.map.size(); ++leg) {
+    if (!motors.map[leg]) continue;
+    const models::LinkageVector shared =
+        motors.map[leg]->motor_torques({torques[3 * leg], torques[3 * leg + 1]});
+    torques[3 * leg + 1] = 0.0;
+    for (Eigen::Index i = 0; i < shared.size(); ++i) {
+      const std::size_t servo = 3 * leg + static_cast<std::size_t>(i);
+      torques[servo] = std::clamp(shared[i], -joint_[servo].effort, joint_[servo].effort);
+    }
+  }
+}
+
 Actuators::Torques Actuators::step(const models::Action& action, const JointTorques& position,
-                                   const JointTorques& velocity) {
+                                   const JointTorques& velocity, const LegMotors* motors) {
   Torques torques;
   for (std::size_t i = 0; i < joint_.size(); ++i) {
-    torques.reported[i] = servo_torque(action.servo[i], position[i], velocity[i], joint_[i].effort);
+    const bool is_virtual = motors != nullptr && i % 3 != 2;
+    torques.reported[i] =
+        servo_torque(action.servo[i], position[i], velocity[i],
+                     is_virtual ? std::numeric_limits<double>::infinity() : joint_[i].effort);
   }
+  if (motors != nullptr) share_among_motors(*motors, torques.reported);
   if (ideal_) {
     torques.applied = torques.reported;
     return torques;
   }
   for (std::size_t i = 0; i < joint_.size(); ++i) {
     Joint& joint = joint_[i];
-    if (!started_) joint.friction.start_at(position[i]);
+    const bool is_virtual = motors != nullptr && i % 3 != 2;
+    const double angle = is_virtual ? motors->position[i] : position[i];
+    const double rate = is_virtual ? motors->velocity[i] : velocity[i];
+    if (!started_) joint.friction.start_at(angle);
     joint.torque += joint.lag_gain * (torques.reported[i] - joint.torque);
     const models::Actuator& a = joint.actuator;
     torques.reported[i] = joint.torque;
     torques.applied[i] = (1.0 + a.torque_error) * joint.torque +
-                         a.ripple * std::sin(a.ripple_cycles * position[i]) -
-                         joint.friction.torque(position[i], velocity[i]) - a.viscous * velocity[i];
+                         a.ripple * std::sin(a.ripple_cycles * angle) -
+                         joint.friction.torque(angle, rate) - a.viscous * rate;
   }
   started_ = true;
   return torques;

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <deque>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "models/actuator.hpp"
+#include "models/linkage.hpp"
 #include "models/robot.hpp"
 #include "models/robot_model.hpp"
 #include "models/simulated_joints.hpp"
@@ -44,6 +46,14 @@ double servo_torque(const models::ServoCommand& command, double position, double
 /// One number per joint, in servo order.
 using JointTorques = std::array<double, models::servo_count>;
 
+/// The motors of closed legs at one instant. They count as hip and knee; a leg with one motor has
+/// none at the knee.
+struct LegMotors {
+  std::array<std::optional<models::MotorMap>, models::wheel_count> map;
+  JointTorques position = {};  ///< rad
+  JointTorques velocity = {};  ///< rad/s
+};
+
 /// Simulates the six actuators of a robot (models/actuator.hpp), the same in every engine. From
 /// commands, it computes the torques that servos report and those applied to joints. The engine
 /// simulates the rotors' inertia.
@@ -63,9 +73,11 @@ class Actuators {
     JointTorques applied = {};   ///< to the joints, without forces from the ground
   };
 
-  /// Simulates one physics step, at these joint positions (rad) and velocities (rad/s).
+  /// Simulates one physics step, at these joint positions (rad) and velocities (rad/s). Servos of
+  /// closed legs act on hip and knee of the virtual leg. Their motors share the torque by virtual
+  /// work, each within its limit, and have its friction, delay and lag: torques are theirs.
   Torques step(const models::Action& action, const JointTorques& position,
-               const JointTorques& velocity);
+               const JointTorques& velocity, const LegMotors* motors = nullptr);
 
   /// Whether joints get the torques that servos report.
   bool are_ideal() const { return ideal_; }
@@ -80,6 +92,10 @@ class Actuators {
     std::size_t delay = 0;  ///< control steps
     double torque = 0.0;    ///< that the servo reports (N·m)
   };
+
+  /// Turns torques of hips and knees of closed legs into those of their motors, within their
+  /// limits.
+  void share_among_motors(const LegMotors& motors, JointTorques& torques) const;
 
   std::array<Joint, models::servo_count> joint_;
   bool ideal_;

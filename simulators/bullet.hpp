@@ -12,6 +12,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+#include <BulletDynamics/Featherstone/btMultiBodyPoint2Point.h>
 
 #include "models/robot_model.hpp"
 #include "simulators/simulator.hpp"
@@ -88,6 +89,11 @@ class BulletWorld {
   /// Bullet's link that a servo's joint moves; the robot has this joint.
   int link_of(std::size_t servo) const { return link_of_servo_[servo]; }
 
+  /// The link that a joint of the model moves.
+  int link_of_joint(int joint) const {
+    return link_of_body_[static_cast<std::size_t>(body_of_joint_[joint])];
+  }
+
   /// The link that a held joint moves. Its angle is zero at the joint's reference.
   int link_of_held(std::size_t number) const { return link_of_held_[number]; }
 
@@ -109,6 +115,8 @@ class BulletWorld {
   /// that of the link is zero.
   void add_joint_limit(const mjModel& mj, int joint, int link, double zero);
   void add_colliders(const models::RobotModel& model);
+  /// Closes the loops of closed legs.
+  void add_loops(const models::RobotModel& model);
   void add_terrain(const models::RobotModel& model);
   /// The shape of a geom. It lives as long as the world.
   btCollisionShape* make_shape(const mjModel& mj, int geom);
@@ -123,7 +131,9 @@ class BulletWorld {
   std::unique_ptr<btMultiBody> robot_;
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
   std::vector<std::unique_ptr<btMultiBodyJointLimitConstraint>> joint_limits_;
+  std::vector<std::unique_ptr<btMultiBodyConstraint>> loops_;
   std::vector<int> link_of_body_;
+  const int* body_of_joint_ = nullptr;  ///< the model's
   std::array<int, models::servo_count> link_of_servo_ = {};
   std::vector<int> link_of_held_;
   std::array<double, models::servo_count> reference_ = {};  ///< of each joint (rad)
@@ -158,6 +168,9 @@ class BulletSimulator : public Simulator {
   void read(ContactForces& forces) const override;
 
  private:
+  /// The angle of a joint where its link's is zero (rad).
+  double reference(int joint) const;
+
   std::unique_ptr<BulletWorld> world_;
   std::unique_ptr<Rotors> rotors_;
   Eigen::Vector3d base_com_;           ///< centre of mass of the base body in its frame (m)

@@ -63,6 +63,9 @@ Rotors::Rotors(const models::RobotModel& model, const BulletWorld& world) {
   for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
     if (model.has(servo)) add(model.dof_address[servo], world.link_of(servo));
   }
+  for (std::size_t i = 0; i < model.linked.size(); ++i) {
+    add(model.mj->jnt_dofadr[model.linked[i]], world.link_of_joint(model.linked[i]));
+  }
   for (std::size_t i = 0; i < model.held.size(); ++i) {
     add(model.held[i].dof_address, world.link_of_held(i));
   }
@@ -109,6 +112,10 @@ std::unique_ptr<Simulator> make_bullet(const std::shared_ptr<const models::Robot
   return std::make_unique<BulletSimulator>(model, options);
 }
 
+double BulletSimulator::reference(int joint) const {
+  return model().mj->qpos0[model().mj->jnt_qposadr[joint]];
+}
+
 void BulletSimulator::place(const RobotState& start) {
   world_ = std::make_unique<BulletWorld>(model(), options());
   rotors_ = std::make_unique<Rotors>(model(), *world_);
@@ -122,6 +129,12 @@ void BulletSimulator::place(const RobotState& start) {
     if (!model().has(i)) continue;
     robot.setJointPos(world_->link_of(i), world_->to_bullet_angle(i, start.joint_position[i]));
     robot.setJointVel(world_->link_of(i), start.joint_velocity[i]);
+  }
+  for (std::size_t i = 0; i < start.linked_position.size(); ++i) {
+    const int joint = model().linked[i];
+    const int link = world_->link_of_joint(joint);
+    robot.setJointPos(link, start.linked_position[i] - reference(joint));
+    robot.setJointVel(link, start.linked_velocity[i]);
   }
   for (std::size_t i = 0; i < start.held_position.size(); ++i) {
     robot.setJointPos(world_->link_of_held(i), start.held_position[i] - model().held[i].reference);
@@ -139,8 +152,8 @@ void BulletSimulator::advance(const AppliedTorques& torques,
                               std::span<const ExternalWrench> wrenches) {
   btMultiBody& robot = world_->robot();
   for (std::size_t i = 0; i < models::servo_count; ++i) {
-    if (!model().has(i)) continue;
-    robot.addJointTorque(world_->link_of(i), torques.servo[i]);
+    const int joint = model().motor_joint[i];
+    if (joint >= 0) robot.addJointTorque(world_->link_of_joint(joint), torques.servo[i]);
   }
   for (std::size_t i = 0; i < torques.held.size(); ++i) {
     robot.addJointTorque(world_->link_of_held(i), torques.held[i]);
@@ -165,6 +178,13 @@ void BulletSimulator::read(RobotState& state) const {
     if (!model().has(i)) continue;
     state.joint_position[i] = world_->from_bullet_angle(i, robot.getJointPos(world_->link_of(i)));
     state.joint_velocity[i] = robot.getJointVel(world_->link_of(i));
+  }
+  state.linked_position.clear();
+  state.linked_velocity.clear();
+  for (const int joint : model().linked) {
+    const int link = world_->link_of_joint(joint);
+    state.linked_position.push_back(robot.getJointPos(link) + reference(joint));
+    state.linked_velocity.push_back(robot.getJointVel(link));
   }
   state.held_position.clear();
   state.held_velocity.clear();

@@ -90,6 +90,59 @@ btTransform geom_in_link(const mjModel& mj, int geom, const InertiaFrame& frame)
                      to_bullet(to_frame * (models::vector_at(mj.geom_pos, geom) - frame.position)));
 }
 
+/// A constraint of a robot's links that is solved with the robot. Bullet asks the linked links'
+/// colliders for their island, and never solves constraints of links that have none.
+template <typename Constraint>
+class InIsland : public Constraint {
+ public:
+  using Constraint::Constraint;
+  int getIslandIdA() const override { return island(*this->m_bodyA); }
+  int getIslandIdB() const override { return island(*this->m_bodyA); }
+
+ private:
+  static int island(btMultiBody& robot) {
+    const btMultiBodyLinkCollider* collider = robot.getBaseCollider();
+    for (int link = 0; collider == nullptr && link < robot.getNumLinks(); ++link) {
+      collider = robot.getLink(link).m_collider;
+    }
+    return collider == nullptr ? -1 : collider->getIslandTag();
+  }
+};
+
+/// Keeps two points of a robot together in the plane of its legs. Hinges cannot close a loop
+/// sideways: a third row would press the slightest skew into it.
+class PlanarLoop : public InIsland<btMultiBodyPoint2Point> {
+ public:
+  /// `across`: the plane's two directions in the frame of the base's link.
+  PlanarLoop(btMultiBody& robot, const std::array<int, 2>& link, const std::array<btVector3, 2>& at,
+             const std::array<btVector3, 2>& across)
+      : InIsland(&robot, link[0], &robot, link[1], at[0], at[1]), across_(across) {}
+
+  void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+                            const btContactSolverInfo& info) override {
+    btContactSolverInfo stiff = info;
+    stiff.m_erp = stiff.m_erp2 = 0.8;
+    const btVector3 first = m_bodyA->localPosToWorld(m_linkA, m_pivotInA);
+    const btVector3 second = m_bodyB->localPosToWorld(m_linkB, m_pivotInB);
+    const btVector3 zero(0.0, 0.0, 0.0);
+    for (std::size_t i = 0; i < across_.size(); ++i) {
+      btMultiBodySolverConstraint& row = rows.expandNonInitializing();
+      row.m_orgConstraint = this;
+      row.m_orgDofIndex = static_cast<int>(i);
+      row.m_relpos1CrossNormal = row.m_contactNormal1 = row.m_relpos2CrossNormal = zero;
+      row.m_contactNormal2 = row.m_angularComponentA = row.m_angularComponentB = zero;
+      row.m_solverBodyIdA = row.m_solverBodyIdB = data.m_fixedBodyId;
+      const btVector3 to = -m_bodyA->localDirToWorld(-1, across_[i]);
+      fillMultiBodyConstraint(row, data, nullptr, nullptr, zero, to, first, second,
+                              (first - second).dot(to), stiff, -m_maxAppliedImpulse,
+                              m_maxAppliedImpulse);
+    }
+  }
+
+ private:
+  std::array<btVector3, 2> across_;
+};
+
 }  // namespace
 
 BulletTyres::BulletTyres(const models::RobotModel& robot, const SimulatorOptions& options)
@@ -163,11 +216,13 @@ BulletWorld::BulletWorld(const models::RobotModel& model, const SimulatorOptions
   build_links(model);
   world_.addMultiBody(robot_.get());
   add_joint_limits(model);
+  add_loops(model);
   add_colliders(model);
   add_terrain(model);
 }
 
 BulletWorld::~BulletWorld() {
+  for (auto& loop : loops_) world_.removeMultiBodyConstraint(loop.get());
   for (auto& limit : joint_limits_) world_.removeMultiBodyConstraint(limit.get());
   for (auto& collider : colliders_) world_.removeCollisionObject(collider.get());
   for (auto& body : terrain_) world_.removeRigidBody(body.get());
@@ -177,6 +232,7 @@ BulletWorld::~BulletWorld() {
 void BulletWorld::build_links(const models::RobotModel& model) {
   const mjModel& mj = *model.mj;
   // Bodies are sorted parents first; the robot's are those below the base.
+  body_of_joint_ = mj.jnt_bodyid;
   link_of_body_.assign(static_cast<std::size_t>(mj.nbody), -2);
   std::vector<int> links;
   for (int body = 1; body < mj.nbody; ++body) {
@@ -257,6 +313,35 @@ void BulletWorld::add_joint_limit(const mjModel& mj, int joint, int link, double
   auto& limit = joint_limits_.emplace_back(std::make_unique<btMultiBodyJointLimitConstraint>(
       robot_.get(), link, in_link(range[0]), in_link(range[1])));
   world_.addMultiBodyConstraint(limit.get());
+}
+
+void BulletWorld::add_loops(const models::RobotModel& model) {
+  const mjModel& mj = *model.mj;
+  if (mj.neq == 0) return;
+  world_.getSolverInfo().m_numIterations = 50;  // loops close within .1 mm; with 10, within 1 mm
+  const Eigen::Matrix3d base = models::quaternion_at(mj.body_iquat, model.base_body).matrix();
+  const std::array<btVector3, 2> across = {to_bullet(base.row(0)), to_bullet(base.row(2))};
+  for (int loop = 0; loop < mj.neq; ++loop) {
+    std::array<int, 2> link = {mj.eq_obj1id[loop], mj.eq_obj2id[loop]};
+    std::array<btVector3, 2> at;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const InertiaFrame frame = inertia_frame(mj, link.at(i));
+      const mjtNum* const anchor = &mj.eq_data[mjNEQDATA * loop + 3 * static_cast<int>(i)];
+      link.at(i) = link_of_body_[static_cast<std::size_t>(link.at(i))];
+      at.at(i) = to_bullet(frame.orientation.conjugate() *
+                           (models::vector_at(anchor, 0) - frame.position));
+    }
+    loops_.push_back(std::make_unique<PlanarLoop>(*robot_, link, at, across));
+    world_.addMultiBodyConstraint(loops_.back().get());
+  }
+  for (const int joint : model.linked) {
+    const mjtNum* const range = &mj.jnt_range[2 * joint];
+    const double zero = mj.qpos0[mj.jnt_qposadr[joint]];
+    if (mj.jnt_limited[joint] == 0) continue;
+    loops_.push_back(std::make_unique<InIsland<btMultiBodyJointLimitConstraint>>(
+        robot_.get(), link_of_joint(joint), range[0] - zero, range[1] - zero));
+    world_.addMultiBodyConstraint(loops_.back().get());
+  }
 }
 
 void BulletWorld::add_colliders(const models::RobotModel& model) {

@@ -150,6 +150,10 @@ void MujocoSimulator::place(const RobotState& start) {
     if (!model().has(i)) continue;
     data_->qvel[model().dof_address[i]] = start.joint_velocity[i];
   }
+  for (std::size_t i = 0; i < start.linked_position.size(); ++i) {
+    data_->qpos[mj_->jnt_qposadr[model().linked[i]]] = start.linked_position[i];
+    data_->qvel[mj_->jnt_dofadr[model().linked[i]]] = start.linked_velocity[i];
+  }
   models::write_held(model(), start.held_position, data_->qpos);
   for (std::size_t i = 0; i < start.held_velocity.size(); ++i) {
     data_->qvel[model().held[i].dof_address] = start.held_velocity[i];
@@ -159,8 +163,8 @@ void MujocoSimulator::place(const RobotState& start) {
 void MujocoSimulator::advance(const AppliedTorques& torques,
                               std::span<const ExternalWrench> wrenches) {
   for (std::size_t i = 0; i < models::servo_count; ++i) {
-    if (!model().has(i)) continue;
-    data_->qfrc_applied[model().dof_address[i]] = torques.servo[i];
+    const int joint = model().motor_joint[i];
+    if (joint >= 0) data_->qfrc_applied[mj_->jnt_dofadr[joint]] = torques.servo[i];
   }
   for (std::size_t i = 0; i < torques.held.size(); ++i) {
     data_->qfrc_applied[model().held[i].dof_address] = torques.held[i];
@@ -198,6 +202,12 @@ void MujocoSimulator::read(RobotState& state) const {
     if (!model().has(i)) continue;
     state.joint_position[i] = data_->qpos[model().qpos_address[i]];
     state.joint_velocity[i] = data_->qvel[model().dof_address[i]];
+  }
+  state.linked_position.clear();
+  state.linked_velocity.clear();
+  for (const int joint : model().linked) {
+    state.linked_position.push_back(data_->qpos[mj_->jnt_qposadr[joint]]);
+    state.linked_velocity.push_back(data_->qvel[mj_->jnt_dofadr[joint]]);
   }
   state.held_position.clear();
   state.held_velocity.clear();

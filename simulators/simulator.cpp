@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.hpp"
 #include "simulators/tyres.hpp"
 
 namespace touchdown::simulators {
@@ -16,6 +17,45 @@ const Eigen::Vector3d world_to_ars(1.0, -1.0, -1.0);
 /// Rolling resistance, proportional to the load and smooth at standstill.
 double rolling_torque(double coefficient, double normal_force, double wheel_velocity) {
   return -coefficient * normal_force * std::tanh(wheel_velocity);
+}
+
+/// Where the cranks and rods of a leg are in `RobotState::linked_position`.
+std::size_t first_linked(const models::RobotModel& model, std::size_t leg) {
+  return leg == 0 ? 0 : model.closed_leg[0]->joint.size() - 2;
+}
+
+/// One number per hinge of a closed leg, from those of the virtual legs and of cranks and rods.
+models::LinkageVector of_hinges(const models::RobotModel& model, std::size_t leg,
+                                const JointTorques& joints, const std::vector<double>& linked) {
+  const std::size_t count = model.closed_leg[leg]->joint.size();
+  models::LinkageVector of(static_cast<Eigen::Index>(count));
+  of[0] = joints[3 * leg];
+  of[1] = joints[3 * leg + 1];
+  std::copy_n(linked.begin() + static_cast<std::ptrdiff_t>(first_linked(model, leg)), count - 2,
+              of.data() + 2);
+  return of;
+}
+
+/// A start with closed legs: cranks and rods follow hip and knee, with one motor also the knee.
+RobotState with_closed_legs(const models::RobotModel& model, RobotState state) {
+  state.linked_position.clear();
+  state.linked_velocity.clear();
+  for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
+    const models::Linkage& linkage = model.closed_leg[leg]->linkage;
+    double* const angle = &state.joint_position[3 * leg];
+    double* const rate = &state.joint_velocity[3 * leg];
+    models::LinkageVector q = linkage.start;
+    if (!move_virtual_leg(linkage, angle[0], angle[1], q)) {
+      throw InputError(model.name + ": the loops of its legs do not close at the start");
+    }
+    const models::MotorMap map(linkage, q);
+    const models::LinkageVector rates = map.all * map.motor_rates({rate[0], rate[1]});
+    std::copy_n(q.data(), 2, angle);
+    std::copy_n(rates.data(), 2, rate);
+    state.linked_position.insert(state.linked_position.end(), q.begin() + 2, q.end());
+    state.linked_velocity.insert(state.linked_velocity.end(), rates.begin() + 2, rates.end());
+  }
+  return state;
 }
 
 }  // namespace
@@ -34,7 +74,7 @@ void Simulator::reset(const RobotState& start) {
   forces_ = {};
   actuators_.reset();
   held_servos_.reset();
-  place(start);
+  place(model_->linked.empty() ? start : with_closed_legs(*model_, start));
   read(state_);
   observe(imu_velocity(), {});
   if (!actuators_.are_ideal()) truth_.joint_torque.emplace();
@@ -48,7 +88,10 @@ void Simulator::step(const models::Action& action, std::span<const ExternalWrenc
   const models::Action& commands = actuators_.delayed(action);
   Actuators::Torques torques;
   for (std::int64_t substep = 0; substep < substeps; ++substep) {
-    torques = actuators_.step(commands, state_.joint_position, state_.joint_velocity);
+    const bool has_loops = !model_->linked.empty();
+    if (has_loops) update_leg_motors();
+    torques = actuators_.step(commands, state_.joint_position, state_.joint_velocity,
+                              has_loops ? &leg_motors_ : nullptr);
     held_servos_.step(state_.held_position, state_.held_velocity);
     AppliedTorques applied{torques.applied, held_servos_.torques()};
     for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
@@ -71,7 +114,7 @@ void Simulator::step(const models::Action& action, std::span<const ExternalWrenc
     truth_.wheel_normal_force[wheel] = force_sum[wheel] / static_cast<double>(substeps);
   }
   truth_.body_touches_terrain = body_touched;
-  if (!actuators_.are_ideal()) truth_.joint_torque = torques.applied;
+  if (!actuators_.are_ideal()) truth_.joint_torque = at_virtual_legs(torques.applied);
 }
 
 Eigen::Vector3d Simulator::imu_velocity() const {
@@ -98,6 +141,7 @@ void Simulator::observe(const Eigen::Vector3d& velocity_before,
   observation_.imu.linear_acceleration = imu_to_world.transpose() * imu_acceleration;
   observation_.imu.raw_linear_acceleration =
       imu_to_world.transpose() * (imu_acceleration - gravity);
+  observe_leg_motors(reported_torques);
   observation_.pitch = std::asin(std::clamp(-base_to_world(2, 0), -1.0, 1.0));
   observation_.pitch_rate = base_to_world.col(1).dot(state_.angular_velocity);
   observation_.yaw = std::atan2(base_to_world(1, 0), base_to_world(0, 0));
@@ -115,6 +159,48 @@ void Simulator::observe_held_joints() {
   for (std::size_t i = 0; i < state_.held_position.size(); ++i) {
     truth_.held.push_back(
         {state_.held_position[i], state_.held_velocity[i], held_servos_.torques()[i]});
+  }
+}
+
+void Simulator::update_leg_motors() {
+  for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
+    const std::vector<int>& motors = model_->closed_leg[leg]->linkage.motors;
+    const auto q = of_hinges(*model_, leg, state_.joint_position, state_.linked_position);
+    const auto rates = of_hinges(*model_, leg, state_.joint_velocity, state_.linked_velocity);
+    leg_motors_.map[leg].emplace(model_->closed_leg[leg]->linkage, q);
+    for (std::size_t i = 0; i < motors.size(); ++i) {
+      leg_motors_.position[3 * leg + i] = q[motors[i]];
+      leg_motors_.velocity[3 * leg + i] = rates[motors[i]];
+    }
+  }
+}
+
+JointTorques Simulator::at_virtual_legs(JointTorques torques) const {
+  if (step_count_ == 0) return torques;
+  const Eigen::Vector3d force = imu_rotation_in_base_ * observation_.imu.raw_linear_acceleration;
+  for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
+    if (!leg_motors_.map[leg]) continue;
+    const auto motors = static_cast<Eigen::Index>(model_->closed_leg[leg]->linkage.motors.size());
+    const models::LinkageVector at_motors =
+        Eigen::Map<const Eigen::VectorXd>(&torques[3 * leg], motors);
+    const Eigen::Vector2d at_joints =
+        leg_motors_.map[leg]->leg_torques(at_motors, {force.x(), force.z()});
+    torques[3 * leg] = at_joints[0];
+    torques[3 * leg + 1] = at_joints[1];
+  }
+  return torques;
+}
+
+void Simulator::observe_leg_motors(const JointTorques& reported_torques) {
+  observation_.motor.clear();
+  if (model_->linked.empty()) return;
+  const JointTorques at_joints = at_virtual_legs(reported_torques);
+  update_leg_motors();
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
+    observation_.servo[i].torque = at_joints[i];
+    if (i % 3 == 2 || model_->motor_joint[i] < 0) continue;
+    observation_.motor.push_back(
+        {leg_motors_.position[i], leg_motors_.velocity[i], reported_torques[i]});
   }
 }
 

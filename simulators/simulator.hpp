@@ -35,6 +35,10 @@ struct RobotState {
   /// rest.
   std::vector<double> held_position = {};
   std::vector<double> held_velocity = {};
+  /// Angles and velocities of the cranks and rods of closed legs, in the model's order. A start
+  /// needs none: they follow hip and knee.
+  std::vector<double> linked_position = {};
+  std::vector<double> linked_velocity = {};
 };
 
 /// Torques on the joints over one physics step (N·m).
@@ -118,10 +122,16 @@ class Simulator {
   /// Updates observation and truth. `velocity_before`: of the IMU a control step ago (m/s, world).
   void observe(const Eigen::Vector3d& velocity_before, const JointTorques& reported_torques);
   void observe_held_joints();
+  /// Reads where the motors of closed legs are, and what they do to the virtual legs.
+  void update_leg_motors();
+  /// Torques of motors over the last step as those at hips and knees; open legs keep theirs.
+  JointTorques at_virtual_legs(JointTorques torques) const;
+  void observe_leg_motors(const JointTorques& reported_torques);
 
   std::shared_ptr<const models::RobotModel> model_;
   SimulatorOptions options_;
   Actuators actuators_;
+  LegMotors leg_motors_;
   HeldServos held_servos_;
   std::int64_t step_count_ = 0;
   RobotState state_;

@@ -35,14 +35,6 @@ std::vector<std::string> names_of(const MjcfDocument& document,
   return names;
 }
 
-/// "expected a joint named 'x' in robot.xml (did you mean 'y'?)", or with the names that there are.
-std::string missing(const MjcfDocument& document, std::initializer_list<std::string_view> tags,
-                    const std::string& name) {
-  return fmt::format("expected a {} named '{}' in {}{}", fmt::join(tags, " or a "), name,
-                     document.file().filename().string(),
-                     found_text(name, names_of(document, tags)));
-}
-
 std::vector<XMLElement*> motors_of(MjcfDocument& document, std::string_view joint) {
   std::vector<XMLElement*> motors;
   for (auto* section : children(document.root(), "actuator")) {
@@ -55,7 +47,15 @@ std::vector<XMLElement*> motors_of(MjcfDocument& document, std::string_view join
   return motors;
 }
 
-/// Adds a motor to a joint that has none. Its torque limit is not in the file's motors.
+}  // namespace
+
+std::string missing(const MjcfDocument& document, std::initializer_list<std::string_view> tags,
+                    const std::string& name) {
+  return fmt::format("expected a {} named '{}' in {}{}", fmt::join(tags, " or a "), name,
+                     document.file().filename().string(),
+                     found_text(name, names_of(document, tags)));
+}
+
 XMLElement& add_motor(MjcfDocument& document, const XMLElement& joint) {
   XMLElement* const section = document.root().FirstChildElement("actuator");
   return document.add(
@@ -63,7 +63,6 @@ XMLElement& add_motor(MjcfDocument& document, const XMLElement& joint) {
       joint);
 }
 
-/// The motor of a joint; null if there is none.
 XMLElement* only_motor_of(MjcfDocument& document, const std::string& joint) {
   const std::vector<XMLElement*> motors = motors_of(document, joint);
   if (motors.size() > 1) {
@@ -73,10 +72,12 @@ XMLElement* only_motor_of(MjcfDocument& document, const std::string& joint) {
   return motors.empty() ? nullptr : motors.front();
 }
 
-/// Names a joint and its motor, which is added if it is null.
-void rename(MjcfDocument& document, XMLElement& joint, XMLElement* motor, const std::string& name) {
+namespace {
+
+/// Names a joint and its motor, if there is one.
+void rename(XMLElement& joint, XMLElement* motor, const std::string& name) {
   joint.SetAttribute("name", name.c_str());
-  if (motor == nullptr) motor = &add_motor(document, joint);
+  if (motor == nullptr) return;
   motor->SetAttribute("name", name.c_str());
   motor->SetAttribute("joint", name.c_str());
   motor->DeleteAttribute("jointinparent");  // the same for hinges
@@ -95,7 +96,8 @@ void name_held(MjcfDocument& document, const std::vector<std::string>& held, Fil
   for (std::size_t i = 0; i < held.size(); ++i) {
     collect(findings.complaints, [&] {
       XMLElement& joint = joint_named(document, held[i], fmt::format("held.{}", i), keys);
-      rename(document, joint, only_motor_of(document, held[i]), held_name(i));
+      XMLElement* const motor = only_motor_of(document, held[i]);
+      rename(joint, motor != nullptr ? motor : &add_motor(document, joint), held_name(i));
     });
   }
 }
@@ -132,10 +134,14 @@ void name_servos(MjcfDocument& document, const PartNames& parts, FileFindings& f
       }
     });
   }
+  // The motors of a closed leg may be elsewhere.
+  const bool has_loops = document.root().FirstChildElement("equality") != nullptr;
   for (std::size_t i = 0; i < servo_count; ++i) {
-    if (joints[i] != nullptr) {
-      rename(document, *joints[i], motors[i], std::string(servo_names[i]));
+    if (joints[i] == nullptr) continue;
+    if (motors[i] == nullptr && (i % 3 == 2 || !has_loops)) {
+      motors[i] = &add_motor(document, *joints[i]);
     }
+    rename(*joints[i], motors[i], std::string(servo_names[i]));
   }
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "models/mjcf/document.hpp"
 #include "models/mjcf/robot_file.hpp"
@@ -24,11 +26,33 @@ class RobotKeys {
 
 /// Gives the parts of an MJCF the names of the contract. The robot's YAML file names them; parts
 /// that it does not name have these names already. Held joints and their motors get the names of
-/// `held_name`. A joint without a motor gets one, without a limit. Tyres of a given radius become
-/// spheres; what is named under `no_collision` touches nothing. There is a complaint for each name
-/// that the MJCF does not have, and for parts that do not fit.
+/// `held_name`. A joint of an open leg without a motor gets one, without a limit. Tyres of a given
+/// radius become spheres; what is named under `no_collision` touches nothing. There is a complaint
+/// for each name that the MJCF does not have, and for parts that do not fit.
 void name_parts(MjcfDocument& document, const PartNames& parts, FileFindings& findings,
                 const RobotKeys& keys);
+
+/// The sites of a loop's ends; empty if its <connect> has an anchor.
+struct LoopSites {
+  std::string first, second;
+};
+
+/// Completes the loops of closed legs: those of the YAML file become <connect>s, and their motors
+/// <motor>s without a limit. Connections of sites, as MuJoCo 3 has them, become ones of bodies.
+/// Returns the sites of all, in the order of the file. There is a complaint for each name that the
+/// MJCF does not have.
+std::vector<LoopSites> complete_loops(MjcfDocument& document, const PartNames& parts,
+                                      FileFindings& findings, const RobotKeys& keys);
+
+/// "expected a joint named 'x' in robot.xml (did you mean 'y'?)", or with the names that there are.
+std::string missing(const MjcfDocument& document, std::initializer_list<std::string_view> tags,
+                    const std::string& name);
+
+/// Adds a motor to a joint that has none. Its torque limit is not in the file's motors.
+tinyxml2::XMLElement& add_motor(MjcfDocument& document, const tinyxml2::XMLElement& joint);
+
+/// The motor of a joint; null if there is none. Errors: `InputError` for several.
+tinyxml2::XMLElement* only_motor_of(MjcfDocument& document, const std::string& joint);
 
 /// The name of a held joint and its motor in the renamed MJCF, by its place in `PartNames::held`.
 std::string held_name(std::size_t number);

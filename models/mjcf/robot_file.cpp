@@ -26,27 +26,23 @@ void note(std::vector<std::string>& notes, const MjcfDocument& document, const X
   notes.push_back(document.place_of(element) + ": " + text);
 }
 
-/// Complains of the constraints that act. One complaint has all loops, as they belong together.
-void refuse_equality(const MjcfDocument& document, const XMLElement& section,
-                     std::vector<std::string>& complaints) {
-  std::vector<std::string> loops;
-  const XMLElement* first = nullptr;
-  for (auto* e : children(section)) {
-    if (attribute(*e, "active") == "false") continue;
-    if (!is_any_of(e->Name(), {"connect", "weld"})) {
-      note(complaints, document, *e,
-           fmt::format("equality {}: expected none: coupled joints are not supported",
-                       title_of(*e)));
+/// Keeps the connections that close legs. Returns whether there are none.
+bool has_no_loops(MjcfDocument& document, XMLElement& section, FileFindings& findings) {
+  for (XMLElement* const e : children(section)) {
+    const std::string_view tag = e->Name();
+    if (attribute(*e, "active") == "false") {
+      note(findings.ignored, document, *e, fmt::format("equality {}: inactive", title_of(*e)));
+    } else if (tag != "connect") {
+      note(findings.complaints, document, *e,
+           fmt::format(
+               "equality {}: expected none: {}", title_of(*e),
+               tag == "weld" ? "a <connect> closes a leg" : "coupled joints are not supported"));
+    } else {
       continue;
     }
-    loops.push_back(title_of(*e));
-    if (first == nullptr) first = e;
+    document.remove(*e);
   }
-  if (first == nullptr) return;
-  note(complaints, document, *first,
-       fmt::format("equality {}: expected none: closed chains, such as five-bar legs, are not "
-                   "supported",
-                   fmt::join(loops, ", ")));
+  return section.NoChildren();
 }
 
 /// Complains of a top-level section that not every engine simulates. Returns whether it is one.
@@ -54,9 +50,7 @@ bool is_refused(const MjcfDocument& document, const XMLElement& section,
                 std::vector<std::string>& complaints) {
   const std::string_view tag = section.Name();
   const XMLElement* const first = section.FirstChildElement();
-  if (tag == "equality") {
-    refuse_equality(document, section, complaints);
-  } else if (tag == "tendon") {
+  if (tag == "tendon") {
     note(complaints, document, first != nullptr ? *first : section,
          fmt::format("tendon{}: expected none: tendons are not supported",
                      first != nullptr ? " " + title_of(*first) : ""));
@@ -226,7 +220,8 @@ void keep_robot_only(MjcfDocument& document, FileFindings& findings) {
   for (XMLElement* const section : children(root)) {
     const std::string_view tag = section->Name();
     const std::string_view reason = reason_to_ignore(tag);
-    if (is_refused(document, *section, findings.complaints)) {
+    if (is_refused(document, *section, findings.complaints) ||
+        (tag == "equality" && has_no_loops(document, *section, findings))) {
       document.remove(*section);
     } else if (!reason.empty()) {
       note(findings.ignored, document, *section, fmt::format("{}: {}", tag, reason));

@@ -43,8 +43,8 @@ struct FileFindings {
 /// Reduces an MJCF to its robot. Solver options, flags, gravity, sizes, sensors, keyframes, contact
 /// pairs and what stands still beside the robot are removed: the scene has its own, or does
 /// without. A robot that is fixed to the world gets a free joint. Complaints are about
-/// everything that changes the physics and that not every engine is given: tendons, equality
-/// constraints, moving bodies beside the robot, composite bodies, height fields, or more than 5,000
+/// everything that changes the physics and that not every engine is given: tendons, welds, coupled
+/// joints, moving bodies beside the robot, composite bodies, height fields, or more than 5,000
 /// geoms.
 void keep_robot_only(MjcfDocument& document, FileFindings& findings);
 
