@@ -6,7 +6,6 @@
 
 #include <Eigen/LU>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 
 namespace touchdown::models {
 
@@ -48,7 +47,7 @@ bool close(const Linkage& linkage, const std::vector<int>& free, LinkageVector& 
     const LinkageVector gaps = pose.gaps();
     if (gaps.lpNorm<Eigen::Infinity>() < closed) return true;
     const LinkageMatrix by_free = columns(pose.gaps_by_hinge(), free);
-    LinkageVector change = -by_free.completeOrthogonalDecomposition().solve(gaps);
+    LinkageVector change = -by_free.colPivHouseholderQr().solve(gaps);
     change *= std::min(1.0, longest / change.lpNorm<Eigen::Infinity>());
     for (std::size_t i = 0; i < free.size(); ++i) {
       q[free[i]] += change[static_cast<Eigen::Index>(i)];
@@ -57,16 +56,22 @@ bool close(const Linkage& linkage, const std::vector<int>& free, LinkageVector& 
   return false;
 }
 
-using Decomposition = Eigen::JacobiSVD<Eigen::MatrixXd>;
-
-Decomposition decomposed(const Linkage& linkage, const LinkageVector& q) {
-  const Eigen::MatrixXd rows = LinkagePose(linkage, q).gaps_by_hinge();
-  return Decomposition(rows, Eigen::ComputeFullV);
+/// Orthonormal motions of the hinges that keep the loops closed, as columns.
+LinkageMatrix free_motions(const Linkage& linkage, const LinkageVector& q) {
+  constexpr double none = 1e-4;  // m/rad
+  const LinkageMatrix rows = LinkagePose(linkage, q).gaps_by_hinge();
+  const Eigen::ColPivHouseholderQR<LinkageMatrix> qr(rows.transpose());
+  const Eigen::Index taken = (qr.matrixR().diagonal().array().abs() > none).count();
+  return LinkageMatrix(qr.householderQ()).rightCols(linkage.size() - taken);
 }
 
-int free_directions(const Decomposition& svd) {
-  constexpr double none = 1e-4;  // m/rad
-  return static_cast<int>(svd.cols() - (svd.singularValues().array() > none).count());
+/// The smallest singular value of a square matrix of one or two rows.
+double smallest_singular_value(const LinkageMatrix& m) {
+  if (m.rows() == 1) return std::abs(m(0, 0));
+  const double determinant = m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0);
+  const double half = 0.5 * m.squaredNorm();
+  return std::abs(determinant) /
+         std::sqrt(half + std::sqrt(std::max(0.0, half * half - determinant * determinant)));
 }
 
 }  // namespace
@@ -182,28 +187,26 @@ Vector2d MotorMap::leg_torques(const LinkageVector& motor_torques,
                                const Vector2d& specific_force) const {
   const LinkageVector pressing = motor_torques - branch.transpose() * specific_force;
   if (leg.cols() == 1) return lift * (pressing[0] / leg.col(0).dot(lift));
-  const Eigen::Matrix2d transposed = leg.transpose();
-  return transposed.partialPivLu().solve(Vector2d(pressing));
+  return Eigen::Matrix2d(leg).inverse().transpose() * Vector2d(pressing);
 }
 
 int mobility(const Linkage& linkage, const LinkageVector& q) {
-  return free_directions(decomposed(linkage, q));
+  return static_cast<int>(free_motions(linkage, q).cols());
 }
 
 bool is_regular(const Linkage& linkage, const LinkageVector& q) {
   constexpr double singular = 0.02;
-  const auto svd = decomposed(linkage, q);
+  const LinkageMatrix motions = free_motions(linkage, q);
   const auto motors = static_cast<Eigen::Index>(linkage.motors.size());
-  if (free_directions(svd) != motors) return false;
-  const Eigen::MatrixXd kernel = svd.matrixV().rightCols(motors);
-  Eigen::MatrixXd of_motors(motors, motors);
+  if (motions.cols() != motors) return false;
+  LinkageMatrix of_motors(motors, motors);
   for (Eigen::Index i = 0; i < motors; ++i) {
-    of_motors.row(i) = kernel.row(linkage.motors[static_cast<std::size_t>(i)]);
+    of_motors.row(i) = motions.row(linkage.motors[static_cast<std::size_t>(i)]);
   }
-  const auto smallest = [](const Eigen::MatrixXd& matrix) {
-    return Eigen::JacobiSVD<Eigen::MatrixXd>(matrix).singularValues().minCoeff();
-  };
-  return smallest(of_motors) > singular && smallest(kernel.topRows(2)) > singular;
+  // One motor moves hip and knee in one direction.
+  const double of_leg =
+      motors == 1 ? motions.topRows<2>().norm() : smallest_singular_value(motions.topRows<2>());
+  return smallest_singular_value(of_motors) > singular && of_leg > singular;
 }
 
 }  // namespace touchdown::models

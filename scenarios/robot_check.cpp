@@ -24,8 +24,8 @@ namespace touchdown::scenarios {
 
 namespace {
 
-std::string actuator_text(const models::Actuator& actuator) {
-  std::string text;
+/// An actuator after a text about it.
+std::string actuator_text(const models::Actuator& actuator, std::string text = {}) {
   const auto add = [&](const char* what, double value) {
     if (value != 0.0) text += fmt::format("{}{} {:g}", text.empty() ? "" : ", ", what, value);
   };
@@ -33,6 +33,14 @@ std::string actuator_text(const models::Actuator& actuator) {
   add("viscous", actuator.viscous);
   add("armature", actuator.armature);
   return text;
+}
+
+/// The motor that counts as a servo's in a closed leg; empty if it is on the servo's joint.
+std::string motor_text(const models::RobotModel& robot, std::size_t servo) {
+  const int joint = robot.motor_joint[servo];
+  if (joint == robot.joint[servo]) return {};
+  return joint < 0 ? "no motor"
+                   : fmt::format("motor {}", mj_id2name(robot.mj.get(), mjOBJ_JOINT, joint));
 }
 
 CheckedJoint checked(const models::RobotModel& robot, const mjData& data, std::size_t servo) {
@@ -47,7 +55,7 @@ CheckedJoint checked(const models::RobotModel& robot, const mjData& data, std::s
                        .low = range[0],
                        .high = range[1],
                        .torque_limit = robot.effort[servo],
-                       .actuator = actuator_text(robot.actuator[servo])};
+                       .actuator = actuator_text(robot.actuator[servo], motor_text(robot, servo))};
   if (checked.is_reversed) checked.axis = -checked.axis + Eigen::Vector3d::Zero();
   return checked;
 }

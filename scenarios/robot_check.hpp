@@ -26,7 +26,9 @@ struct CheckedJoint {
   double low = 0.0;           ///< of the range, from a straight leg (rad)
   double high = 0.0;          ///< likewise
   double torque_limit = 0.0;  ///< N·m
-  std::string actuator;       ///< friction, viscous friction and armature; empty if there are none
+  /// Friction, viscous friction and armature, and the motor of a closed leg if it is on another
+  /// joint; empty if there are none.
+  std::string actuator;
 };
 
 /// What was read about a held joint, and about its servo.

@@ -78,6 +78,7 @@ void Simulator::reset(const RobotState& start) {
   read(state_);
   observe(imu_velocity(), {});
   if (!actuators_.are_ideal()) truth_.joint_torque.emplace();
+  observe_leg_motors({});
 }
 
 void Simulator::step(const models::Action& action, std::span<const ExternalWrench> wrenches) {
@@ -115,6 +116,7 @@ void Simulator::step(const models::Action& action, std::span<const ExternalWrenc
   }
   truth_.body_touches_terrain = body_touched;
   if (!actuators_.are_ideal()) truth_.joint_torque = at_virtual_legs(torques.applied);
+  observe_leg_motors(torques.reported);
 }
 
 Eigen::Vector3d Simulator::imu_velocity() const {
@@ -131,17 +133,16 @@ void Simulator::observe(const Eigen::Vector3d& velocity_before,
   const Eigen::Vector3d gravity = models::vector_at(model_->mj->opt.gravity, 0);
 
   observation_.time = static_cast<double>(step_count_) * control_period();
-  for (std::size_t i = 0; i < models::servo_count; ++i) {
-    observation_.servo[i] = {state_.joint_position[i], state_.joint_velocity[i],
-                             reported_torques[i]};
-  }
   observation_.imu.orientation =
       Eigen::Quaterniond(Eigen::Matrix3d(world_to_ars.asDiagonal() * imu_to_world));
   observation_.imu.angular_velocity = imu_to_world.transpose() * state_.angular_velocity;
   observation_.imu.linear_acceleration = imu_to_world.transpose() * imu_acceleration;
   observation_.imu.raw_linear_acceleration =
       imu_to_world.transpose() * (imu_acceleration - gravity);
-  observe_leg_motors(reported_torques);
+  const JointTorques at_joints = at_virtual_legs(reported_torques);
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
+    observation_.servo[i] = {state_.joint_position[i], state_.joint_velocity[i], at_joints[i]};
+  }
   observation_.pitch = std::asin(std::clamp(-base_to_world(2, 0), -1.0, 1.0));
   observation_.pitch_rate = base_to_world.col(1).dot(state_.angular_velocity);
   observation_.yaw = std::atan2(base_to_world(1, 0), base_to_world(0, 0));
@@ -180,9 +181,10 @@ JointTorques Simulator::at_virtual_legs(JointTorques torques) const {
   const Eigen::Vector3d force = imu_rotation_in_base_ * observation_.imu.raw_linear_acceleration;
   for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
     if (!leg_motors_.map[leg]) continue;
-    const auto motors = static_cast<Eigen::Index>(model_->closed_leg[leg]->linkage.motors.size());
-    const models::LinkageVector at_motors =
-        Eigen::Map<const Eigen::VectorXd>(&torques[3 * leg], motors);
+    models::LinkageVector at_motors(leg_motors_.map[leg]->leg.cols());
+    for (Eigen::Index i = 0; i < at_motors.size(); ++i) {
+      at_motors[i] = torques[3 * leg + static_cast<std::size_t>(i)];
+    }
     const Eigen::Vector2d at_joints =
         leg_motors_.map[leg]->leg_torques(at_motors, {force.x(), force.z()});
     torques[3 * leg] = at_joints[0];
@@ -194,10 +196,8 @@ JointTorques Simulator::at_virtual_legs(JointTorques torques) const {
 void Simulator::observe_leg_motors(const JointTorques& reported_torques) {
   observation_.motor.clear();
   if (model_->linked.empty()) return;
-  const JointTorques at_joints = at_virtual_legs(reported_torques);
   update_leg_motors();
   for (std::size_t i = 0; i < models::servo_count; ++i) {
-    observation_.servo[i].torque = at_joints[i];
     if (i % 3 == 2 || model_->motor_joint[i] < 0) continue;
     observation_.motor.push_back(
         {leg_motors_.position[i], leg_motors_.velocity[i], reported_torques[i]});

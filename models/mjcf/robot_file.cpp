@@ -42,7 +42,7 @@ bool has_no_loops(MjcfDocument& document, XMLElement& section, FileFindings& fin
     }
     document.remove(*e);
   }
-  return section.NoChildren();
+  return section.FirstChildElement() == nullptr;
 }
 
 /// Complains of a top-level section that not every engine simulates. Returns whether it is one.

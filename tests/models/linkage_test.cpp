@@ -15,7 +15,7 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-constexpr double upper = 0.15, lower = 0.28, spacing = 0.1;  // m
+constexpr double crank_length = 0.15, rod_length = 0.28, motor_spacing = 0.1;  // m
 
 /// The virtual leg of a symmetric five-bar in closed form. Angles are positive forward, from
 /// straight down; the knee of the front crank is that of the virtual leg.
@@ -25,12 +25,12 @@ struct FiveBar {
   Matrix2d leg;  ///< hip and knee per front and rear motor
 
   FiveBar(double front, double rear) {
-    const Vector2d t1 = upper * Vector2d(std::cos(front), std::sin(front));
-    const Vector2d t2 = upper * Vector2d(std::cos(rear), std::sin(rear));
-    front_knee = {spacing / 2 + t1.y(), -t1.x()};
-    rear_knee = {-spacing / 2 + t2.y(), -t2.x()};
+    const Vector2d t1 = crank_length * Vector2d(std::cos(front), std::sin(front));
+    const Vector2d t2 = crank_length * Vector2d(std::cos(rear), std::sin(rear));
+    front_knee = {motor_spacing / 2 + t1.y(), -t1.x()};
+    rear_knee = {-motor_spacing / 2 + t2.y(), -t2.x()};
     const Vector2d across = front_knee - rear_knee;
-    const double height = std::sqrt(lower * lower - across.squaredNorm() / 4);
+    const double height = std::sqrt(rod_length * rod_length - across.squaredNorm() / 4);
     axle =
         (front_knee + rear_knee) / 2 + height / across.norm() * Vector2d(across.y(), -across.x());
     const Vector2d r1 = axle - front_knee, r2 = axle - rear_knee;
@@ -48,9 +48,9 @@ Linkage five_bar() {
   const FiveBar at(0.6, -0.7);
   const Vector2d rear_rod = at.axle - at.rear_knee;
   Linkage linkage;
-  linkage.hinges = {{-1, {spacing / 2, 0.0}, -1.0, at.hip},
+  linkage.hinges = {{-1, {motor_spacing / 2, 0.0}, -1.0, at.hip},
                     {0, at.front_knee, -1.0, at.knee},
-                    {-1, {-spacing / 2, 0.0}, -1.0, -0.7},
+                    {-1, {-motor_spacing / 2, 0.0}, -1.0, -0.7},
                     {2, at.rear_knee, -1.0, std::atan2(rear_rod.x(), -rear_rod.y()) + 0.7}};
   linkage.loops = {{{1, at.axle}, {3, at.axle}}};
   linkage.motors = {0, 2};

@@ -17,15 +17,19 @@ inline const std::string upkie_mjcf = TOUCHDOWN_SOURCE_DIR "/models/upkie.xml";
 /// A pattern in Upkie's MJCF, and its replacement.
 using Edit = std::pair<std::string, std::string>;
 
-/// Upkie's MJCF with all matches of each pattern replaced, one edit after the other.
-inline std::string edited_upkie(const std::vector<Edit>& edits) {
-  std::string text = read_file(upkie_mjcf);
+/// A text with all matches of each pattern replaced, one edit after the other.
+inline std::string edited(std::string text, const std::vector<Edit>& edits) {
   for (const auto& [pattern, by] : edits) {
     const std::regex expression(pattern);
     EXPECT_TRUE(std::regex_search(text, expression)) << pattern;
     text = std::regex_replace(text, expression, by);
   }
   return text;
+}
+
+/// Upkie's MJCF with edits.
+inline std::string edited_upkie(const std::vector<Edit>& edits) {
+  return edited(read_file(upkie_mjcf), edits);
 }
 
 /// Elements that are added before the end of the MJCF.

@@ -71,6 +71,17 @@ TEST(ARobotCheck, ReadsUpkieAsItIs) {
   EXPECT_THAT(check.ignored, IsEmpty());
 }
 
+TEST(ARobotCheck, LetsClosedLegsStandAndNamesTheirMotors) {
+  const RobotCheck five = check_robot(TOUCHDOWN_SOURCE_DIR "/models/five_bar.yaml");
+  EXPECT_THAT(five.complaints, IsEmpty());
+  EXPECT_EQ(five.joints[0].actuator, "armature 0.002");
+  EXPECT_EQ(five.joints[1].actuator, "motor left_rear_motor, armature 0.002");
+  EXPECT_EQ(five.joints[1].torque_limit, 30.0);
+  const RobotCheck four = check_robot(TOUCHDOWN_SOURCE_DIR "/models/four_bar.yaml");
+  EXPECT_THAT(four.complaints, IsEmpty());
+  EXPECT_EQ(four.joints[4].actuator, "no motor");
+}
+
 TEST(ARobotCheck, NamesWhatIsReversedAndWhatIsIgnored) {
   const ScratchFolder folder;
   const RobotCheck check = check_robot(folder.write(
