@@ -28,12 +28,11 @@ void add_servos(std::vector<LogKey>& keys, const std::string& prefix,
   }
 }
 
-void add_held_joints(std::vector<LogKey>& keys) {
-  std::size_t slot = log_slot::held;
-  for (int joint = 0; joint < models::most_held; ++joint) {
+void add_readings(std::vector<LogKey>& keys, const std::string& prefix, std::size_t slot,
+                  std::size_t most, Role role) {
+  for (std::size_t i = 0; i < most; ++i) {
     for (const std::string_view name : reading_names) {
-      keys.push_back({"observation.sim.held." + std::to_string(joint) + "." + std::string(name),
-                      slot++, 1, Role::held_truth});
+      keys.push_back({prefix + "." + std::to_string(i) + "." + std::string(name), slot++, 1, role});
     }
   }
 }
@@ -85,7 +84,8 @@ std::vector<LogKey> make_keys() {
                   Role::truth, true});
   add_servos(keys, "observation.sim.servo", joint_truth_names, log_slot::joint_torque,
              Role::joint_truth);
-  add_held_joints(keys);
+  add_readings(keys, "observation.sim.held", log_slot::held, models::most_held, Role::held_truth);
+  add_readings(keys, "observation.motor", log_slot::motor, log_slot::most_motors, Role::motor);
   add_truth(keys, "observation.bullet", Role::alias);
   add_contact_counts(keys, "observation.sim");
   add_contact_counts(keys, "observation.bullet");
@@ -217,18 +217,16 @@ void visit_truth(Truth& truth, const Visit& visit) {
   visit(log_slot::true_imu_velocity, truth.imu_linear_velocity);
 }
 
-template <typename HeldJoints, typename Visit>
-void visit_held(HeldJoints& held, const Visit& visit) {
-  for (std::size_t joint = 0; joint < held.size(); ++joint) {
-    for (std::size_t i = 0; i < reading_members.size(); ++i) {
-      visit(log_slot::held + 3 * joint + i, held[joint].*reading_members[i]);
-    }
+template <typename Readings, typename Visit>
+void visit_readings(std::size_t slot, Readings& readings, const Visit& visit) {
+  for (auto& reading : readings) {
+    for (const auto member : reading_members) visit(slot++, reading.*member);
   }
 }
 
-std::size_t held_joints(const LogPresence& present) {
+std::size_t count_of_readings(const LogPresence& present, std::size_t slot, std::size_t most) {
   std::size_t count = 0;
-  while (count < models::most_held && present[log_slot::held + 3 * count]) ++count;
+  while (count < most && present[slot + 3 * count]) ++count;
   return count;
 }
 
@@ -256,6 +254,7 @@ LogValues to_values(const models::Observation& observation, const models::Action
   }
   visit_needed(observation, write);
   visit_optional(observation, action, write);
+  visit_readings(log_slot::motor, observation.motor, write);
   if (truth == nullptr) return values;
   visit_truth(*truth, write);
   for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
@@ -266,7 +265,7 @@ LogValues to_values(const models::Observation& observation, const models::Action
     std::copy(truth->joint_torque->begin(), truth->joint_torque->end(),
               values.begin() + log_slot::joint_torque);
   }
-  visit_held(truth->held, write);
+  visit_readings(log_slot::held, truth->held, write);
   return values;
 }
 
@@ -288,6 +287,8 @@ LogRow to_row(const LogValues& values, const LogPresence& present) {
   visit_optional(observation, row.action, [&](std::size_t slot, auto& member) {
     if (present[slot]) read(slot, member);
   });
+  observation.motor.resize(count_of_readings(present, log_slot::motor, log_slot::most_motors));
+  visit_readings(log_slot::motor, observation.motor, read);
   if (!present[log_slot::true_position] || !present[log_slot::true_orientation]) return row;
   models::GroundTruth& truth = row.truth.emplace();
   visit_truth(truth, read);
@@ -299,8 +300,8 @@ LogRow to_row(const LogValues& values, const LogPresence& present) {
     std::copy_n(values.begin() + log_slot::joint_torque, models::servo_count,
                 truth.joint_torque.emplace().begin());
   }
-  truth.held.resize(held_joints(present));
-  visit_held(truth.held, read);
+  truth.held.resize(count_of_readings(present, log_slot::held, models::most_held));
+  visit_readings(log_slot::held, truth.held, read);
   return row;
 }
 

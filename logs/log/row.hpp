@@ -40,7 +40,9 @@ inline constexpr std::size_t contact_points = command + 54;         // left, rig
 inline constexpr std::size_t body_touches_terrain = command + 56;
 inline constexpr std::size_t joint_torque = command + 57;  // 6: torque on the joints
 inline constexpr std::size_t held = command + 63;          // position, velocity, torque of each
-inline constexpr std::size_t count = held + 3 * models::most_held;
+inline constexpr std::size_t motor = held + 3 * models::most_held;  // likewise
+inline constexpr std::size_t most_motors = 4;                       // of closed legs
+inline constexpr std::size_t count = motor + 3 * most_motors;
 }  // namespace log_slot
 
 /// All numbers of one control step.
@@ -54,6 +56,7 @@ struct LogKey {
     truth,        ///< ground truth; written for simulated runs
     joint_truth,  ///< written if joint torques differ from reported ones
     held_truth,   ///< written for the held joints that the robot has
+    motor,        ///< written for the motors of closed legs
     alias,        ///< key of another version of Upkie; only read
   };
   std::string path;  ///< dotted

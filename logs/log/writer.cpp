@@ -16,6 +16,8 @@ bool is_written(const LogKey& key, const WrittenTruth& truth) {
       return truth.of_joints;
     case LogKey::Role::held_truth:
       return key.slot < log_slot::held + 3 * truth.held_joints;
+    case LogKey::Role::motor:
+      return key.slot < log_slot::motor + 3 * truth.motors;
     default:
       return true;
   }
@@ -24,9 +26,11 @@ bool is_written(const LogKey& key, const WrittenTruth& truth) {
 }  // namespace
 
 WrittenTruth truth_of(const Recording& recording) {
-  if (recording.truth.empty()) return {};
+  WrittenTruth written;
+  if (!recording.observation.empty()) written.motors = recording.observation.front().motor.size();
+  if (recording.truth.empty()) return written;
   const models::GroundTruth& first = recording.truth.front();
-  return {true, first.joint_torque.has_value(), first.held.size()};
+  return {true, first.joint_torque.has_value(), first.held.size(), written.motors};
 }
 
 LogPresence written_values(const WrittenTruth& truth) {

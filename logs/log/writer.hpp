@@ -8,11 +8,12 @@
 
 namespace touchdown::logs {
 
-/// The ground truth that a log contains.
+/// The ground truth that a log contains, and the motors of closed legs.
 struct WrittenTruth {
   bool of_robot = false;
   bool of_joints = false;       ///< torques on the joints
   std::size_t held_joints = 0;  ///< the number of held joints
+  std::size_t motors = 0;       ///< the number of motors
 };
 
 /// The ground truth that a run has. Joint torques are included if the actuators are not ideal.

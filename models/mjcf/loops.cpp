@@ -47,20 +47,22 @@ void add_loop(MjcfDocument& document, const LoopKeys& loop, std::size_t number,
 /// Lets a connection of sites be one of their bodies. The anchors follow after compiling.
 LoopSites bodies_of_sites(MjcfDocument& document, XMLElement& connect) {
   if (connect.Attribute("site1") == nullptr) return {};
+  constexpr std::array<const char*, 2> keys = {"site1", "site2"};
   std::array<std::string, 2> names;
   for (std::size_t i = 0; i < 2; ++i) {
-    const char* const key = i == 0 ? "site1" : "site2";
-    names[i] = attribute(connect, key);
+    names[i] = attribute(connect, keys[i]);
+    connect.DeleteAttribute(keys[i]);
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
     XMLElement* const site = document.find("site", names[i]);
     if (site == nullptr) {
-      document.fail(connect, fmt::format("{}: {}: {}", title_of(connect), key,
+      document.fail(connect, fmt::format("{}: {}: {}", title_of(connect), keys[i],
                                          missing(document, {"site"}, names[i])));
     }
     XMLElement& body = *site->Parent()->ToElement();
     if (body.Attribute("name") == nullptr) {
       body.SetAttribute("name", fmt::format("touchdown_body_of_{}", names[i]).c_str());
     }
-    connect.DeleteAttribute(key);
     connect.SetAttribute(i == 0 ? "body1" : "body2", body.Attribute("name"));
   }
   connect.SetAttribute("anchor", "0 0 0");

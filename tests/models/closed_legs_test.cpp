@@ -129,8 +129,10 @@ TEST_F(ClosedRobot, IsRefusedInOneLine) {
   expect_refusal({{loop, of_sites("left_eye", "left_lug")}, eye_at(".1 .007 -.2")},
                  "its points are 7.0 mm apart along the axles");
   expect_refusal({{"<joint name=\"left_pull\"", "$& axis=\".04 1 0\""}}, "its axis is 2.3° off");
-  expect_refusal({{loop, of_sites("left_eye", "right_lug")}},
-                 "connect 'left_loop': expected a loop in one leg");
+  expect_refusal({{"</equality>",
+                   "<connect name=\"both\" body1=\"left_shank\" "
+                   "body2=\"right_shank\" anchor=\"0 0 0\"/>$&"}},
+                 "connect 'both': expected a loop in one leg");
   expect_refusal({{loop, of_sites("left_eye", "left_lugg")}}, "did you mean 'left_lug'?");
   expect_refusal({{loop, "<connect name=\"left_loop\" body1=\"left_rod\" anchor=\".1 0 -.2\"/>"}},
                  "found the world");
@@ -146,8 +148,16 @@ TEST_F(ClosedRobot, IsRefusedInOneLine) {
 }
 
 TEST_F(ClosedRobot, IsRefusedAtTheKeyOfItsYamlFile) {
-  expect_refusal({}, "the rods of the left leg are in line",
-                 "stance: {hip: 0, knee: 1.1}\n");  // crank and rod, within half a degree
+  // A shank that pulls crank and rod into one line.
+  const std::vector<Edit> pulling = {
+      {"<connect name=\"left_loop\"[^>]*/>",
+       "<connect name=\"left_loop\" site1=\"left_eye\" site2=\"left_lug\"/>"},
+      {"<site name=\"left_lug\" pos=\"[^\"]*\"", "<site name=\"left_lug\" pos=\".06 0 0\""}};
+  EXPECT_NO_THROW((void)robot(pulling, "stance: {hip: 0, knee: 0.1}\n"));
+  expect_refusal(pulling, "the rods of the left leg are in line",
+                 "stance: {hip: 0, knee: 0.17004}\n");
+  expect_refusal(pulling, "the loops of the left leg do not close",
+                 "stance: {hip: 0, knee: 0.3}\n");
   expect_refusal({}, "expected none for a leg with closed loops", "legs: {length: 1.1}\n");
   expect_refusal({}, "expected a body named 'left_bar'",
                  "loops: [{bodies: [left_bar, left_rod], anchor: [0, 0, 0]}]\n");

@@ -63,7 +63,7 @@ TEST_F(RefusedRobot, HasElementsThatOneEngineAloneWouldSimulate) {
       {{"<equality><joint joint1=\"left_knee\" polycoef=\"1 0 0 0 0\"/></equality>",
         "coupled joints"},
        {"<equality><connect body1=\"left_wheel\" body2=\"torso\" anchor=\"0 0 0\"/></equality>",
-        "leave 0 of its joints free, but 2 have a motor"},
+        "of its joints free, but 2 have a motor"},
        {"<equality><weld body1=\"left_wheel\" body2=\"torso\"/></equality>", "a <connect> closes"},
        {"<tendon><fixed name=\"rope\"><joint joint=\"left_hip\" coef=\"1\"/></fixed></tendon>",
         "tendon fixed 'rope'"},

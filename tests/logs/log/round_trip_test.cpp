@@ -31,6 +31,7 @@ std::vector<std::uint64_t> bits(const Recording& recording, std::size_t step) {
   const models::Observation& o = recording.observation.at(step);
   add({o.time, o.pitch, o.pitch_rate, o.yaw, o.yaw_rate});
   for (const models::ServoReading& s : o.servo) add({s.position, s.velocity, s.torque});
+  for (const models::ServoReading& s : o.motor) add({s.position, s.velocity, s.torque});
   add_rotation(o.imu.orientation);
   add_vector(o.imu.angular_velocity);
   add_vector(o.imu.linear_acceleration);
@@ -112,6 +113,27 @@ TEST(RoundTrip, KeepsHeldJoints) {
   }
   write_recording(sample_recording(5), folder / "none.mpack");
   EXPECT_EQ(read_file(folder / "none.mpack").find("held"), std::string::npos);
+}
+
+TEST(RoundTrip, KeepsMotorsOfClosedLegs) {
+  const ScratchFolder folder;
+  for (const std::size_t count : {1U, 2U, 4U}) {
+    for (const bool has_truth : {true, false}) {
+      Recording recording = sample_recording(5, has_truth);
+      for (models::Observation& observation : recording.observation) {
+        for (std::size_t i = 0; i < count; ++i) {
+          const double x = observation.time - 0.3 * static_cast<double>(i);
+          observation.motor.push_back({x, 2.0 * x, -3.0 * x});
+        }
+      }
+      write_recording(recording, folder / "run.mpack");
+      const Recording read = read_recording(folder / "run.mpack");
+      EXPECT_EQ(read.observation.back().motor.size(), count);
+      expect_same(read, recording);
+    }
+  }
+  write_recording(sample_recording(5), folder / "none.mpack");
+  EXPECT_EQ(read_file(folder / "none.mpack").find("motor"), std::string::npos);
 }
 
 TEST(RoundTrip, RecordingInMemoryIsReadLikeItsFile) {
