@@ -20,6 +20,9 @@ inline double stable_damping(double wanted, double inertia, double period) {
   return std::min(wanted, 0.5 * inertia / period);
 }
 
+/// The share of these limits that servos of held joints have, because joints move each other.
+inline constexpr double held_share = 0.5;
+
 /// Dry friction before it slides: a critically damped spring.
 struct Presliding {
   double stiffness = 0.0;  ///< N·m/rad

@@ -41,7 +41,9 @@ Load load_of(const models::RobotModel& robot, const WheelBalancerConfig& config,
     if (!robot.has(i)) continue;
     const bool is_wheel = i % 3 == 2;
     const models::Actuator& actuator = robot.actuator[i];
-    add_friction(robot.dof_address[i], actuator, actuator.viscous);
+    if (const int motor = robot.motor_joint[i]; motor >= 0) {
+      add_friction(robot.mj->jnt_dofadr[motor], actuator, actuator.viscous);
+    }
     const double gain =
         actuator.torque_lag > 0.0 ? -std::expm1(-period / actuator.torque_lag) : 1.0;
     load.servos[robot.dof_address[i]] =
@@ -53,8 +55,9 @@ Load load_of(const models::RobotModel& robot, const WheelBalancerConfig& config,
     const double inertia = 1.0 / robot.mj->dof_invweight0[held.dof_address];
     add_friction(held.dof_address, held.actuator,
                  models::stable_damping(held.actuator.viscous, inertia, period));
-    load.servos[held.dof_address] = of(models::stable_stiffness(held.kp, inertia, period),
-                                       models::stable_damping(held.kd, inertia, period));
+    load.servos[held.dof_address] =
+        of(models::stable_stiffness(held.kp, models::held_share * inertia, period),
+           models::stable_damping(held.kd, models::held_share * inertia, period));
   }
   return load;
 }
@@ -76,18 +79,29 @@ MatrixXd mass_in_bullet(const mjModel& mj, const mjData& data, MatrixXd mass) {
   return mass;
 }
 
-/// The velocities, by columns, with which both tyres roll.
-MatrixXd rolling(const models::RobotModel& robot, const mjData& data) {
+/// The velocities, by columns, with closed loops, and with both tyres rolling if it stands.
+MatrixXd possible(const models::RobotModel& robot, const mjData& data, bool stands) {
   const mjModel& mj = *robot.mj;
-  Rows contact(3 * static_cast<Eigen::Index>(models::wheel_count), mj.nv);
-  for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-    const int tyre = robot.tyre_geom[wheel];
-    const Eigen::Vector3d ground =
-        models::vector_at(data.geom_xpos, tyre) - robot.wheel_radius * Eigen::Vector3d::UnitZ();
-    mj_jac(&mj, &data, contact.row(3 * static_cast<Eigen::Index>(wheel)).data(), nullptr,
-           ground.data(), mj.geom_bodyid[tyre]);
+  Rows held = Rows::Zero(3 * (mj.neq + static_cast<int>(models::wheel_count)), mj.nv);
+  const auto velocity = [&](int body, const Eigen::Vector3d& point) {
+    Rows rows(3, mj.nv);
+    mj_jac(&mj, &data, rows.data(), nullptr, point.data(), body);
+    return rows;
+  };
+  for (int loop = 0; loop < mj.neq; ++loop) {
+    const int body = mj.eq_obj1id[loop];
+    const Eigen::Vector3d point = models::vector_at(data.xpos, body) +
+                                  models::quaternion_at(data.xquat, body) *
+                                      models::vector_at(&mj.eq_data[mjNEQDATA * loop], 0);
+    held.middleRows<3>(3 * loop) = velocity(body, point) - velocity(mj.eq_obj2id[loop], point);
   }
-  Eigen::FullPivLU<MatrixXd> lu(contact);
+  for (std::size_t wheel = 0; stands && wheel < models::wheel_count; ++wheel) {
+    const int tyre = robot.tyre_geom[wheel];
+    held.middleRows<3>(3 * (mj.neq + static_cast<int>(wheel))) =
+        velocity(mj.geom_bodyid[tyre], models::vector_at(data.geom_xpos, tyre) -
+                                           robot.wheel_radius * Eigen::Vector3d::UnitZ());
+  }
+  Eigen::FullPivLU<MatrixXd> lu(held);
   lu.setThreshold(1e-6);  // two tyres on one axle constrain sideways motion twice
   return lu.kernel();
 }
@@ -118,10 +132,11 @@ ServoMargins servo_margins(const models::RobotModel& robot, const ServoPose& pos
   mj_fullM(&mj, mass.data(), data->qM);
   const MatrixXd in_bullet = mass_in_bullet(mj, *data, mass);
   const Load load = load_of(robot, config, pose.period);
-  const auto least = [&](const MatrixXd& motion) {
+  const auto least = [&](bool stands) {
+    const MatrixXd motion = possible(robot, *data, stands);
     return std::min(margin(motion, mass, load), margin(motion, in_bullet, load));
   };
-  return {least(MatrixXd::Identity(mj.nv, mj.nv)), least(rolling(robot, *data))};
+  return {least(false), least(true)};
 }
 
 WheelBalancerConfig with_stable_servos(const WheelBalancerConfig& config,

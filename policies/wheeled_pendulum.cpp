@@ -1,5 +1,6 @@
 #include "policies/wheeled_pendulum.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
@@ -36,6 +37,30 @@ Directions directions(const models::RobotModel& robot, const mjData& data, const
     d.rolling[dof] = models::vector_at(data.xaxis, mj.dof_jntid[dof]).y() > 0.0 ? 1.0 : -1.0;
   }
   return d;
+}
+
+/// How far forward of the body the axle moves as a leg carries one newton, times the stiffness of
+/// hip and knee (N·m²/N).
+double bending_per_load(const models::RobotModel& robot, const mjData& data, std::size_t leg) {
+  const mjModel& mj = *robot.mj;
+  Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> jacobian(3, mj.nv);
+  const int tyre = robot.tyre_geom[leg];
+  mj_jac(&mj, &data, jacobian.data(), nullptr, &data.geom_xpos[3 * tyre], mj.geom_bodyid[tyre]);
+  Eigen::Matrix<double, 3, 2> axle = Eigen::Matrix<double, 3, 2>::Zero();
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!robot.has(3 * leg + i)) continue;
+    axle.col(static_cast<Eigen::Index>(i)) = jacobian.col(robot.dof_address[3 * leg + i]);
+  }
+  if (!robot.closed_leg[leg]) return axle.row(0).dot(axle.row(2));
+  // Hip and knee move as the loops let them.
+  const models::ClosedLeg& closed = *robot.closed_leg[leg];
+  models::LinkageVector q(closed.linkage.size());
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    q[i] = data.qpos[mj.jnt_qposadr[closed.joint[static_cast<std::size_t>(i)]]];
+  }
+  const Eigen::MatrixXd v = models::MotorMap(closed.linkage, q).leg;
+  return axle.row(0).dot(v *
+                         (v.transpose() * v).ldlt().solve(v.transpose() * axle.row(2).transpose()));
 }
 
 }  // namespace
@@ -95,13 +120,16 @@ WheeledPendulum wheeled_pendulum(const models::RobotModel& robot,
   const Vector3d centre = models::vector_at(data->subtree_com, robot.base_body);
   const Directions d = directions(robot, *data, ground);
   const int wheel = robot.dof_address[models::index(models::Servo::left_wheel)];
+  const double weight =
+      mj.body_subtreemass[robot.base_body] * -models::vector_at(mj.opt.gravity, 0).z();
+  const double height = (centre - axle).z();
   return {.inertia = d.leaning.dot(d.mass * d.leaning),
           .coupling = d.leaning.dot(d.mass * d.rolling),
-          .gravity = mj.body_subtreemass[robot.base_body] *
-                     -models::vector_at(mj.opt.gravity, 0).z() * (centre - axle).z(),
+          .gravity = weight * height,
           .wheel_radius = robot.wheel_radius,
           .wheel_inertia = d.mass(wheel, wheel),
-          .track = (left - right).norm()};
+          .track = (left - right).norm(),
+          .bending = 0.5 * weight * bending_per_load(robot, *data, 0) / height};
 }
 
 WheelBalancerConfig with_lqr_gains(WheelBalancerConfig config, const WheeledPendulum& pendulum) {
@@ -132,6 +160,11 @@ WheelBalancerConfig with_lqr_gains(WheelBalancerConfig config, const WheeledPend
   config.max_integral = 4.75 * g * topple;
   config.leg_kp_scale = 0.157 * pendulum.gravity;  // legs 3 times as stiff as the pull of gravity
   config.leg_kd_scale = 0.73 * pendulum.gravity * topple;
+  constexpr double most_lean = 0.03;  // rad, of legs that bend to one side
+  const double stiffer = std::max(
+      1.0, std::abs(pendulum.bending) / (most_lean * models::servo_kp * config.leg_kp_scale));
+  config.leg_kp_scale *= stiffer;
+  config.leg_kd_scale *= std::sqrt(stiffer);
   constexpr double spin_up = 0.873e-3;  // s: of a wheel in the air
   config.wheel_kd_scale = pendulum.wheel_inertia / spin_up;
   // The wheel servos resist turning like a damper.

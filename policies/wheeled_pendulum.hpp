@@ -36,6 +36,8 @@ struct WheeledPendulum {
   double wheel_radius = 0.0;   ///< r (m)
   double wheel_inertia = 0.0;  ///< of one wheel about its axle, with its rotor (kg·m²)
   double track = 0.0;          ///< between the tyres (m)
+  /// Lean of the body, times the stiffness of hips and knees (N·m), as its weight bends the legs.
+  double bending = 0.0;
 };
 
 /// The pendulum model of a robot in a balanced pose with heading +x.

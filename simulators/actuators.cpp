@@ -117,12 +117,13 @@ HeldServos::HeldServos(const models::RobotModel& model, const StepSizes& steps)
   const double period = 1e-6 * static_cast<double>(steps.physics_us);
   for (const models::HeldJoint& held : model.held) {
     const double inertia = 1.0 / model.mj->dof_invweight0[held.dof_address];
-    joints_.push_back({.reference = held.reference,
-                       .kp = models::stable_stiffness(held.kp, inertia, period),
-                       .kd = models::stable_damping(held.kd, inertia, period),
-                       .effort = held.effort,
-                       .viscous = models::stable_damping(held.actuator.viscous, inertia, period),
-                       .friction = JointFriction(held.actuator, inertia, period)});
+    joints_.push_back(
+        {.reference = held.reference,
+         .kp = models::stable_stiffness(held.kp, models::held_share * inertia, period),
+         .kd = models::stable_damping(held.kd, models::held_share * inertia, period),
+         .effort = held.effort,
+         .viscous = models::stable_damping(held.actuator.viscous, inertia, period),
+         .friction = JointFriction(held.actuator, inertia, period)});
   }
 }
 

@@ -74,9 +74,12 @@ TEST_P(Robot, MovesLikeThePendulumOfItsGains) {
   const policies::WheeledPendulum pendulum =
       policies::wheeled_pendulum(*model, start.orientation, start.joint_position);
   simulator->reset(start);
-  // Stiff legs: the pendulum's do not bend. Weight and length of a leg bend it more.
+  // Stiff legs: the pendulum's do not bend. Weight and length of a leg bend it more, and legs that
+  // are not symmetric bend to one side.
   constexpr double upkie_gravity = 19.2;  // N·m per rad of lean
-  const double stiffness = 20.0 * std::max(1.0, std::pow(pendulum.gravity / upkie_gravity, 2));
+  const double sideways = std::abs(pendulum.bending) / pendulum.gravity / 0.03;
+  const double stiffness =
+      20.0 * std::max({1.0, std::pow(pendulum.gravity / upkie_gravity, 2), sideways});
   models::Action action;
   for (std::size_t i = 0; i < models::servo_count; ++i) {
     action.servo[i] = {.position = start.joint_position[i], .kp_scale = stiffness, .kd_scale = 2.0};
