@@ -6,6 +6,14 @@
 
 namespace touchdown::models {
 
+std::string motor_name(const RobotModel& robot, std::size_t servo) {
+  const int joint = robot.motor_joint[servo];
+  const auto own = std::find(robot.joint.begin(), robot.joint.end(), joint);
+  return own == robot.joint.end()
+             ? mj_id2name(robot.mj.get(), mjOBJ_JOINT, joint)
+             : robot.joint_name[static_cast<std::size_t>(own - robot.joint.begin())];
+}
+
 void write_pose(const RobotModel& robot, const Eigen::Vector3d& position,
                 const Eigen::Quaterniond& orientation,
                 const std::array<double, servo_count>& joint_position, mjtNum* qpos) {

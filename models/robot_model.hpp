@@ -92,6 +92,9 @@ struct RobotModel {
   int base_dof() const { return mj->jnt_dofadr[mj->body_jntadr[base_body]]; }
 };
 
+/// The file's name of the joint that a servo's motor turns; it has one.
+std::string motor_name(const RobotModel& robot, std::size_t servo);
+
 /// Compiles a robot (an MJCF, or a YAML file about an MJCF or URDF: models/robot_description.hpp)
 /// together with a terrain. Errors: `InputError` with file:line:column for broken XML, for an
 /// element that the contract lacks, and for one that not every engine simulates.

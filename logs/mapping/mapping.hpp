@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,7 @@
 #include "core/fields.hpp"
 #include "core/key.hpp"
 #include "estimator/record.hpp"
+#include "logs/mapping/closed_legs.hpp"
 #include "models/robot.hpp"
 
 namespace touchdown::logs {
@@ -109,7 +111,8 @@ struct LogMapping {
   /// All needed columns, each once.
   std::vector<SourceColumn> columns;
 
-  std::string robot;  ///< its name; empty if unknown
+  std::filesystem::path folder;  ///< of the mapping file
+  std::string robot;             ///< its name; empty if unknown
   LogSources sources;
   std::optional<SourceClock> time;  ///< of the joints
   double period = 0.0;              ///< between rows, without `time` (s)
@@ -118,6 +121,9 @@ struct LogMapping {
   MappedSignal position;  ///< 6, rad
   MappedSignal velocity;  ///< 6, rad/s
   MappedSignal torque;    ///< 6, N·m
+  /// For legs with closed loops: the numbers of hips and knees are those of their motors. It
+  /// remembers the last row.
+  std::shared_ptr<MotorsToLegs> closed_legs;
   /// Commanded velocity of the left and right wheel (rad/s).
   std::optional<MappedSignal> wheel_velocity_target;
   std::optional<MappedLegTargets> leg_targets;

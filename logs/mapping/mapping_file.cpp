@@ -321,6 +321,7 @@ LogMapping read_log_mapping(const std::filesystem::path& path, std::span<const S
   require_file(path);
   const YamlDocument document = YamlDocument::load(path);
   LogMapping mapping;
+  mapping.folder = path.parent_path();
   MappingReader reader(sources, mapping);
   Fields fields(document);
   describe_mapping(fields, reader, mapping, with_labels);

@@ -79,6 +79,7 @@ LogValues log_values(const LogMapping& mapping, std::uint64_t k, std::span<const
     }
   }
   if (mapping.leg_targets) put_leg_targets(*mapping.leg_targets, row, values);
+  if (mapping.closed_legs) mapping.closed_legs->convert(values);
   return values;
 }
 
@@ -89,6 +90,9 @@ LogPresence log_presence(const LogMapping& mapping) {
     present.set(slot);
   }
   if (mapping.proper_acceleration) present.set(log_slot::raw_acceleration);
+  const std::size_t motors =
+      mapping.closed_legs ? models::wheel_count * mapping.closed_legs->motors_per_leg() : 0;
+  for (std::size_t i = 0; i < 3 * motors; ++i) present.set(log_slot::motor + i);
   if (mapping.wheel_velocity_target) {
     for (const models::Servo wheel : models::wheel_servos) present.set(velocity_target(wheel));
   }

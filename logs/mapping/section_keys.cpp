@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "core/error.hpp"
 #include "core/fields.hpp"
 #include "logs/mapping/mapping_reader.hpp"
 
@@ -17,18 +18,17 @@ namespace {
 constexpr const char* six_joints = "left hip, knee, wheel, right hip, knee, wheel";
 constexpr const char* four_joints = "left knee, wheel, right knee, wheel";
 
-/// Inserts the hips that the robot lacks: a number that is 0 before those of each leg.
-void add_missing_hips(MappedSignal& signal) {
+/// Inserts a number that is 0 at this place in each leg: a hip or knee that the robot lacks.
+void add_missing(MappedSignal& signal, std::ptrdiff_t place) {
   if (signal.numbers.empty()) return;  // documenting
   const MappedSignal::Number none{MappedSignal::no_column};
   const auto right = static_cast<std::ptrdiff_t>(signal.numbers.size() / 2);
-  signal.numbers.insert(signal.numbers.begin() + right, none);
-  signal.numbers.insert(signal.numbers.begin(), none);
+  signal.numbers.insert(signal.numbers.begin() + right + place, none);
+  signal.numbers.insert(signal.numbers.begin() + place, none);
 }
 
 /// The names of the joints, of which a topic's columns follow, and their signs.
-SignalKind describe_joint_names(Fields& fields, MappingReader& reader, bool has_hips) {
-  SignalKind kind{has_hips ? six_joints : four_joints, has_hips ? 6U : 4U};
+SignalKind describe_joint_names(Fields& fields, MappingReader& reader, SignalKind kind) {
   if (fields.present("names", false)) {
     fields("names", kind.names)
         .fallback("none")
@@ -102,27 +102,53 @@ void describe_leg_targets(Fields& fields, MappingReader& reader, bool has_hips,
     describe_gains(inner, "kp", has_hips, "N·m/rad", "Position gains of the servos.", targets.kp);
     describe_gains(inner, "kd", has_hips, "N·m·s/rad", "Velocity gains of the servos.", targets.kd);
     if (has_hips) return;
-    add_missing_hips(targets.position);
-    if (targets.velocity) add_missing_hips(*targets.velocity);
-    if (targets.torque) add_missing_hips(*targets.torque);
+    add_missing(targets.position, 0);
+    if (targets.velocity) add_missing(*targets.velocity, 0);
+    if (targets.torque) add_missing(*targets.torque, 0);
   };
   fields.within("leg_targets", describe_targets)
       .fallback("none")
       .doc("Commands of the servos of hips and knees, for the load by the servos' laws.");
 }
 
+/// Reads the file of a robot with closed legs, beside the mapping file.
+void describe_closed_legs(Fields& fields, LogMapping& mapping) {
+  std::string robot;
+  if (!fields.present("closed_legs", false)) return;
+  fields("closed_legs", robot)
+      .fallback("none")
+      .doc(
+          "File of a robot with closed loops in its legs, beside this one. The joints are then its "
+          "motors and wheels, with the signs and zeros of its file; `check` of the robot prints "
+          "their order.");
+  if (fields.documenting()) return;
+  try {
+    mapping.closed_legs = std::make_shared<MotorsToLegs>(mapping.folder / robot);
+  } catch (const InputError& error) {
+    fields.check(false, "closed_legs", error.what());
+  }
+}
+
 }  // namespace
 
 void describe_joints(Fields& fields, MappingReader& reader, LogMapping& mapping) {
   expect_keys(fields, {"names", "sign", "position", "velocity", "torque", "wheel_velocity_target",
-                       "leg_targets", "hip"});
+                       "leg_targets", "hip", "closed_legs"});
   std::size_t hip = 0;
   fields.choose("hip", {"joint", "none"}, hip)
       .doc(
           "`none`: the robot has knees and wheels only; four joints are mapped, and the hips are "
           "0.");
   const bool has_hips = hip == 0;
-  const SignalKind joints = describe_joint_names(fields, reader, has_hips);
+  describe_closed_legs(fields, mapping);
+  SignalKind all{has_hips ? six_joints : four_joints, has_hips ? 6U : 4U};
+  if (mapping.closed_legs) {
+    all = {mapping.closed_legs->joints(), 2 * (mapping.closed_legs->motors_per_leg() + 1)};
+    fields.check(has_hips, "hip", "expected none beside 'closed_legs'");
+    fields.check(!fields.present("leg_targets", false), "leg_targets",
+                 "expected none beside 'closed_legs': they are for hips and knees with motors");
+  }
+  const SignalKind joints = describe_joint_names(fields, reader, all);
   const auto kind = [&](const char* field, const std::vector<Unit>& units, bool has_zero = false) {
     SignalKind one = joints;
     one.units = units;
@@ -136,10 +162,9 @@ void describe_joints(Fields& fields, MappingReader& reader, LogMapping& mapping)
       .doc("Joint velocities.");
   reader.require(fields, "torque", kind("/effort", torques()), mapping.torque)
       .doc("Joint torques.");
-  if (!has_hips) {
-    for (MappedSignal* signal : {&mapping.position, &mapping.velocity, &mapping.torque}) {
-      add_missing_hips(*signal);
-    }
+  for (MappedSignal* signal : {&mapping.position, &mapping.velocity, &mapping.torque}) {
+    if (!has_hips) add_missing(*signal, 0);
+    if (joints.count == 4 && mapping.closed_legs) add_missing(*signal, 1);
   }
   reader
       .optional(fields, "wheel_velocity_target", {"left wheel, right wheel", 2, speeds()},

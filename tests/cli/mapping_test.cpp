@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -7,6 +9,7 @@
 #include "core/files.hpp"
 #include "core/table.hpp"
 #include "logs/log/recording_file.hpp"
+#include "models/robot_model.hpp"
 #include "program.hpp"
 
 namespace touchdown::cli {
@@ -105,6 +108,91 @@ TEST_F(Mapping, ExampleIsTheOneInTheDocuments) {
   EXPECT_NEAR(o.servo[5].velocity, -10.0, 0.01);
   EXPECT_LT(o.imu.linear_acceleration.norm(), 0.1);
   EXPECT_NEAR(o.pitch, 0.0174, 1e-4);
+}
+
+/// A recording of closed legs as CSV: motors and wheels with the signs and zeros of the robot's
+/// file, the IMU in Upkie's axes.
+std::string csv_of_motors(const logs::Recording& run, const models::RobotModel& robot) {
+  const std::size_t motors = run.observation[0].motor.size() / 2;
+  std::string csv = "t,qw,qx,qy,qz,gx,gy,gz,px,py,pz";
+  for (std::size_t i = 0; i < 2 * (motors + 1); ++i) csv += fmt::format(",q{0},v{0},tau{0}", i);
+  for (const models::Observation& o : run.observation) {
+    csv += fmt::format("\n{:.17g}", o.time);
+    const auto& q = o.imu.orientation;
+    for (const double x : {q.w(), q.x(), q.y(), q.z()}) csv += fmt::format(",{:.17g}", x);
+    for (const Eigen::Vector3d& v : {o.imu.angular_velocity, o.imu.raw_linear_acceleration}) {
+      csv += fmt::format(",{:.17g},{:.17g},{:.17g}", v.x(), v.y(), v.z());
+    }
+    for (std::size_t leg = 0; leg < 2; ++leg) {
+      for (std::size_t i = 0; i <= motors; ++i) {
+        const models::ServoReading& r =
+            i < motors ? o.motor[motors * leg + i] : o.servo[3 * leg + 2];
+        const std::size_t servo = 3 * leg + (i < motors ? i : 2);
+        const bool is_own = robot.motor_joint[servo] == robot.joint[servo];
+        const double sign = is_own && robot.is_reversed[servo] ? -1.0 : 1.0;
+        csv += fmt::format(",{:.17g},{:.17g},{:.17g}",
+                           sign * (r.position - (is_own ? robot.zero[servo] : 0.0)),
+                           sign * r.velocity, sign * r.torque);
+      }
+    }
+  }
+  return csv + "\n";
+}
+
+TEST_F(InFolder, TurnsTheMotorsOfClosedLegsIntoHipsAndKnees) {
+  for (const char* name : {"five_bar", "four_bar"}) {
+    const std::string file = fmt::format(TOUCHDOWN_SOURCE_DIR "/models/{}.yaml", name);
+    folder_.output_of(fmt::format(
+        "simulate scenarios/one_step.yaml --set robot={} --set end.duration=1.5 -o run.mpack",
+        file));
+    const logs::Recording run = logs::read_recording(folder_ / "run.mpack");
+    const auto robot = models::compile_robot_model(file, models::Terrain{});
+    folder_.write("log.csv", csv_of_motors(run, robot));
+    const std::size_t joints = run.observation[0].motor.size() + 2;
+    const auto list = [&](const char* what) {
+      std::string all;
+      for (std::size_t i = 0; i < joints; ++i) all += fmt::format("{}{}{}", i ? ", " : "", what, i);
+      return all;
+    };
+    folder_.write(
+        "log.yaml",
+        fmt::format("time: {{from: t}}\njoints:\n  closed_legs: {}\n  position: {{from: "
+                    "[{}]}}\n  velocity: {{from: [{}]}}\n  torque: {{from: [{}]}}\nimu:\n "
+                    " orientation: {{from: [qw, qx, qy, qz]}}\n  angular_velocity: {{from: "
+                    "[gx, gy, gz]}}\n  proper_acceleration: {{from: [px, py, pz]}}\n",
+                    file, list("q"), list("v"), list("tau")));
+    folder_.output_of("export log.csv --mapping log.yaml -o mapped.mpack");
+    const logs::Recording mapped = logs::read_recording(folder_ / "mapped.mpack");
+    ASSERT_EQ(mapped.steps(), run.steps()) << name;
+    double largest = 0.0;
+    for (std::size_t k = 1; k < run.steps(); ++k) {
+      for (std::size_t i = 0; i < models::servo_count; ++i) {
+        const models::ServoReading& is = mapped.observation[k].servo[i];
+        const models::ServoReading& was = run.observation[k].servo[i];
+        ASSERT_NEAR(is.position, was.position, 3e-3) << name << k << ", " << i;
+        ASSERT_NEAR(is.torque, was.torque, 0.05 + 0.02 * std::abs(was.torque)) << name << k;
+        largest = std::max(largest, std::abs(was.torque));
+      }
+      ASSERT_EQ(mapped.observation[k].motor.size(), joints - 2) << name;
+    }
+    EXPECT_GT(largest, 3.0) << name;
+  }
+}
+
+TEST_F(InFolder, RefusesMappingsOfMotorsThatDoNotFitTheirRobot) {
+  folder_.write("log.csv", "t,a,b,c,d\n0,0,0,0,0\n");
+  for (const auto& [robot, complaint] : std::vector<std::pair<std::string, std::string>>{
+           {"upkie.xml", "expected a robot with closed legs"},
+           {"five_bra.yaml", "five_bra.yaml"},
+           {"five_bar.yaml", "left_front_motor, left_rear_motor, left_axle"}}) {
+    folder_.write("log.yaml",
+                  fmt::format("period: .001\njoints:\n  closed_legs: {}/models/{}\n  position: "
+                              "{{from: [a, b]}}\n",
+                              TOUCHDOWN_SOURCE_DIR, robot));
+    const Ended ended = folder_.run("export log.csv --mapping log.yaml -o x.mpack");
+    EXPECT_EQ(ended.exit_code, 2) << robot;
+    EXPECT_THAT(ended.errors, AllOf(HasSubstr("log.yaml:"), HasSubstr(complaint))) << robot;
+  }
 }
 
 TEST_F(Mapping, InconsistentRequestsAreRefusedAndNothingIsWritten) {
