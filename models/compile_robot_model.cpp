@@ -7,23 +7,15 @@
 #include "core/error.hpp"
 #include "models/contract.hpp"
 #include "models/mjcf/compiler.hpp"
-#include "models/mjcf/parts.hpp"
-#include "models/mjcf/robot_file.hpp"
 #include "models/resizing.hpp"
 #include "models/robot_description.hpp"
 #include "models/robot_model.hpp"
+#include "models/robot_source.hpp"
 #include "models/scene_mjcf.hpp"
 #include "models/stance.hpp"
 
 namespace touchdown::models {
 namespace {
-
-/// The robot's file in the names of the contract, with nothing but the robot in it.
-struct RobotFile {
-  MjcfDocument document;
-  FileFindings findings;
-  std::vector<LoopSites> loops;
-};
 
 void require_mjcf(const MjcfDocument& document) {
   const tinyxml2::XMLElement& root = document.root();
@@ -32,6 +24,8 @@ void require_mjcf(const MjcfDocument& document) {
                                   "a URDF",
                                   root.Name()));
 }
+
+}  // namespace
 
 RobotFile robot_file(const RobotDescription& description, const RobotKeys& keys) {
   RobotFile robot{MjcfDocument::load(description.mjcf), {}, {}};
@@ -44,14 +38,14 @@ RobotFile robot_file(const RobotDescription& description, const RobotKeys& keys)
   robot.loops = complete_loops(robot.document, description.parts, findings, keys);
   translate_later_versions(robot.document, findings);
   drop_missing_assets(robot.document, findings);
-  name_parts(robot.document, description.parts, findings, keys);
-  require_none(findings.complaints);
   return robot;
 }
 
 MjModelPtr compile(const RobotFile& robot, const Terrain& terrain) {
   return compile_xml(robot.document.text(scene_mjcf(terrain)), robot.document.file());
 }
+
+namespace {
 
 /// Sets the actuators of the robot's file in the model. MuJoCo simulates the rotor inertia; the
 /// simulators add everything else (simulators/actuators.hpp).
@@ -148,6 +142,8 @@ RobotModel compile_robot_model(const std::filesystem::path& file, const Terrain&
   const RobotKeys keys(file);
   RobotFile source = robot_file(description, keys);
   PartNames& parts = description.parts;
+  name_parts(source.document, parts, source.findings, keys);
+  require_none(source.findings.complaints);
   MjModelPtr mj = compile(source, terrain);
   const Contract contract(source.document, parts, *mj);
   RobotModel robot = with_parts(std::move(mj), description, source.findings, contract);

@@ -58,12 +58,10 @@ Stance stance_within_ranges(const RobotModel& robot) {
   return {within(common_range(robot, true), above), knee};
 }
 
-}  // namespace
-
 /// The complaint about a stance in which the loops of a leg do not close, or its motors do not
 /// determine the wheel.
-static std::optional<StanceError> loop_error(const RobotModel& robot,
-                                             const std::array<double, servo_count>& angle) {
+std::optional<StanceError> loop_error(const RobotModel& robot,
+                                      const std::array<double, servo_count>& angle) {
   for (std::size_t leg = 0; leg < wheel_count; ++leg) {
     if (!robot.closed_leg[leg]) continue;
     const Linkage& linkage = robot.closed_leg[leg]->linkage;
@@ -81,6 +79,8 @@ static std::optional<StanceError> loop_error(const RobotModel& robot,
   return std::nullopt;
 }
 
+}  // namespace
+
 bool can_turn(const RobotModel& robot, std::size_t servo, double angle) {
   const int joint = robot.joint[servo];
   const mjtNum* range = &robot.mj->jnt_range[2 * joint];
@@ -93,6 +93,11 @@ Stance from_straight(const RobotModel& robot, const Stance& stance) {
   if (zeros.hip == 0.0 && zeros.knee == 0.0) return stance;
   return {std::remainder(stance.hip + zeros.hip, turn),
           std::remainder(stance.knee + zeros.knee, turn)};
+}
+
+Stance in_zeros_of_file(const RobotModel& robot, const Stance& stance) {
+  const Stance zeros = zeros_of(robot);
+  return from_straight(robot, {stance.hip - 2.0 * zeros.hip, stance.knee - 2.0 * zeros.knee});
 }
 
 Stance usual_stance(const RobotModel& robot) {

@@ -13,6 +13,8 @@ bool can_turn(const RobotModel& robot, std::size_t servo, double angle);
 
 /// A stance in the zeros of the robot's file, as angles from straight legs.
 Stance from_straight(const RobotModel& robot, const Stance& stance);
+/// The same stance in the zeros of the robot's file.
+Stance in_zeros_of_file(const RobotModel& robot, const Stance& stance);
 
 /// The stance if the file of a robot gives none: Upkie's crouch; if the joints cannot have it, its
 /// mirror image, with knees that bend forward; if they can have neither, the nearest to these

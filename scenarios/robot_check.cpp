@@ -2,16 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/resources.hpp"
 #include "estimator/force/leg_geometry.hpp"
 #include "logs/plausibility/chatter.hpp"
 #include "models/mjcf/robot_file.hpp"
 #include "models/robot_description.hpp"
+#include "models/robot_draft.hpp"
 #include "models/robot_model.hpp"
+#include "models/stance.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/leg_geometry.hpp"
 #include "scenarios/scenario.hpp"
@@ -37,10 +42,9 @@ std::string actuator_text(const models::Actuator& actuator, std::string text = {
 
 /// The motor that counts as a servo's in a closed leg; empty if it is on the servo's joint.
 std::string motor_text(const models::RobotModel& robot, std::size_t servo) {
-  const int joint = robot.motor_joint[servo];
-  if (joint == robot.joint[servo]) return {};
-  return joint < 0 ? "no motor"
-                   : fmt::format("motor {}", mj_id2name(robot.mj.get(), mjOBJ_JOINT, joint));
+  if (robot.motor_joint[servo] == robot.joint[servo]) return {};
+  if (robot.motor_joint[servo] < 0) return "no motor";
+  return "motor " + models::motor_name(robot, servo);
 }
 
 CheckedJoint checked(const models::RobotModel& robot, const mjData& data, std::size_t servo) {
@@ -115,9 +119,9 @@ logs::Recording played(const Scenario& scenario, const std::string& engine,
   return recording;
 }
 
-CheckedStand stand(const Scenario& scenario, const std::string& engine, const RobotCheck& check,
+CheckedStand stand(const Scenario& scenario, const std::string& engine, RobotCheck& check,
                    const std::function<bool()>& should_continue) {
-  const logs::Recording recording = played(scenario, engine, should_continue);
+  logs::Recording recording = played(scenario, engine, should_continue);
   CheckedStand stand{
       .engine = engine,
       .ending = ending_text(recording, scenario.end) + part_on_terrain(scenario, recording)};
@@ -135,6 +139,7 @@ CheckedStand stand(const Scenario& scenario, const std::string& engine, const Ro
           recording.truth[k].wheel_normal_force[wheel] / static_cast<double>(steps);
     }
   }
+  if (check.standing.steps() == 0) check.standing = std::move(recording);
   return stand;
 }
 
@@ -235,7 +240,79 @@ void read_robot(const Scenario& scenario, RobotCheck& check) {
   check.differences = differences(robot);
 }
 
+/// The parts beside the tyres within a centimetre of the terrain, and how far they are (m).
+std::map<std::string, double> parts_near_terrain(const models::RobotModel& robot, mjData& data) {
+  mjModel& mj = *robot.mj;
+  std::fill_n(mj.geom_margin, mj.ngeom, 0.01);
+  mj_fwdPosition(&mj, &data);
+  std::map<std::string, double> parts;
+  for (int i = 0; i < data.ncon; ++i) {
+    const mjContact& contact = data.contact[i];
+    for (const int geom : {contact.geom1, contact.geom2}) {
+      if (mj.geom_bodyid[geom] == 0 || simulators::wheel_of_tyre(robot, geom)) continue;
+      const char* name = mj_id2name(&mj, mjOBJ_GEOM, geom);
+      if (name == nullptr) name = mj_id2name(&mj, mjOBJ_BODY, mj.geom_bodyid[geom]);
+      if (name == nullptr) continue;
+      const auto part = parts.emplace(name, contact.dist).first;
+      part->second = std::min(part->second, contact.dist);
+    }
+  }
+  return parts;
+}
+
+/// What the robot's compiled model adds to its draft: the stance, colliders that would touch the
+/// terrain as it stands, and the signs of its joints.
+void complete_draft(const models::RobotModel& robot, std::vector<models::DraftLine>& draft) {
+  const models::Stance stance = models::usual_stance(robot);
+  const models::Stance in_file = models::in_zeros_of_file(robot, stance);
+  const std::string hip = robot.has(0) ? fmt::format("hip: {:.4f}, ", in_file.hip) : "";
+  draft.push_back({"stance", fmt::format("{{{}knee: {:.4f}}}", hip, in_file.knee),
+                   "rad, in the zeros of the file's joints: what the robot would take anyway"});
+  const simulators::RobotState pose =
+      start_pose(robot, {}, {.hip = stance.hip, .knee = stance.knee});
+  const models::MjDataPtr data = models::at_reference(robot);
+  models::write_pose(robot, pose.position, pose.orientation, pose.joint_position, data->qpos);
+  std::vector<std::string> near;
+  for (const auto& [part, distance] : parts_near_terrain(robot, *data)) near.push_back(part);
+  if (!near.empty()) {
+    draft.push_back({"no_collision", fmt::format("[{}]", fmt::join(near, ", ")),
+                     "within 1 cm of the ground as it stands"});
+  }
+  std::vector<std::string> signs;
+  std::vector<std::string> motors;
+  for (std::size_t i = 0; i < models::servo_count; ++i) {
+    if (robot.has(i)) signs.emplace_back(robot.is_reversed[i] ? "-1" : "1");
+    if (robot.motor_joint[i] >= 0) motors.push_back(models::motor_name(robot, i));
+  }
+  draft.push_back(
+      {"", "",
+       robot.closed_leg[0]
+           ? fmt::format("Mapping files name this file as `closed_legs`, and as joints: {}",
+                         fmt::join(motors, ", "))
+           : fmt::format("In mapping files, `sign` of its joints: [{}]", fmt::join(signs, ", "))});
+}
+
 }  // namespace
+
+std::vector<std::string> draft_robot(const std::filesystem::path& robot,
+                                     const std::filesystem::path& yaml) {
+  std::vector<models::DraftLine> draft = models::drafted_robot(robot);
+  const std::string mjcf =
+      absolute_path(robot).lexically_proximate(absolute_path(yaml).parent_path()).string();
+  write_atomically(yaml, models::text_of(draft, mjcf));
+  try {
+    complete_draft(models::compile_robot_model(yaml, {}), draft);
+    write_atomically(yaml, models::text_of(draft, mjcf));
+  } catch (const InputError&) {
+    // `check_robot` gives the reasons.
+  }
+  std::vector<std::string> guesses;
+  for (const models::DraftLine& line : draft) {
+    if (line.comment.find("guess") == std::string::npos) continue;
+    guesses.push_back(fmt::format("{}: {}: {}", yaml.string(), line.key, line.comment));
+  }
+  return guesses;
+}
 
 std::string part_on_terrain(const Scenario& scenario, const logs::Recording& recording) {
   if (recording.info.outcome != logs::Outcome::fell || recording.truth.empty() ||
@@ -243,7 +320,6 @@ std::string part_on_terrain(const Scenario& scenario, const logs::Recording& rec
     return {};
   }
   const models::RobotModel robot = models::compile_robot_model(scenario.robot, scenario.terrain);
-  mjModel& mj = *robot.mj;
   const models::MjDataPtr data = models::at_reference(robot);
   const models::GroundTruth& last = recording.truth.back();
   std::array<double, models::servo_count> joints = {};
@@ -251,26 +327,13 @@ std::string part_on_terrain(const Scenario& scenario, const logs::Recording& rec
     joints[i] = recording.observation.back().servo[i].position;
   }
   models::write_pose(robot, last.base_position, last.base_orientation, joints, data->qpos);
-  constexpr double near = 0.01;  // m: the step after the last record
-  std::fill_n(mj.geom_margin, mj.ngeom, near);
-  mj_fwdPosition(&mj, data.get());
-  int part = -1;
-  double lowest = near;
-  for (int i = 0; i < data->ncon; ++i) {
-    const mjContact& contact = data->contact[i];
-    for (const int geom : {contact.geom1, contact.geom2}) {
-      const bool is_terrain = mj.geom_bodyid[geom] == 0;
-      if (is_terrain || simulators::wheel_of_tyre(robot, geom) || contact.dist >= lowest) continue;
-      lowest = contact.dist;
-      part = geom;
-    }
-  }
-  if (part < 0) return {};
-  const char* name = mj_id2name(&mj, mjOBJ_GEOM, part);
-  if (name == nullptr) name = mj_id2name(&mj, mjOBJ_BODY, mj.geom_bodyid[part]);
-  if (name == nullptr) return {};
+  // The terrain is near at the last record, and touched a step later.
+  const std::map<std::string, double> parts = parts_near_terrain(robot, *data);
+  const auto nearest = std::min_element(
+      parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (nearest == parts.end()) return {};
   return fmt::format(": '{0}' (`no_collision: [{0}]` in the robot's YAML file leaves it out)",
-                     name);
+                     nearest->first);
 }
 
 RobotCheck check_robot(const std::filesystem::path& file,

@@ -71,6 +71,7 @@ struct RobotCheck {
   /// Factor on all gains at which the servos become unstable, in flight and standing.
   policies::ServoMargins margins;
   std::vector<CheckedStand> stands;     ///< in every engine
+  logs::Recording standing;             ///< of the first engine
   std::vector<std::string> complaints;  ///< none if the robot is usable
 };
 
@@ -78,6 +79,13 @@ struct RobotCheck {
 /// terrain at the end of a run, tyres left out, by the name of its geom or body. Empty unless the
 /// robot fell as a part other than a tyre touched the terrain.
 std::string part_on_terrain(const Scenario& scenario, const logs::Recording& recording);
+
+/// Writes the YAML file about an MJCF or a URDF, with comments where it guesses
+/// (models/robot_draft.hpp), in the words of the robot's file. Returns the guesses that its user
+/// should check, one line each. Errors: those of `drafted_robot`; `Error` for a file that cannot be
+/// written.
+std::vector<std::string> draft_robot(const std::filesystem::path& robot,
+                                     const std::filesystem::path& yaml);
 
 /// Compiles a robot, lets it stand for two seconds in every engine, and drops it from 10 cm. A file
 /// that is refused has complaints, and nothing else is filled in. `should_continue` is called

@@ -13,6 +13,7 @@
 
 #include "apps/cli/verb.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/program.hpp"
 #include "core/resources.hpp"
 #include "core/stop.hpp"
@@ -22,6 +23,10 @@
 #include "logs/log/byte_source.hpp"
 #include "logs/log/reader.hpp"
 #include "logs/mapping/conversion.hpp"
+#include "models/mjcf/robot_file.hpp"
+#include "models/robot_description.hpp"
+#include "models/robot_model.hpp"
+#include "render/film/video.hpp"
 #include "scenarios/robot_check.hpp"
 
 namespace touchdown::cli {
@@ -164,13 +169,37 @@ bool is_robot_file(const std::string& path) {
   return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
 }
 
+struct CheckFlags {
+  std::vector<std::string> files;
+  std::string mapping;
+  std::string robot;
+  std::string draft;   ///< YAML file to write
+  std::string figure;  ///< PNG to write
+  bool strict = false;
+  bool json = false;
+};
+
 /// Checks one robot and prints what was read, what is ignored and how it stands, as text or as
 /// JSON. Returns the number of complaints. Errors: `Stopped`.
-std::size_t check_robot(const std::string& path, bool as_json, const CliSession& session) {
-  const RobotCheck check =
-      scenarios::check_robot(find_resource(path), [&] { return !*session.stop; });
-  print(as_json ? json_of(path, check).dump(1, ' ', false, Json::error_handler_t::replace) + "\n"
-                : text_of(path, check));
+std::size_t check_robot(const std::string& path, const CheckFlags& flags,
+                        const CliSession& session) {
+  std::filesystem::path robot = find_resource(path);
+  RobotCheck check;
+  try {
+    if (!flags.draft.empty()) {
+      print_warnings(scenarios::draft_robot(robot, flags.draft));
+      robot = flags.draft;
+    }
+    check = scenarios::check_robot(robot, [&] { return !*session.stop; });
+  } catch (const models::RobotRefusal& refused) {
+    check.complaints = refused.complaints;
+  }
+  print(flags.json ? json_of(path, check).dump(1, ' ', false, Json::error_handler_t::replace) + "\n"
+                   : text_of(path, check));
+  if (!flags.figure.empty() && check.standing.steps() > 0) {
+    render::render_scene(models::compile_robot_model(robot, {}), check.standing, {}, 0.0,
+                         flags.figure);
+  }
   return check.complaints.size();
 }
 
@@ -198,14 +227,6 @@ std::size_t check_log(const std::string& path, const std::string& mapping,
   return findings.size();
 }
 
-struct CheckFlags {
-  std::vector<std::string> files;
-  std::string mapping;
-  std::string robot;
-  bool strict = false;
-  bool json = false;
-};
-
 /// What the checks found: complaints about robots always count, findings about logs if --strict.
 struct Found {
   std::size_t complaints = 0;
@@ -216,7 +237,7 @@ struct Found {
 void check_file(const std::string& file, const CheckFlags& flags, const CliSession& session,
                 Found& found) {
   if (flags.mapping.empty() && is_robot_file(file)) {
-    found.complaints += check_robot(file, flags.json, session);
+    found.complaints += check_robot(file, flags, session);
     return;
   }
   if (flags.json) throw InputError(fmt::format("{}: --json is for robots", file));
@@ -224,11 +245,36 @@ void check_file(const std::string& file, const CheckFlags& flags, const CliSessi
       check_log(file, flags.mapping, experiments::robot_of_file(flags.robot), session);
 }
 
+/// Checks --write and --figure before anything is computed.
+void require_outputs(const CheckFlags& flags) {
+  const auto require_robot = [&](const char* option) {
+    if (flags.files.size() == 1 && flags.mapping.empty() && is_robot_file(flags.files[0])) return;
+    throw InputError(fmt::format("{}: expected one robot", option));
+  };
+  if (!flags.draft.empty()) {
+    require_robot("--write");
+    if (models::is_about_an_mjcf(flags.files[0])) {
+      throw InputError(flags.files[0] + ": --write: expected an MJCF or a URDF");
+    }
+    if (!models::is_about_an_mjcf(flags.draft)) {
+      throw InputError(flags.draft + ": --write: expected a file with the extension .yaml");
+    }
+    if (is_there(flags.draft)) {
+      throw InputError(flags.draft + ": --write: exists already; expected a new file");
+    }
+    require_writable(flags.draft);
+  }
+  if (flags.figure.empty()) return;
+  require_robot("--figure");
+  require_writable(flags.figure);
+}
+
 void check(const CheckFlags& flags, const CliSession& session) {
   const bool is_live = std::find(flags.files.begin(), flags.files.end(), "-") != flags.files.end();
   if (is_live && !flags.mapping.empty()) {
     throw InputError("--mapping: expected a file or a bag, found standard input");
   }
+  require_outputs(flags);
   Found found;
   for (const std::string& file : flags.files) check_file(file, flags, session, found);
   const std::size_t all = found.complaints + (flags.strict ? found.findings : 0);
@@ -240,6 +286,7 @@ void check(const CheckFlags& flags, const CliSession& session) {
 void add_check(CLI::App& program, const CliSession& session) {
   Verb verb(program, "check",
             "touchdown check models/upkie.xml\n"
+            "touchdown check theirs.urdf --write theirs.yaml --figure theirs.png\n"
             "touchdown check robot.mpack --robot my_robot.xml --strict\n"
             "touchdown check rosbag2_2026_03_01/ --mapping robot.yaml\n\n"
             "Checks robots and logs. Of a robot it prints what was read from its file, what is\n"
@@ -262,6 +309,11 @@ void add_check(CLI::App& program, const CliSession& session) {
               "File of the robot that recorded the logs: gives weight, legs and ranges of joints\n"
               "(default: that of a simulated log, else Upkie's)")
       .value_name("FILE");
+  verb.option("--write", &flags->draft,
+              "Writes the YAML file about a robot from its MJCF or URDF, whatever its parts are\n"
+              "called, with a comment at each guess; then checks the robot by this file")
+      .value_name("FILE.yaml");
+  verb.option("--figure", &flags->figure, "Draws the standing robot").value_name("FILE.png");
   verb.flag("--strict", &flags->strict, "Exit with code 1 if there is a finding about a log");
   verb.flag("--json", &flags->json, "Print JSON about robots");
   verb.action([flags, &session] { check(*flags, session); });

@@ -2,6 +2,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <sstream>
@@ -203,6 +204,28 @@ std::vector<std::filesystem::path> opened_files(const std::filesystem::path& fil
   return files;
 }
 
+namespace {
+
+/// Draws a body without a shape as rods from its frame to those of its children.
+void draw_as_rods(MjcfDocument& document, XMLElement& body) {
+  const std::vector<XMLElement*> below = children(body, "body");
+  const bool has_shape = body.FirstChildElement("geom") != nullptr;
+  for (XMLElement* const child : below) {
+    draw_as_rods(document, *child);
+    const std::string_view end = attribute(*child, "pos");
+    const std::vector<double> at = numbers(end);
+    constexpr double shortest = 1e-3;  // m
+    if (has_shape || at.size() != 3 || std::hypot(at[0], at[1], at[2]) < shortest) continue;
+    document.insert_before(
+        *below.front(),
+        fmt::format("<geom type=\"capsule\" size=\".012\" fromto=\"0 0 0 {}\" mass=\"0\" "
+                    "contype=\"0\" conaffinity=\"0\" group=\"0\"/>",
+                    end));
+  }
+}
+
+}  // namespace
+
 void drop_missing_assets(MjcfDocument& document, FileFindings& findings) {
   Compiler compiler = compiler_of(document);
   Users geoms = users_of(document, "geom", "mesh");
@@ -226,6 +249,9 @@ void drop_missing_assets(MjcfDocument& document, FileFindings& findings) {
       }
       document.remove(*asset);
     }
+  }
+  for (auto* world : children(document.root(), "worldbody")) {
+    for (auto* body : children(*world, "body")) draw_as_rods(document, *body);
   }
 }
 

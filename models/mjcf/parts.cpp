@@ -219,11 +219,12 @@ XMLElement& sphere_about_axle(MjcfDocument& document, XMLElement& body, double r
   const Vector3d mass =
       inertial == nullptr ? anchor : vector_of(attribute(*inertial, "pos"), anchor);
   const Vector3d middle = anchor + axis * axis.dot(mass - anchor);
+  const bool has_shape = body.FirstChildElement("geom") != nullptr;
   document.insert_before(
       *body.FirstChildElement(),
       fmt::format("<geom type=\"sphere\" size=\"{}\" pos=\"{} {} {}\" quat=\"1 0 0 0\" mass=\"0\" "
-                  "group=\"3\" contype=\"1\" conaffinity=\"1\"/>",
-                  radius, middle.x(), middle.y(), middle.z()));
+                  "group=\"{}\" contype=\"1\" conaffinity=\"1\"/>",
+                  radius, middle.x(), middle.y(), middle.z(), has_shape ? 3 : 0));
   return *body.FirstChildElement("geom");
 }
 

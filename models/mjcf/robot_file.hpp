@@ -56,7 +56,8 @@ void translate_later_versions(MjcfDocument& document, FileFindings& findings);
 
 /// Removes meshes and textures without their files, and the geoms that need them. Files are
 /// searched as MuJoCo does: in `meshdir` or `texturedir`, beside the robot's file. There is a
-/// complaint for a missing mesh that a body has its mass from, and for a faulty one.
+/// complaint for a missing mesh that a body has its mass from, and for a faulty one. Bodies that
+/// have no shape are drawn as rods.
 void drop_missing_assets(MjcfDocument& document, FileFindings& findings);
 
 /// What is wrong with a mesh that MuJoCo would read beyond its end: a face of an OBJ that counts

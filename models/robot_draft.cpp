@@ -1,0 +1,301 @@
+#include "models/robot_draft.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <Eigen/Core>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <yaml-cpp/yaml.h>
+
+#include "core/error.hpp"
+#include "models/contract.hpp"
+#include "models/robot_source.hpp"
+
+namespace touchdown::models {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// A name as YAML, also within brackets.
+std::string as_yaml(const std::string& name) {
+  YAML::Emitter list;
+  list << YAML::Flow << YAML::BeginSeq << name << YAML::EndSeq;
+  return {list.c_str() + 1, list.size() - 2};
+}
+
+class Draft {
+ public:
+  explicit Draft(const std::filesystem::path& file)
+      : source_(robot_file(robot_description(file), RobotKeys(file))) {
+    require_none(source_.findings.complaints);
+    model_ = compile(source_, Terrain{});
+    data_.reset(mj_makeData(model_.get()));
+    if (!data_) throw Error("MuJoCo could not make its data: out of memory");
+    mj_kinematics(model_.get(), data_.get());
+    for (int joint = 0; joint < model_->njnt; ++joint) {
+      if (model_->jnt_type[joint] == mjJNT_FREE) base_ = model_->jnt_bodyid[joint];
+    }
+    if (base_ < 0) throw InputError(file.string() + ": expected a robot with a floating base");
+    try {
+      legs_ = find_legs(*model_, *data_, base_);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+    }
+  }
+
+  std::vector<DraftLine> lines() {
+    add_base();
+    add_joints();
+    add_held();
+    add_tyres();
+    add_imu();
+    add_limits();
+    add("balancer", "{gains: lqr}");
+    return std::move(lines_);
+  }
+
+ private:
+  void add(std::string key, std::string value, std::string comment = {}) {
+    lines_.push_back({std::move(key), std::move(value), std::move(comment)});
+  }
+
+  std::string name(mjtObj type, int id) const { return name_of(*model_, type, id); }
+  /// Whether a joint moves what another one moves.
+  bool moves(int joint, int other) const {
+    return is_below(*model_, model_->jnt_bodyid[other], model_->jnt_bodyid[joint]);
+  }
+  std::string joint_name(int joint) const { return name(mjOBJ_JOINT, joint); }
+  Vector3d axis(int joint) const { return vector_at(data_->xaxis, joint); }
+  Vector3d anchor(int joint) const { return vector_at(data_->xanchor, joint); }
+
+  void add_base() {
+    if (std::string_view(source_.document.file().extension().string()) == ".urdf") {
+      add("base", as_yaml(name(mjOBJ_BODY, base_)));
+    }
+    const Vector3d left = anchor(legs_.axle[0].joint) - anchor(legs_.axle[1].joint);
+    if (legs_.has_sides && std::abs(left.y()) > std::abs(left.x()) && left.y() < 0.0) {
+      add("forward", "-x", "the left leg is at smaller y");
+    } else if (!legs_.has_sides) {
+      add("", "", "Names do not distinguish left from right: left is taken as the larger y.");
+    }
+  }
+
+  bool is_servo(int joint) const {
+    for (std::size_t side = 0; side < wheel_count; ++side) {
+      const std::vector<int>& pitch = legs_.pitch[side];
+      if (joint == legs_.axle[side].joint ||
+          std::find(pitch.begin(), pitch.end(), joint) != pitch.end()) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void add_joints() {
+    std::string joints;
+    for (std::size_t side = 0; side < wheel_count; ++side) {
+      const std::string of = side == 0 ? "left" : "right";
+      const std::vector<int>& pitch = legs_.pitch[side];
+      if (pitch.size() == 2)
+        joints += fmt::format("\n  {}_hip: {}", of, as_yaml(joint_name(pitch[0])));
+      joints +=
+          fmt::format("\n  {}_knee: {}\n  {}_wheel: {}", of, as_yaml(joint_name(pitch.back())), of,
+                      as_yaml(joint_name(legs_.axle[side].joint)));
+    }
+    add("joints", joints);
+    if (legs_.pitch[0].size() == 1) add("hip", "none");
+  }
+
+  /// The joints that loops move: neither servos nor held.
+  std::set<int> linked() const {
+    std::set<int> joints;
+    for (int loop = 0; loop < model_->neq; ++loop) {
+      for (int body : {model_->eq_obj1id[loop], model_->eq_obj2id[loop]}) {
+        for (; body != base_ && body > 0; body = model_->body_parentid[body]) {
+          for (int i = 0; i < model_->body_jntnum[body]; ++i) {
+            joints.insert(model_->body_jntadr[body] + i);
+          }
+        }
+      }
+    }
+    return joints;
+  }
+
+  /// Whether a joint ends a leg's branch, as a rod of a cut loop does.
+  bool is_rod(int joint) const {
+    for (std::size_t side = 0; side < wheel_count; ++side) {
+      if (moves(joint, legs_.axle[side].joint)) return false;
+    }
+    for (std::size_t side = 0; side < wheel_count; ++side) {
+      const bool is_on_leg = moves(legs_.pitch[side].front(), joint);
+      const bool is_parallel = std::abs(axis(joint).dot(axis(legs_.axle[side].joint))) > parallel;
+      if (is_on_leg && is_parallel) return true;
+    }
+    return false;
+  }
+
+  std::vector<std::string> names_of(const std::vector<int>& joints) const {
+    std::vector<std::string> names;
+    for (const int joint : joints) names.push_back(as_yaml(joint_name(joint)));
+    return names;
+  }
+
+  void add_held() {
+    const std::set<int> in_loops = linked();
+    std::vector<int> held;
+    std::vector<int> rods;
+    for (int joint = 0; joint < model_->njnt; ++joint) {
+      if (model_->jnt_type[joint] == mjJNT_FREE || is_servo(joint) || in_loops.count(joint) > 0) {
+        continue;
+      }
+      (is_rod(joint) ? rods : held).push_back(joint);
+    }
+    const bool may_be_cranks = std::any_of(held.begin(), held.end(), [&](int joint) {
+      return std::abs(axis(joint).dot(axis(legs_.axle[0].joint))) > parallel;
+    });
+    if (!held.empty()) {
+      add("held", fmt::format("[{}]", fmt::join(names_of(held), ", ")),
+          may_be_cranks ? "all that no wheel needs to balance, or cranks of cut loops"
+                        : "all that no wheel needs to balance");
+    }
+    if (!rods.empty()) {
+      add("", "", fmt::format("{}: ends of a cut loop?", fmt::join(names_of(rods), ", ")));
+    }
+    if (!rods.empty() || may_be_cranks) {
+      add("", "", "Where loops meet, and which joints have motors, is for you to give:");
+      add("", "",
+          "loops: [{bodies: [a, b], anchor: [x, y, z]}, …], motors: {left: […], right: […]}");
+    }
+  }
+
+  void add_tyres() {
+    const Axle& left = legs_.axle[0];
+    const auto add_radius = [&](double radius, const char* source) {
+      add("tyres", fmt::format("{{radius: {:.4g}}}", radius), source);
+    };
+    if (!left.tyre.empty() && !legs_.axle[1].tyre.empty()) {
+      return add("tyres", fmt::format("{{left: {}, right: {}}}", as_yaml(left.tyre),
+                                      as_yaml(legs_.axle[1].tyre)));
+    }
+    if (left.radius > 0.0) {
+      return add_radius(left.radius, left.is_mesh ? "m, of the wheel's mesh"
+                                                  : "m, of one of several round geoms");
+    }
+    const int body = model_->jnt_bodyid[left.joint];
+    double aside = 0.0;
+    for (int geom = 0; geom < model_->ngeom; ++geom) {
+      if (model_->geom_bodyid[geom] != body || model_->geom_type[geom] == mjGEOM_BOX) continue;
+      const bool is_mesh = model_->geom_type[geom] == mjGEOM_MESH;
+      aside = std::max(aside, is_mesh ? model_->geom_rbound[geom] : model_->geom_size[3 * geom]);
+    }
+    if (aside > 0.0) {
+      return add_radius(aside, "m, a guess: the wheel's shape is not round about its axle");
+    }
+    const mjtNum* const inertia = &model_->body_inertia[3 * body];
+    const auto [least, most] = std::minmax_element(inertia, inertia + 3);
+    constexpr double flat = 1.3;  // a disc has 2, a ball 1
+    if (*most < flat * *least) {
+      return add("", "",
+                 "tyres: {radius: …}  # m; neither shape nor inertia of the wheels give it");
+    }
+    // A disc: I = m r²/2.
+    add_radius(std::sqrt(2.0 * *most / model_->body_mass[body]),
+               "m, a guess from the wheel's inertia: its shape is missing");
+  }
+
+  bool is_on_base(int body) const {
+    return model_->body_weldid[body] == model_->body_weldid[base_];
+  }
+
+  /// The shortest name with one of these parts; empty if there is none.
+  std::string sensor(mjtObj type, int count, const int* body) const {
+    std::string best;
+    for (const char* part : {"imu", "gyro", "accel"}) {
+      for (int i = 0; i < count; ++i) {
+        const std::string text = name(type, i);
+        const bool fits = has_part(text, part) && is_on_base(body == nullptr ? i : body[i]);
+        if (fits && (best.empty() || text.size() < best.size())) best = text;
+      }
+      if (!best.empty()) return best;
+    }
+    return best;
+  }
+
+  void add_imu() {
+    std::string imu = sensor(mjOBJ_SITE, model_->nsite, model_->site_bodyid);
+    if (imu.empty()) imu = sensor(mjOBJ_BODY, model_->nbody, nullptr);
+    if (!imu.empty()) return add("imu", as_yaml(imu));
+    add("imu", as_yaml(name(mjOBJ_BODY, base_)), "a guess: nothing on the base is called an IMU");
+  }
+
+  bool has_limit(int joint) const {
+    const auto effort = source_.findings.effort.find(joint_name(joint));
+    if (effort != source_.findings.effort.end() && std::isfinite(effort->second)) return true;
+    for (int i = 0; i < model_->nu; ++i) {
+      if (model_->actuator_trnid[2 * i] != joint) continue;
+      if (model_->actuator_ctrllimited[i] != 0 || model_->actuator_forcelimited[i] != 0)
+        return true;
+    }
+    return false;
+  }
+
+  /// Torque limits from the robot's weight, if its file has none. A joint without a limit beside
+  /// others with one has no motor, and `check` reports it.
+  void add_limits() {
+    const std::vector<int>& pitch = legs_.pitch[0];
+    const int wheel = legs_.axle[0].joint;
+    if (has_limit(wheel) ||
+        std::any_of(pitch.begin(), pitch.end(), [&](int joint) { return has_limit(joint); })) {
+      return;
+    }
+    const double length = (anchor(pitch.front()) - anchor(wheel)).norm();
+    const double weight = 9.81 * model_->body_subtreemass[base_];
+    std::string limits;
+    const auto add_limit = [&](const char* what, int joint, double torque) {
+      const int dof = model_->jnt_dofadr[joint];
+      limits += fmt::format(
+          "\n  {}: {{maximum_torque: {:.2g}, armature: {:g}, friction: {:g}, viscous: {:g}}}", what,
+          torque, model_->dof_armature[dof], model_->dof_frictionloss[dof],
+          model_->dof_damping[dof]);
+    };
+    if (pitch.size() == 2) add_limit("hip", pitch[0], weight * length);
+    add_limit("knee", pitch.back(), weight * length);
+    add_limit("wheel", wheel, weight * std::max(0.03, 0.5 * legs_.axle[0].radius));
+    add("actuators", limits, "torques guessed from the weight: give your own");
+  }
+
+  RobotFile source_;
+  MjModelPtr model_;
+  MjDataPtr data_;
+  int base_ = -1;
+  FoundLegs legs_;
+  std::vector<DraftLine> lines_;
+};
+
+}  // namespace
+
+std::vector<DraftLine> drafted_robot(const std::filesystem::path& robot) {
+  return Draft(robot).lines();
+}
+
+std::string text_of(const std::vector<DraftLine>& draft, const std::string& robot) {
+  std::string text = fmt::format("mjcf: {}\n", robot);
+  for (const DraftLine& line : draft) {
+    const std::string comment = line.comment.empty() ? "" : "# " + line.comment;
+    if (line.value.empty()) {
+      text += comment + "\n";
+    } else if (line.value.front() == '\n') {
+      text +=
+          fmt::format("{}:{}{}{}\n", line.key, comment.empty() ? "" : "  ", comment, line.value);
+    } else {
+      text +=
+          fmt::format("{}: {}{}{}\n", line.key, line.value, comment.empty() ? "" : "  ", comment);
+    }
+  }
+  return text;
+}
+
+}  // namespace touchdown::models

@@ -1,0 +1,203 @@
+#include "models/robot_draft.hpp"
+
+#include <regex>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <yaml-cpp/yaml.h>
+
+#include "core/error.hpp"
+#include "models/robot_model.hpp"
+#include "models/terrain.hpp"
+#include "tests/complaint.hpp"
+#include "tests/models/upkie.hpp"
+#include "tests/scratch_folder.hpp"
+
+namespace touchdown::models {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A node of YAML in one style.
+std::string dumped(const YAML::Node& node) {
+  YAML::Emitter text;
+  text << YAML::Clone(node);
+  return std::regex_replace(std::string(text.c_str()), std::regex("[{},\\s]+"), "");
+}
+
+class RobotDraft : public ::testing::Test {
+ protected:
+  std::string draft_of(const std::string& xml, const std::string& name = "theirs.xml") {
+    const auto file = folder_.write(name, xml);
+    const std::string text = text_of(drafted_robot(file), name);
+    yaml_ = folder_.write("theirs.yaml", text);
+    return text;
+  }
+
+  RobotModel drafted() const { return compile_robot_model(yaml_, Terrain{}); }
+
+  ScratchFolder folder_;
+  std::filesystem::path yaml_;
+};
+
+TEST_F(RobotDraft, HasThePartsOfTheShippedRobots) {
+  const std::string models = TOUCHDOWN_SOURCE_DIR "/models/";
+  for (const std::string name : {"hip_roll", "ros_style", "knee_and_wheel", "five_bar"}) {
+    const YAML::Node shipped = YAML::LoadFile(models + name + ".yaml");
+    const auto mjcf = shipped["mjcf"].as<std::string>();
+    const YAML::Node drafted = YAML::Load(text_of(drafted_robot(models + mjcf), mjcf));
+    for (const char* key : {"base", "held", "hip", "imu", "tyres", "joints"}) {
+      if (!shipped[key]) continue;
+      EXPECT_EQ(dumped(drafted[key]), dumped(shipped[key])) << name << ' ' << key;
+    }
+    EXPECT_EQ(drafted["held"].IsDefined(), shipped["held"].IsDefined()) << name;
+  }
+}
+
+TEST_F(RobotDraft, OfUpkieWithOtherNamesIsUpkie) {
+  const RobotModel upkie = compile_robot_model(upkie_mjcf, Terrain{});
+  const std::vector<Edit> strange = {{"\"left_(hip|knee|wheel)\"", "\"$1 L, axis\""},
+                                     {"\"right_(hip|knee|wheel)\"", "\"$1 R, axis\""},
+                                     {"name=\"imu\"", "name=\"torso_IMU_link\""}};
+  const std::string text = draft_of(edited_upkie(strange));
+  EXPECT_THAT(text, AllOf(HasSubstr("left_hip: \"hip L, axis\""), HasSubstr("imu: torso_IMU_link"),
+                          Not(HasSubstr("held")), Not(HasSubstr("guess"))));
+  const RobotModel same = drafted();
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    EXPECT_EQ(same.joint[i], upkie.joint[i]) << i;
+    EXPECT_EQ(same.effort[i], upkie.effort[i]) << i;
+    EXPECT_EQ(same.is_reversed[i], upkie.is_reversed[i]) << i;
+  }
+  EXPECT_EQ(same.tyre_geom, upkie.tyre_geom);
+  EXPECT_EQ(same.imu_position, upkie.imu_position);
+}
+
+TEST_F(RobotDraft, HoldsWhatTurnsOtherwise) {
+  const std::string text = draft_of(rolling_upkie());
+  EXPECT_THAT(text, HasSubstr("held: [left_roll, right_roll]"));
+  EXPECT_EQ(drafted().held.size(), 2U);
+}
+
+/// A biped of boxes: legs of links from the base down, with hinges about `axis`.
+std::string biped(const std::vector<double>& links, const std::string& axis,
+                  const std::array<std::string, 2>& sides, const std::string& wheel,
+                  const std::string& motor = "ctrlrange=\"-30 30\"") {
+  const bool is_along_y = axis.find("0 1") == 0;
+  std::string bodies;
+  std::string motors;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const double off = side == 0 ? 0.15 : -0.15;
+    std::string open;
+    std::string close;
+    double length = 0.0;
+    for (std::size_t i = 0; i <= links.size(); ++i) {
+      const std::string name = fmt::format("{}{}", sides.at(side), i);
+      const double across = i == 0 ? off : 0.0;
+      const double bend = i % 2 == 0 ? 0.05 : -0.05;
+      open +=
+          fmt::format("<body name=\"b{0}\" pos=\"{1} {2} {3}\"><joint name=\"{0}\" axis=\"{4}\"/>",
+                      name, is_along_y ? (i == 0 ? 0.0 : bend) : across,
+                      is_along_y ? across : (i == 0 ? 0.0 : bend), -length, axis);
+      motors += fmt::format("<motor joint=\"{}\" {}/>", name, motor);
+      close += "</body>";
+      if (i == links.size()) break;
+      length = links[i];
+      open += fmt::format("<geom type=\"box\" size=\".02 .02 .02\" mass=\".5\" pos=\"0 0 {}\"/>",
+                          -0.5 * length);
+    }
+    bodies += open + wheel + close;
+  }
+  return "<mujoco><worldbody><body name=\"trunk\" pos=\"0 0 1\"><freejoint/><geom type=\"box\" "
+         "size=\".1 .1 .1\" mass=\"6\"/>" +
+         bodies + "</body></worldbody><actuator>" + motors + "</actuator></mujoco>";
+}
+
+std::string tyre_about(const std::string& axis) {
+  return fmt::format("<geom type=\"cylinder\" size=\".08 .02\" zaxis=\"{}\" mass=\".6\"/>", axis);
+}
+
+TEST_F(RobotDraft, StatesWhatItGuesses) {
+  const std::string text =
+      draft_of(biped({0.2, 0.2}, "0 1 0", {"A", "B"}, tyre_about("0 1 0"), ""));
+  EXPECT_THAT(text, AllOf(HasSubstr("# Names do not distinguish left from right"),
+                          HasSubstr("imu: trunk  # a guess"),
+                          HasSubstr("actuators:  # torques guessed from the weight"),
+                          HasSubstr("left_hip: A0\n"), HasSubstr("right_wheel: B2\n")));
+  EXPECT_GT(drafted().effort[1], 5.0);
+}
+
+TEST_F(RobotDraft, TakesTheLongLinksOfLegsWithThreeHinges) {
+  const std::string text =
+      draft_of(biped({0.22, 0.2, 0.03}, "0 1 0", {"l", "r"}, tyre_about("0 1 0")));
+  EXPECT_THAT(text, AllOf(HasSubstr("left_hip: l0"), HasSubstr("left_knee: l1"),
+                          HasSubstr("left_wheel: l3"), HasSubstr("held: [l2, r2]")));
+  EXPECT_EQ(drafted().held.size(), 2U);
+}
+
+TEST_F(RobotDraft, HasKneesAloneForLegsWithOneHinge) {
+  const std::string text = draft_of(biped({0.25}, "0 1 0", {"Left", "Right"}, tyre_about("0 1 0")));
+  EXPECT_THAT(text, AllOf(HasSubstr("hip: none"), HasSubstr("left_knee: Left0\n"),
+                          Not(HasSubstr("_hip:"))));
+  EXPECT_FALSE(drafted().has(0));
+}
+
+TEST_F(RobotDraft, LetsTheLeftLegBeOnTheLeftWhereverTheBaseFaces) {
+  for (const auto& [axis, sides] : std::vector<std::pair<std::string, std::array<std::string, 2>>>{
+           {"0 1 0", {"leg_l", "leg_r"}},
+           {"0 1 0", {"leg_r", "leg_l"}},
+           {"1 0 0", {"leg_l", "leg_r"}},
+           {"1 0 0", {"leg_r", "leg_l"}}}) {
+    const std::string text = draft_of(biped({0.2, 0.2}, axis, sides, tyre_about(axis)));
+    EXPECT_THAT(text, HasSubstr("left_wheel: leg_l2")) << axis;
+    const RobotModel robot = drafted();
+    EXPECT_EQ(robot.joint_name[2], "leg_l2") << axis << sides[0];
+    const MjDataPtr data = at_reference(robot);
+    EXPECT_GT(vector_at(data->geom_xpos, robot.tyre_geom[0]).y(), 0.1) << axis << sides[0];
+  }
+}
+
+TEST_F(RobotDraft, MeasuresWheelsWithoutRoundColliders) {
+  const std::string disc = "<inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\".0018 .0032 .0018\"/>";
+  EXPECT_THAT(draft_of(biped({0.2, 0.2}, "0 1 0", {"l", "r"}, disc)),
+              HasSubstr("tyres: {radius: 0.08}  # m, a guess from the wheel's inertia"));
+  EXPECT_NEAR(drafted().wheel_radius, 0.08, 1e-9);
+  const std::string across = "<geom type=\"cylinder\" size=\".07 .02\" mass=\"1\"/>";
+  EXPECT_THAT(draft_of(biped({0.2, 0.2}, "0 1 0", {"l", "r"}, across)),
+              HasSubstr("tyres: {radius: 0.07}  # m, a guess: the wheel's shape is not round"));
+  const std::string any = "<inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\".01 .01 .01\"/>";
+  EXPECT_THAT(draft_of(biped({0.2, 0.2}, "0 1 0", {"l", "r"}, any)),
+              HasSubstr("# tyres: {radius: …}"));
+}
+
+TEST_F(RobotDraft, NamesRodsOfACutLoopInsteadOfHoldingThem) {
+  const std::string text =
+      draft_of(read_file(TOUCHDOWN_SOURCE_DIR "/models/legs/four_bar.urdf"), "theirs.urdf");
+  EXPECT_THAT(text, AllOf(HasSubstr("held: [left_rocker_pivot, right_rocker_pivot]"),
+                          HasSubstr("or cranks of cut loops"), HasSubstr("loops: [{bodies: [a, b]"),
+                          Not(HasSubstr("maximum_torque"))));
+  EXPECT_THAT(complaint_of([&] { drafted(); }),
+              HasSubstr("motor 'left_knee': expected a ctrlrange"));
+  const std::string rod =
+      "<body pos=\"0 0 -.05\" name=\"rod\"><joint name=\"rod_pivot\" axis=\"0 1 0\"/><inertial "
+      "pos=\"0 0 0\" mass=\".1\" diaginertia=\"1e-4 1e-4 1e-4\"/></body>";
+  EXPECT_THAT(draft_of(edited_upkie({{"<body name=\"left_lower_leg\"", rod + "$&"}})),
+              AllOf(HasSubstr("# rod_pivot: ends of a cut loop?"), Not(HasSubstr("held:"))));
+}
+
+TEST_F(RobotDraft, RefusesWhatHasNoWheelsOrNoKnees) {
+  EXPECT_THAT(complaint_of([&] {
+                draft_of(biped({}, "0 1 0", {"l", "r"}, tyre_about("0 1 0")));
+              }),
+              HasSubstr("expected a knee"));
+  EXPECT_THAT(complaint_of([&] {
+                draft_of(
+                    "<mujoco><worldbody><body name=\"t\"><freejoint/><geom size=\"1\"/></body>"
+                    "</worldbody></mujoco>");
+              }),
+              HasSubstr("expected two wheels"));
+}
+
+}  // namespace
+}  // namespace touchdown::models
