@@ -14,7 +14,8 @@ set(public
   decision/augmentation decision/config decision/descent decision/draws decision/filter decision/fit
   decision/network
   evidence/curves evidence/filter evidence/fit
-  force/force_kinematics force/force_kinematics_fit force/leg_geometry force/support_force
+  force/closed_legs force/force_kinematics force/force_kinematics_fit force/leg_geometry force/linkage
+  force/support_force
   models/arrays models/make_estimator models/metadata models/model
   neural/estimator neural/input neural/network
   phase/config phase/filter phase/fit phase/labels phase/model phase/phase)

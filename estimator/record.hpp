@@ -3,11 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string_view>
 
 #include <Eigen/Core>
 
+#include "estimator/force/closed_legs.hpp"
 #include "estimator/signals.hpp"
 
 namespace touchdown {
@@ -112,6 +114,9 @@ struct AssemblyConfig {
   double rate_tolerance = 0.05;
   /// Time constant of the low-pass that finds the direction of gravity (s).
   double gravity_memory = 0.25;
+  /// For legs with closed loops: hips and knees of the record are motors, and become hips and knees
+  /// of the wheels' chains. Targets are then not known.
+  std::optional<ClosedLegs> closed_legs = {};
 };
 
 /// The `AssemblyConfig::axes` of an IMU, from the names of its axes that point back, left and down:

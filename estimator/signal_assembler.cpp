@@ -3,6 +3,8 @@
 #include <bit>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "estimator/low_pass.hpp"
 
 namespace touchdown {
@@ -70,6 +72,7 @@ void SignalAssembler::reset() noexcept {
   upward_ = 0.0;
   stopped_.reset();
   repeated_ = {};
+  if (config_.closed_legs) config_.closed_legs->reset();
 }
 
 std::uint64_t SignalAssembler::count(RecordFault fault) const noexcept {
@@ -79,6 +82,7 @@ std::uint64_t SignalAssembler::count(RecordFault fault) const noexcept {
 const Signals& SignalAssembler::assemble(const RobotRecord& record) noexcept {
   const ImuSignals imu = imu_of(record, config_);
   signals_ = signals_of(record, config_, imu);
+  if (config_.closed_legs) take_motors(imu);
   faults_ = {};
   watch_clock();
   // Removing gravity moves an acceleration that stopped: the chip's own one is compared.
@@ -98,6 +102,17 @@ const Signals& SignalAssembler::assemble(const RobotRecord& record) noexcept {
   started_ = true;
   for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += (faults_.bits >> i) & 1U;
   return signals_;
+}
+
+void SignalAssembler::take_motors(const ImuSignals& imu) noexcept {
+  Eigen::Vector3d proper = imu.proper_acceleration;
+  if (proper.hasNaN()) {
+    const std::array<double, 4>& q = imu.orientation;
+    proper = signals_.linear_acceleration - Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() *
+                                                Eigen::Vector3d(0.0, 0.0, gravity_at_rest);
+  }
+  config_.closed_legs->convert(signals_.leg, proper);
+  for (LegTargets& target : signals_.target) target.hip = target.knee = {};
 }
 
 void SignalAssembler::watch_clock() noexcept {

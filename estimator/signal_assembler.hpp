@@ -61,6 +61,8 @@ class SignalAssembler {
   [[nodiscard]] std::uint64_t count(RecordFault fault) const noexcept;
 
  private:
+  /// Turns motors of closed legs into hips and knees.
+  void take_motors(const ImuSignals& imu) noexcept;
   void watch_clock() noexcept;
   void watch_joints() noexcept;
   void watch_imu(const ImuSignals& imu) noexcept;

@@ -129,7 +129,7 @@ touchdown_record touchdown_empty_record(void);
 /* Creates an estimator from a model file. `use` may be NULL. The caller destroys the estimator with
  * touchdown_destroy. On failure, returns NULL and writes one line with the reason to `error`, which
  * has `error_size` bytes, terminating zero included; `error` may be NULL and `error_size` 0. This
- * function is in the component `models`, all others are in `estimator`. */
+ * function is in the component `models`, as are all that read a file. */
 touchdown_estimator* touchdown_create(const char* model_path, const touchdown_use* use, char* error,
                                       size_t error_size);
 
@@ -142,6 +142,13 @@ touchdown_conventions touchdown_upkie_conventions(void);
 int touchdown_set_conventions(touchdown_estimator* estimator,
                               const touchdown_conventions* conventions, char* error,
                               size_t error_size);
+
+/* For legs with closed loops: reads the file that `touchdown check ROBOT --legs FILE` wrote. The
+ * records that follow have in `joint` each leg's first motor, its second one (NaN: none) and its
+ * wheel, with the signs and zeros of the robot's file. Resets the estimator; call it after
+ * touchdown_set_conventions. Returns 1, or 0 as that does. In the component `models`. */
+int touchdown_load_closed_legs(touchdown_estimator* estimator, const char* path, char* error,
+                               size_t error_size);
 
 /* Takes one record and returns the belief after it. Never fails, allocates or locks. Without an
  * estimator or a record (NULL), returns the flat prior with the status TOUCHDOWN_INVALID. */

@@ -81,7 +81,7 @@ struct Observation {
   double time = 0.0;
   std::array<ServoReading, servo_count> servo;
   /// Motors of closed legs, those of the left leg first; empty for open legs. `servo` has the
-  /// virtual legs (models/linkage.hpp), as they follow from the motors.
+  /// virtual legs (estimator/force/linkage.hpp), as they follow from the motors.
   std::vector<ServoReading> motor = {};
   ImuReading imu;
   /// Pitch of the base, positive when it leans forward (rad), and its rate (rad/s), from the IMU.

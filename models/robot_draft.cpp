@@ -19,13 +19,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A name as YAML, also within brackets.
-std::string as_yaml(const std::string& name) {
-  YAML::Emitter list;
-  list << YAML::Flow << YAML::BeginSeq << name << YAML::EndSeq;
-  return {list.c_str() + 1, list.size() - 2};
-}
-
 class Draft {
  public:
   explicit Draft(const std::filesystem::path& file)
@@ -276,6 +269,12 @@ class Draft {
 };
 
 }  // namespace
+
+std::string as_yaml(const std::string& name) {
+  YAML::Emitter list;
+  list << YAML::Flow << YAML::BeginSeq << name << YAML::EndSeq;
+  return {list.c_str() + 1, list.size() - 2};
+}
 
 std::vector<DraftLine> drafted_robot(const std::filesystem::path& robot) {
   return Draft(robot).lines();

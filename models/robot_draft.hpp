@@ -53,6 +53,9 @@ bool has_part(std::string_view text, std::string_view part);
 
 inline constexpr double parallel = 0.97;  ///< least cosine of axes that count as one: 14°
 
+/// A name as YAML, also within brackets.
+std::string as_yaml(const std::string& name);
+
 /// Drafts the YAML file about a robot from its MJCF or URDF, whatever its parts are called:
 /// `joints`, `held`, `tyres`, `imu`, `actuators`, `balancer`. Joints that are no servo's are held,
 /// but for those in loops and for rods of a cut loop. Errors: `RobotRefusal` for a file that no

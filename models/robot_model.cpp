@@ -6,6 +6,21 @@
 
 namespace touchdown::models {
 
+ClosedLegs closed_legs(const RobotModel& robot) {
+  std::array<MotorLeg, wheel_count> legs;
+  for (std::size_t leg = 0; leg < legs.size(); ++leg) {
+    legs[leg].linkage = robot.closed_leg[leg]->linkage;
+    const std::vector<int>& motors = legs[leg].linkage.motors;
+    for (std::size_t i = 0; i < motors.size(); ++i) {
+      if (motors[i] > 1) continue;  // cranks stay as in the file
+      const std::size_t servo = 3 * leg + static_cast<std::size_t>(motors[i]);
+      legs[leg].sign.at(i) = robot.is_reversed[servo] ? -1.0 : 1.0;
+      legs[leg].zero.at(i) = robot.zero[servo];
+    }
+  }
+  return ClosedLegs(std::move(legs));
+}
+
 std::string motor_name(const RobotModel& robot, std::size_t servo) {
   const int joint = robot.motor_joint[servo];
   const auto own = std::find(robot.joint.begin(), robot.joint.end(), joint);

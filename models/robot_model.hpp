@@ -10,8 +10,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "estimator/force/closed_legs.hpp"
 #include "models/actuator.hpp"
-#include "models/linkage.hpp"
 #include "models/mjcf/types.hpp"
 #include "models/robot.hpp"
 #include "models/terrain.hpp"
@@ -35,8 +35,8 @@ struct HeldJoint {
   std::string kp_source;   ///< where kp is from, for messages
 };
 
-/// A leg with closed loops. Its hip and knee are those of the virtual leg (models/linkage.hpp),
-/// which may have no motor.
+/// A leg with closed loops. Its hip and knee are those of the virtual leg
+/// (estimator/force/linkage.hpp), which may have no motor.
 struct ClosedLeg {
   Linkage linkage;
   std::vector<int> joint;  ///< of each hinge, in the model: hip, knee, then cranks and rods
@@ -91,6 +91,9 @@ struct RobotModel {
   int base_qpos() const { return mj->jnt_qposadr[mj->body_jntadr[base_body]]; }
   int base_dof() const { return mj->jnt_dofadr[mj->body_jntadr[base_body]]; }
 };
+
+/// The legs of a robot that has closed ones; its motors have the signs and zeros of the file.
+ClosedLegs closed_legs(const RobotModel& robot);
 
 /// The file's name of the joint that a servo's motor turns; it has one.
 std::string motor_name(const RobotModel& robot, std::size_t servo);

@@ -54,11 +54,11 @@ double bending_per_load(const models::RobotModel& robot, const mjData& data, std
   if (!robot.closed_leg[leg]) return axle.row(0).dot(axle.row(2));
   // Hip and knee move as the loops let them.
   const models::ClosedLeg& closed = *robot.closed_leg[leg];
-  models::LinkageVector q(closed.linkage.size());
+  LinkageVector q(closed.linkage.size());
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     q[i] = data.qpos[mj.jnt_qposadr[closed.joint[static_cast<std::size_t>(i)]]];
   }
-  const Eigen::MatrixXd v = models::MotorMap(closed.linkage, q).leg;
+  const Eigen::MatrixXd v = MotorMap(closed.linkage, q).leg;
   return axle.row(0).dot(v *
                          (v.transpose() * v).ldlt().solve(v.transpose() * axle.row(2).transpose()));
 }

@@ -273,7 +273,8 @@ void complete_draft(const models::RobotModel& robot, std::vector<models::DraftLi
   const models::MjDataPtr data = models::at_reference(robot);
   models::write_pose(robot, pose.position, pose.orientation, pose.joint_position, data->qpos);
   std::vector<std::string> near;
-  for (const auto& [part, distance] : parts_near_terrain(robot, *data)) near.push_back(part);
+  for (const auto& [part, distance] : parts_near_terrain(robot, *data))
+    near.push_back(models::as_yaml(part));
   if (!near.empty()) {
     draft.push_back({"no_collision", fmt::format("[{}]", fmt::join(near, ", ")),
                      "within 1 cm of the ground as it stands"});

@@ -12,7 +12,7 @@ import statistics
 import subprocess
 import tempfile
 
-ROBOTS = ["models/knee_and_wheel.yaml", "models/hip_roll.yaml", "models/ros_style.yaml"]
+ROBOTS = [f"models/{name}.yaml" for name in ("knee_and_wheel", "hip_roll", "ros_style", "five_bar", "four_bar")]
 SCENARIOS = {"step": "scenarios/one_step.yaml", "stairs": "scenarios/stairs.yaml"}
 ENGINES = {"MuJoCo": "mujoco", "Bullet": "bullet"}
 RECALL = re.compile(r"of contact (\S+) ([^\s,]+), of no contact (\S+) ([^\s,]+)")

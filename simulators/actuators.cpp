@@ -71,7 +71,7 @@ const models::Action& Actuators::delayed(const models::Action& action) {
 void Actuators::share_among_motors(const LegMotors& motors, JointTorques& torques) const {
   for (std::size_t leg = 0; leg < motors.map.size(); ++leg) {
     if (!motors.map[leg]) continue;
-    const models::LinkageVector shared =
+    const LinkageVector shared =
         motors.map[leg]->motor_torques({torques[3 * leg], torques[3 * leg + 1]});
     torques[3 * leg + 1] = 0.0;
     for (Eigen::Index i = 0; i < shared.size(); ++i) {

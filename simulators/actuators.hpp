@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "estimator/force/linkage.hpp"
 #include "models/actuator.hpp"
-#include "models/linkage.hpp"
 #include "models/robot.hpp"
 #include "models/robot_model.hpp"
 #include "models/simulated_joints.hpp"
@@ -49,7 +49,7 @@ using JointTorques = std::array<double, models::servo_count>;
 /// The motors of closed legs at one instant. They count as hip and knee; a leg with one motor has
 /// none at the knee.
 struct LegMotors {
-  std::array<std::optional<models::MotorMap>, models::wheel_count> map;
+  std::array<std::optional<MotorMap>, models::wheel_count> map;
   JointTorques position = {};  ///< rad
   JointTorques velocity = {};  ///< rad/s
 };

@@ -25,10 +25,10 @@ std::size_t first_linked(const models::RobotModel& model, std::size_t leg) {
 }
 
 /// One number per hinge of a closed leg, from those of the virtual legs and of cranks and rods.
-models::LinkageVector of_hinges(const models::RobotModel& model, std::size_t leg,
-                                const JointTorques& joints, const std::vector<double>& linked) {
+LinkageVector of_hinges(const models::RobotModel& model, std::size_t leg,
+                        const JointTorques& joints, const std::vector<double>& linked) {
   const std::size_t count = model.closed_leg[leg]->joint.size();
-  models::LinkageVector of(static_cast<Eigen::Index>(count));
+  LinkageVector of(static_cast<Eigen::Index>(count));
   of[0] = joints[3 * leg];
   of[1] = joints[3 * leg + 1];
   std::copy_n(linked.begin() + static_cast<std::ptrdiff_t>(first_linked(model, leg)), count - 2,
@@ -41,15 +41,15 @@ RobotState with_closed_legs(const models::RobotModel& model, RobotState state) {
   state.linked_position.clear();
   state.linked_velocity.clear();
   for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
-    const models::Linkage& linkage = model.closed_leg[leg]->linkage;
+    const Linkage& linkage = model.closed_leg[leg]->linkage;
     double* const angle = &state.joint_position[3 * leg];
     double* const rate = &state.joint_velocity[3 * leg];
-    models::LinkageVector q = linkage.start;
+    LinkageVector q = linkage.start;
     if (!move_virtual_leg(linkage, angle[0], angle[1], q)) {
       throw InputError(model.name + ": the loops of its legs do not close at the start");
     }
-    const models::MotorMap map(linkage, q);
-    const models::LinkageVector rates = map.all * map.motor_rates({rate[0], rate[1]});
+    const MotorMap map(linkage, q);
+    const LinkageVector rates = map.all * map.motor_rates({rate[0], rate[1]});
     std::copy_n(q.data(), 2, angle);
     std::copy_n(rates.data(), 2, rate);
     state.linked_position.insert(state.linked_position.end(), q.begin() + 2, q.end());
@@ -181,7 +181,7 @@ JointTorques Simulator::at_virtual_legs(JointTorques torques) const {
   const Eigen::Vector3d force = imu_rotation_in_base_ * observation_.imu.raw_linear_acceleration;
   for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
     if (!leg_motors_.map[leg]) continue;
-    models::LinkageVector at_motors(leg_motors_.map[leg]->leg.cols());
+    LinkageVector at_motors(leg_motors_.map[leg]->leg.cols());
     for (Eigen::Index i = 0; i < at_motors.size(); ++i) {
       at_motors[i] = torques[3 * leg + static_cast<std::size_t>(i)];
     }

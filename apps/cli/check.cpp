@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -18,6 +19,7 @@
 #include "core/resources.hpp"
 #include "core/stop.hpp"
 #include "core/table.hpp"
+#include "estimator/npz/npz.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
 #include "logs/log/byte_source.hpp"
@@ -175,9 +177,16 @@ struct CheckFlags {
   std::string robot;
   std::string draft;   ///< YAML file to write
   std::string figure;  ///< PNG to write
+  std::string legs;    ///< arrays of closed legs to write
   bool strict = false;
   bool json = false;
 };
+
+/// Writes what a program on the robot needs to know of closed legs.
+void write_legs(const models::RobotModel& robot, const std::string& path) {
+  if (!robot.closed_leg[0]) throw InputError("--legs: expected a robot with closed legs");
+  write_atomically(path, to_npz(arrays_of(models::closed_legs(robot)), path, Deflated::large));
+}
 
 /// Checks one robot and prints what was read, what is ignored and how it stands, as text or as
 /// JSON. Returns the number of complaints. Errors: `Stopped`.
@@ -190,6 +199,7 @@ std::size_t check_robot(const std::string& path, const CheckFlags& flags,
       print_warnings(scenarios::draft_robot(robot, flags.draft));
       robot = flags.draft;
     }
+    if (!flags.legs.empty()) write_legs(models::compile_robot_model(robot, {}), flags.legs);
     check = scenarios::check_robot(robot, [&] { return !*session.stop; });
   } catch (const models::RobotRefusal& refused) {
     check.complaints = refused.complaints;
@@ -264,9 +274,12 @@ void require_outputs(const CheckFlags& flags) {
     }
     require_writable(flags.draft);
   }
-  if (flags.figure.empty()) return;
-  require_robot("--figure");
-  require_writable(flags.figure);
+  for (const auto& [option, path] :
+       {std::pair("--figure", &flags.figure), {"--legs", &flags.legs}}) {
+    if (path->empty()) continue;
+    require_robot(option);
+    require_writable(*path);
+  }
 }
 
 void check(const CheckFlags& flags, const CliSession& session) {
@@ -314,6 +327,9 @@ void add_check(CLI::App& program, const CliSession& session) {
               "called, with a comment at each guess; then checks the robot by this file")
       .value_name("FILE.yaml");
   verb.option("--figure", &flags->figure, "Draws the standing robot").value_name("FILE.png");
+  verb.option("--legs", &flags->legs,
+              "Writes closed legs for programs on the robot, which know motors only")
+      .value_name("FILE.npz");
   verb.flag("--strict", &flags->strict, "Exit with code 1 if there is a finding about a log");
   verb.flag("--json", &flags->json, "Print JSON about robots");
   verb.action([flags, &session] { check(*flags, session); });

@@ -56,6 +56,15 @@ std::unique_ptr<ContactEstimator> load_estimator(const std::filesystem::path& pa
   return made_of_file(path, [&](const Model& model) { return make_estimator(model, use); });
 }
 
+ClosedLegs load_closed_legs(const std::filesystem::path& path) {
+  const ModelArrays arrays = read_npz(path);
+  try {
+    return closed_legs_of(arrays);
+  } catch (const InputError& error) {
+    throw InputError(path.string() + ": " + error.what());
+  }
+}
+
 ModelMetadata load_metadata(const std::filesystem::path& path, const ModelUse& use) {
   return made_of_file(path, [&](const Model& model) { return metadata_for(model, use); });
 }

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "core/error.hpp"
+#include "estimator/force/closed_legs.hpp"
 #include "estimator/models/make_estimator.hpp"
 
 namespace touchdown {
@@ -21,5 +22,9 @@ std::unique_ptr<ContactEstimator> load_estimator(const std::filesystem::path& pa
 
 /// The metadata of the file that `load_estimator` uses.
 ModelMetadata load_metadata(const std::filesystem::path& path, const ModelUse& use = {});
+
+/// Loads the closed legs that `touchdown check ROBOT --legs FILE` wrote, for
+/// `AssemblyConfig::closed_legs`. Errors: `InputError`.
+ClosedLegs load_closed_legs(const std::filesystem::path& path);
 
 }  // namespace touchdown

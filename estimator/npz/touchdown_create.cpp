@@ -1,4 +1,4 @@
-// The only function of estimator/touchdown.h that reads a file.
+// The functions of estimator/touchdown.h that read a file.
 
 #include <string>
 
@@ -20,4 +20,19 @@ touchdown_estimator* touchdown_create(const char* model_path, const touchdown_us
         }
       },
       error, error_size);
+}
+
+int touchdown_load_closed_legs(touchdown_estimator* estimator, const char* path, char* error,
+                               size_t error_size) {
+  const auto load = [&] {
+    if (estimator == nullptr || path == nullptr) {
+      throw touchdown::InputError("touchdown_load_closed_legs: expected an estimator and a path");
+    }
+    touchdown::AssemblyConfig config = estimator->assembler.config();
+    config.closed_legs = touchdown::load_closed_legs(path);
+    estimator->assembler = touchdown::SignalAssembler(config);
+    estimator->estimator->reset();
+    return estimator;
+  };
+  return touchdown::handle_or_error(load, error, error_size) == nullptr ? 0 : 1;
 }

@@ -13,9 +13,11 @@
 
 #include "core/fields.hpp"
 #include "core/key.hpp"
+#include "estimator/force/closed_legs.hpp"
 #include "estimator/record.hpp"
-#include "logs/mapping/closed_legs.hpp"
+#include "logs/log/row.hpp"
 #include "models/robot.hpp"
+#include "models/robot_model.hpp"
 
 namespace touchdown::logs {
 
@@ -103,6 +105,28 @@ struct MappedLegTargets {
   std::optional<MappedSignal> torque;    ///< feed-forward, N·m; without it 0
   std::array<double, 4> kp = {};         ///< gains: N·m/rad
   std::array<double, 4> kd = {};         ///< N·m·s/rad
+};
+
+/// Turns what motors of closed legs report into hips and knees of their virtual legs
+/// (estimator/force/closed_legs.hpp), row by row. Motors and wheels count with the signs and zeros
+/// of the robot's file.
+class MotorsToLegs {
+ public:
+  /// Errors: those of `compile_robot_model`; `InputError` for a robot with open legs.
+  explicit MotorsToLegs(const std::filesystem::path& robot);
+
+  std::size_t motors_per_leg() const;
+  /// "left_front, left_rear, left_axle, right_front, …": the order of a mapping's joints.
+  std::string joints() const;
+
+  /// Replaces motors in the slots of hips and knees by the virtual legs, and keeps them as motors.
+  /// A leg with one motor has it in the slot of its hip. Where loops cannot close, or a number is
+  /// missing, the leg's numbers are NaN.
+  void convert(LogValues& values);
+
+ private:
+  models::RobotModel robot_;
+  ClosedLegs legs_;
 };
 
 /// Maps the columns of another robot's log to signals, with units, signs, order and axes. Joints

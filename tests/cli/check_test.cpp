@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "estimator/npz/load_estimator.hpp"
 #include "logs/log/recording_file.hpp"
 #include "program.hpp"
 #include "synthetic_log.hpp"
@@ -228,6 +229,36 @@ TEST_F(CheckOfARobot, PrintsItsComplaintsAndExitsWithOne) {
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_THAT(ended.output, AllOf(HasSubstr("complaint: robot.xml:149:1: tendon"),
                                   HasSubstr("\ncomplaint: robot.xml:150:1: extension")));
+}
+
+TEST_F(InFolder, CheckWritesTheFileOfARobotAndDrawsIt) {
+  const std::string five_bar = TOUCHDOWN_SOURCE_DIR "/models/legs/five_bar.xml";
+  const Ended ended =
+      folder_.run("check " + five_bar + " --write mine.yaml --figure mine.png --legs mine.npz");
+  EXPECT_EQ(ended.exit_code, 0) << ended.errors;
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("gain margin"), HasSubstr("motor left_rear_motor")));
+  EXPECT_THAT(folder_.text("mine.yaml"), HasSubstr("left_hip: left_front_motor"));
+  EXPECT_GT(folder_.text("mine.png").size(), 10000U);
+  EXPECT_EQ(load_closed_legs(folder_ / "mine.npz").legs()[1].linkage.motors.size(), 2U);
+  EXPECT_EQ(folder_.run("check mine.yaml").exit_code, 0);
+  folder_.expect_refusals(
+      {{"check " + five_bar + " --write mine.yaml", {"mine.yaml: --write: exists already"}},
+       {"check " + five_bar + " --write mine.xml", {"mine.xml: --write: expected a file with"}},
+       {"check mine.yaml --write more.yaml", {"mine.yaml: --write: expected an MJCF or a URDF"}},
+       {"check mine.yaml mine.yaml --figure a.png", {"--figure: expected one robot"}},
+       {"check " + upkie_mjcf + " --legs legs.npz", {"--legs: expected a robot with closed legs"}},
+       {"check log.mpack --legs legs.npz", {"--legs: expected one robot"}}});
+}
+
+TEST_F(InFolder, CheckNamesItsGuessesAndAllReasonsAgainstARobot) {
+  folder_.write("bare.xml", edited_upkie({{"<site name=\"imu\"[^>]*/>", ""}}));
+  const Ended guessed = folder_.run("check bare.xml --write bare.yaml");
+  EXPECT_THAT(guessed.errors, HasSubstr("bare.yaml: imu: a guess"));
+  folder_.write("bad.xml", edited_upkie({{"<body name=\"torso\"", "$& gravcomp=\"1\""},
+                                         added("<tendon><fixed name=\"rope\"/></tendon>")}));
+  const Ended bad = folder_.run("check bad.xml --write bad.yaml");
+  EXPECT_EQ(bad.exit_code, 1);
+  EXPECT_THAT(bad.output, AllOf(HasSubstr("gravcomp"), HasSubstr("'rope'")));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "models/linkage.hpp"
+#include "estimator/force/linkage.hpp"
 #include "models/robot_model.hpp"
 #include "tests/complaint.hpp"
 #include "tests/models/upkie.hpp"

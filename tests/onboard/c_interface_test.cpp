@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "estimator/force/closed_legs.hpp"
 #include "estimator/signal_assembler.hpp"
 #include "estimator/touchdown.h"
 #include "logs/model_file.hpp"
@@ -26,6 +27,12 @@ class CInterface : public ::testing::Test {
 
   const ScratchFolder folder_;
 };
+
+ClosedLegs legs_without_loops(const ClosedLegs& legs) {
+  std::array<MotorLeg, 2> open = legs.legs();
+  for (MotorLeg& leg : open) leg.linkage.loops.clear();
+  return ClosedLegs(open);
+}
 
 touchdown_record record_of(const Signals& s) {
   touchdown_record record = touchdown_empty_record();
@@ -230,6 +237,59 @@ TEST_F(CInterface, TakesTheTargetsOfServos) {
   EXPECT_STREQ(touchdown_status_text(TOUCHDOWN_DEGRADED), "degraded");
   EXPECT_EQ(touchdown_update_with_targets(nullptr, &last, targets.data()).status,
             TOUCHDOWN_INVALID);
+  touchdown_destroy(estimator);
+}
+
+TEST_F(CInterface, TakesTheMotorsOfClosedLegs) {
+  // A parallelogram: the second motor's crank turns the shank.
+  Linkage linkage;
+  linkage.hinges = {{-1, {0.0, 0.0}, -1.0, 0.4},
+                    {0, {0.08, -0.15}, -1.0, -0.8},
+                    {-1, {0.0, 0.0}, -1.0, 0.0},
+                    {2, {0.04, 0.01}, -1.0, 0.0}};
+  linkage.loops = {{{1, {0.12, -0.14}}, {3, {0.12, -0.14}}}};
+  linkage.motors = {0, 2};
+  linkage.axle = {1, {0.0, -0.3}};
+  linkage.start = LinkageVector(4);
+  linkage.start << 0.4, -0.8, 0.0, 0.0;
+  const ClosedLegs legs({MotorLeg{linkage}, MotorLeg{linkage}});
+  logs::write_npz(arrays_of(legs), folder_ / "legs.npz");
+  logs::write_npz(arrays_of(legs_without_loops(legs)), folder_ / "open.npz");
+  std::array<char, 200> error{};
+  touchdown_estimator* const estimator =
+      touchdown_create(model().c_str(), nullptr, error.data(), error.size());
+  ASSERT_NE(estimator, nullptr) << error.data();
+  EXPECT_EQ(touchdown_load_closed_legs(estimator, (folder_ / "open.npz").c_str(), error.data(),
+                                       error.size()),
+            0);
+  EXPECT_THAT(error.data(), HasSubstr("open.npz: left_hinges"));
+  EXPECT_EQ(touchdown_load_closed_legs(nullptr, nullptr, nullptr, 0), 0);
+  ASSERT_EQ(touchdown_load_closed_legs(estimator, (folder_ / "legs.npz").c_str(), error.data(),
+                                       error.size()),
+            1)
+      << error.data();
+  SignalAssembler assembler({.sample_rate = 1000.0, .closed_legs = legs});
+  const auto expected = make_estimator(test::fitted_model("robust"));
+  for (Signals s : test::drops(1500)) {
+    // The knee follows the second motor's angle less the first one's.
+    for (LegSignals& leg : s.leg) leg.knee.position = 0.1 * leg.knee.position;
+    touchdown_record record = record_of(s);
+    std::array<JointSignals, 6> joints;
+    for (std::size_t i = 0; i < 6; ++i) {
+      joints[i] = {record.joint[i].position, record.joint[i].velocity, record.joint[i].torque};
+    }
+    const Signals& signals =
+        assembler.assemble({.time = s.time,
+                            .joints = joints,
+                            .orientation = {0.0, 0.0, 0.0, 1.0},
+                            .angular_velocity = Eigen::Vector3d::Constant(not_reported),
+                            .linear_acceleration = {0.0, 0.0, -s.vertical_acceleration}});
+    EXPECT_NEAR(signals.leg[0].knee.position,
+                -0.8 + joints[1].position - (joints[0].position - 0.4), 1e-8);
+    const Belief& belief = expected->update(signals);
+    const touchdown_belief found = touchdown_update(estimator, &record);
+    ASSERT_EQ(found.p_contact[0], belief.wheel[0].p_contact);
+  }
   touchdown_destroy(estimator);
 }
 

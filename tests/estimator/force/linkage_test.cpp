@@ -1,4 +1,4 @@
-#include "models/linkage.hpp"
+#include "estimator/force/linkage.hpp"
 
 #include <array>
 #include <cmath>
@@ -7,9 +7,13 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace touchdown::models {
+#include "estimator/force/closed_legs.hpp"
+#include "tests/complaint.hpp"
+
+namespace touchdown {
 namespace {
 
 using Eigen::Matrix2d;
@@ -162,5 +166,65 @@ TEST(Linkage, StaysWhereItsLoopsDoNotClose) {
   EXPECT_FALSE(move_virtual_leg(five, std::nan(""), 0.0, q));
 }
 
+/// Closed legs of two five-bars; the second motor of each counts the other way, from another zero.
+ClosedLegs legs_of(const Linkage& linkage) {
+  MotorLeg leg{linkage};
+  leg.sign = {1.0, -1.0};
+  leg.zero = {0.0, 0.25};
+  return ClosedLegs({leg, leg});
+}
+
+TEST(ClosedLegs, AreHipsAndKneesOfTheirMotors) {
+  ClosedLegs legs = closed_legs_of(arrays_of(legs_of(five_bar())));
+  for (int k = 0; k < 200; ++k) {
+    const double front = 0.6 + 0.4 * std::sin(0.03 * k);
+    const double rear = -0.7 - 0.3 * std::sin(0.05 * k);
+    std::array<LegSignals, 2> signals;
+    signals[0].hip = {front, 2.0, 4.0};
+    signals[0].knee = {-(rear - 0.25), 3.0, 5.0};
+    signals[1].wheel = {1.0, 2.0, 3.0};
+    signals[1].hip.position = std::nan("");
+    legs.convert(signals, {0.0, 0.0, 0.0});  // in free fall bodies have no weight
+    const FiveBar expected(front, rear);
+    EXPECT_NEAR(signals[0].hip.position, expected.hip, 1e-9);
+    EXPECT_NEAR(signals[0].knee.position, expected.knee, 1e-8);
+    const Vector2d rates = expected.leg * Vector2d(2.0, -3.0);
+    EXPECT_NEAR(signals[0].knee.velocity, rates.y(), 1e-6);
+    const Vector2d torques(signals[0].hip.torque, signals[0].knee.torque);
+    EXPECT_LT((expected.leg.transpose() * torques - Vector2d(4.0, -5.0)).norm(), 1e-6);
+    EXPECT_TRUE(std::isnan(signals[1].hip.position) && std::isnan(signals[1].knee.torque));
+    EXPECT_EQ(signals[1].wheel.torque, 3.0);
+  }
+}
+
+TEST(ClosedLegs, WithoutAnAccelerationLackTheirTorquesAlone) {
+  ClosedLegs legs = legs_of(four_bar());
+  std::array<LegSignals, 2> signals;
+  for (LegSignals& leg : signals) leg.hip = {0.25, 0.1, 2.0};
+  legs.convert(signals, Eigen::Vector3d::Constant(std::nan("")));
+  EXPECT_TRUE(std::isfinite(signals[0].knee.position) && std::isfinite(signals[0].hip.velocity));
+  EXPECT_TRUE(std::isnan(signals[0].hip.torque));
+}
+
+TEST(ClosedLegs, OfArraysThatAreNoLinkageAreRefused) {
+  const ModelArrays good = arrays_of(legs_of(five_bar()));
+  const auto refused = [&](const std::string& name, std::size_t number, double value) {
+    ModelArrays bad = good;
+    bad.at(name).data.at(number) = value;
+    return complaint_of([&] { (void)closed_legs_of(bad); });
+  };
+  using ::testing::HasSubstr;
+  EXPECT_THAT(refused("left_hinges", 5, 7.0), HasSubstr("left_hinges: expected the number of a"));
+  EXPECT_THAT(refused("right_loops", 0, 0.5), HasSubstr("right_loops"));
+  EXPECT_THAT(refused("left_motors", 0, -1.0), HasSubstr("left_motors"));
+  EXPECT_THAT(refused("left_axle", 1, std::nan("")), HasSubstr("finite"));
+  ModelArrays less = good;
+  less.erase("left_start");
+  EXPECT_THAT(complaint_of([&] { (void)closed_legs_of(less); }), HasSubstr("left_start"));
+  ModelArrays open = good;
+  open["left_loops"] = {{0, 6}, {}};
+  EXPECT_THAT(complaint_of([&] { (void)closed_legs_of(open); }), HasSubstr("expected a leg with"));
+}
+
 }  // namespace
-}  // namespace touchdown::models
+}  // namespace touchdown

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-namespace touchdown::models {
+namespace touchdown {
 
 // No leg has more hinges or loop equations: nothing below is allocated per step.
 using LinkageVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1>;
@@ -116,4 +116,4 @@ int mobility(const Linkage& linkage, const LinkageVector& q);
 /// nor crank and rod in line.
 bool is_regular(const Linkage& linkage, const LinkageVector& q);
 
-}  // namespace touchdown::models
+}  // namespace touchdown

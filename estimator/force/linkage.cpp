@@ -1,13 +1,14 @@
-#include "models/linkage.hpp"
+#include "estimator/force/linkage.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
 #include <Eigen/LU>
 #include <Eigen/QR>
 
-namespace touchdown::models {
+namespace touchdown {
 
 namespace {
 
@@ -29,16 +30,23 @@ LinkageMatrix columns(const LinkageMatrix& matrix, std::span<const int> hinges) 
   return chosen;
 }
 
+/// Some hinges of a leg.
+struct SomeHinges {
+  std::array<int, most_hinges> number = {};
+  std::size_t count = 0;
+  std::span<const int> all() const { return std::span(number).first(count); }
+};
+
 /// All hinges without the kept ones.
-std::vector<int> others(const Linkage& linkage, std::span<const int> kept) {
-  std::vector<int> free;
+SomeHinges others(const Linkage& linkage, std::span<const int> kept) {
+  SomeHinges free;
   for (int i = 0; i < linkage.size(); ++i) {
-    if (std::find(kept.begin(), kept.end(), i) == kept.end()) free.push_back(i);
+    if (std::find(kept.begin(), kept.end(), i) == kept.end()) free.number.at(free.count++) = i;
   }
   return free;
 }
 
-bool close(const Linkage& linkage, const std::vector<int>& free, LinkageVector& q) {
+bool close(const Linkage& linkage, std::span<const int> free, LinkageVector& q) {
   constexpr int most_steps = 20;
   constexpr double closed = 1e-10;  // m
   constexpr double longest = 0.5;   // rad
@@ -134,13 +142,13 @@ bool move_linkage(const Linkage& linkage, std::span<const int> kept, std::span<c
   }
   constexpr double farthest = 1e3;  // rad; also refuses NaN
   if (!(way < farthest)) return false;
-  const std::vector<int> free = others(linkage, kept);
+  const SomeHinges free = others(linkage, kept);
   LinkageVector moved = q;
   for (int left = 1 + static_cast<int>(way / longest); left > 0; --left) {
     for (std::size_t i = 0; i < kept.size(); ++i) {
       moved[kept[i]] += (angle[i] - moved[kept[i]]) / left;
     }
-    if (!close(linkage, free, moved)) return false;
+    if (!close(linkage, free.all(), moved)) return false;
   }
   q = moved;
   return true;
@@ -155,14 +163,14 @@ bool move_virtual_leg(const Linkage& linkage, double hip, double knee, LinkageVe
 
 MotorMap::MotorMap(const Linkage& linkage, const LinkageVector& q) {
   const LinkagePose pose(linkage, q);
-  const std::vector<int> passive = others(linkage, linkage.motors);
+  const SomeHinges passive = others(linkage, linkage.motors);
   const LinkageMatrix loops = pose.gaps_by_hinge();
   const LinkageMatrix follows =
-      -columns(loops, passive).colPivHouseholderQr().solve(columns(loops, linkage.motors));
+      -columns(loops, passive.all()).colPivHouseholderQr().solve(columns(loops, linkage.motors));
   const auto motors = static_cast<Eigen::Index>(linkage.motors.size());
   all = LinkageMatrix::Zero(linkage.size(), motors);
-  for (std::size_t i = 0; i < passive.size(); ++i) {
-    all.row(passive[i]) = follows.row(static_cast<Eigen::Index>(i));
+  for (std::size_t i = 0; i < passive.count; ++i) {
+    all.row(passive.number.at(i)) = follows.row(static_cast<Eigen::Index>(i));
   }
   for (Eigen::Index i = 0; i < motors; ++i) {
     all(linkage.motors[static_cast<std::size_t>(i)], i) = 1.0;
@@ -209,4 +217,4 @@ bool is_regular(const Linkage& linkage, const LinkageVector& q) {
   return smallest_singular_value(of_motors) > singular && of_leg > singular;
 }
 
-}  // namespace touchdown::models
+}  // namespace touchdown
