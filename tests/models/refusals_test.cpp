@@ -197,15 +197,14 @@ TEST_F(RefusedRobot, HasAllItsComplaintsAtOnce) {
     return std::vector<std::string>{};
   };
   const std::string knee = "<joint name=\"left_knee\"";
-  EXPECT_THAT(
-      complaints({{"<body name=\"torso\"", "$& gravcomp=\"1\""},
-                  {knee, knee + " actuatorfrcrange=\"0 5\""},
-                  added("<tendon><fixed name=\"rope\"/></tendon>"),
-                  added("<equality><weld body1=\"torso\"/></equality>")},
-                 "imu: gyro\nheld: [arm]\nno_collision: [guard]\n"),
-      UnorderedElementsAre(HasSubstr("gravcomp"), HasSubstr("symmetric"), HasSubstr("'rope'"),
-                           HasSubstr("equality weld"), HasSubstr("'gyro'"),
-                           HasSubstr("'arm'"), HasSubstr("'guard'")));
+  EXPECT_THAT(complaints({{"<body name=\"torso\"", "$& gravcomp=\"1\""},
+                          {knee, knee + " actuatorfrcrange=\"0 5\""},
+                          added("<tendon><fixed name=\"rope\"/></tendon>"),
+                          added("<equality><weld body1=\"torso\"/></equality>")},
+                         "imu: gyro\nheld: [arm]\nno_collision: [guard]\n"),
+              UnorderedElementsAre(HasSubstr("gravcomp"), HasSubstr("symmetric"),
+                                   HasSubstr("'rope'"), HasSubstr("equality weld"),
+                                   HasSubstr("'gyro'"), HasSubstr("'arm'"), HasSubstr("'guard'")));
   EXPECT_THAT(complaints({}, "joints: {left_hip: a, right_knee: b}\ntyres: {left: c}\n"),
               UnorderedElementsAre(HasSubstr("'a'"), HasSubstr("'b'"), HasSubstr("'c'")));
 }
