@@ -163,7 +163,7 @@ MotorLeg leg_of(const ModelArrays& arrays, const std::string& side) {
   for (std::size_t i = 0; i < start.count(); ++i) {
     linkage.start[static_cast<Eigen::Index>(i)] = start.at(i, 0);
   }
-  if (count < 3 || start.count() != count || linkage.motors.empty() ||
+  if (count < 3 || loops.count() == 0 || start.count() != count || linkage.motors.empty() ||
       mobility(linkage, linkage.start) != static_cast<int>(linkage.motors.size())) {
     throw InputError(side + "hinges: expected a leg with loops that its motors move");
   }
