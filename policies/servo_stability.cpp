@@ -116,31 +116,50 @@ double margin(const MatrixXd& motion, const MatrixXd& mass, const Load& load) {
   return 1.0 / std::max(0.01, shares.eigenvalues().maxCoeff());
 }
 
+/// What margins follow from besides the gains.
+class ServoStudy {
+ public:
+  ServoStudy(const models::RobotModel& robot, const ServoPose& pose)
+      : robot_(robot), period_(pose.period), mass_(robot.mj->nv, robot.mj->nv) {
+    const mjModel& mj = *robot.mj;
+    const models::MjDataPtr data(mj_makeData(&mj));
+    if (!data) throw Error("MuJoCo could not make its data: out of memory");
+    models::write_pose(robot, Eigen::Vector3d::Zero(), pose.orientation, pose.joint_position,
+                       data->qpos);
+    mj_kinematics(&mj, data.get());
+    mj_comPos(&mj, data.get());
+    mj_crb(&mj, data.get());
+    mj_fullM(&mj, mass_.data(), data->qM);
+    in_bullet_ = mass_in_bullet(mj, *data, mass_);
+    in_flight_ = possible(robot, *data, false);
+    standing_ = possible(robot, *data, true);
+  }
+
+  ServoMargins margins(const WheelBalancerConfig& config) const {
+    const Load load = load_of(robot_, config, period_);
+    const auto least = [&](const MatrixXd& motion) {
+      return std::min(margin(motion, mass_, load), margin(motion, in_bullet_, load));
+    };
+    return {least(in_flight_), least(standing_)};
+  }
+
+ private:
+  const models::RobotModel& robot_;
+  double period_;
+  MatrixXd mass_, in_bullet_;
+  MatrixXd in_flight_, standing_;  ///< possible velocities
+};
+
 }  // namespace
 
 ServoMargins servo_margins(const models::RobotModel& robot, const ServoPose& pose,
                            const WheelBalancerConfig& config) {
-  const mjModel& mj = *robot.mj;
-  const models::MjDataPtr data(mj_makeData(&mj));
-  if (!data) throw Error("MuJoCo could not make its data: out of memory");
-  models::write_pose(robot, Eigen::Vector3d::Zero(), pose.orientation, pose.joint_position,
-                     data->qpos);
-  mj_kinematics(&mj, data.get());
-  mj_comPos(&mj, data.get());
-  mj_crb(&mj, data.get());
-  MatrixXd mass(mj.nv, mj.nv);
-  mj_fullM(&mj, mass.data(), data->qM);
-  const MatrixXd in_bullet = mass_in_bullet(mj, *data, mass);
-  const Load load = load_of(robot, config, pose.period);
-  const auto least = [&](bool stands) {
-    const MatrixXd motion = possible(robot, *data, stands);
-    return std::min(margin(motion, mass, load), margin(motion, in_bullet, load));
-  };
-  return {least(false), least(true)};
+  return ServoStudy(robot, pose).margins(config);
 }
 
 WheelBalancerConfig with_stable_servos(const WheelBalancerConfig& config,
                                        const models::RobotModel& robot, const ServoPose& pose) {
+  const ServoStudy study(robot, pose);
   const auto scaled = [&](double legs, double wheels) {
     WheelBalancerConfig lower = config;
     lower.leg_kd_scale *= legs;
@@ -154,8 +173,7 @@ WheelBalancerConfig with_stable_servos(const WheelBalancerConfig& config,
   const auto allowed = [&](double legs, double wheels) {
     double factor = 1.0;
     while (true) {
-      const ServoMargins margins =
-          servo_margins(robot, pose, scaled(factor * legs, factor * wheels));
+      const ServoMargins margins = study.margins(scaled(factor * legs, factor * wheels));
       const double least = std::min(margins.flight, margins.standing);
       if (least >= least_servo_margin) return factor;
       factor *= 0.99 * least / least_servo_margin;
