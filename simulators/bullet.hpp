@@ -122,6 +122,7 @@ class BulletWorld {
   btCollisionShape* make_shape(const mjModel& mj, int geom);
 
   // In order of construction: the world refers to everything above it and is destroyed first.
+  double edge_radius_;  ///< of boxes and cylinders (m)
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
   btDbvtBroadphase broadphase_;

@@ -14,9 +14,9 @@ namespace {
 
 constexpr int robot_group = 1;
 constexpr int terrain_group = 2;
-/// Rounding radius of box edges and hulls (m). Bullet's default of 4 cm makes a groove where two
-/// boxes meet, which excites tyres that are springs, and it grows hulls.
-constexpr double edge_radius = 1e-4;
+/// Bullet rounds the edges of boxes and cylinders by a margin, and grows hulls by it. Rounded boxes
+/// leave a groove where they meet.
+constexpr double hull_margin = 1e-4;  // m
 
 std::unique_ptr<btCollisionShape> convex_hull(const mjModel& model, int mesh) {
   auto hull = std::make_unique<btConvexHullShape>();
@@ -24,7 +24,7 @@ std::unique_ptr<btCollisionShape> convex_hull(const mjModel& model, int mesh) {
   for (int i = 0; i < model.mesh_vertnum[mesh]; ++i) {
     hull->addPoint(btVector3(vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2]), false);
   }
-  hull->setMargin(edge_radius);
+  hull->setMargin(hull_margin);
   hull->recalcLocalAabb();
   return hull;
 }
@@ -208,7 +208,8 @@ void WorldWithTyres::performDiscreteCollisionDetection() {
 }
 
 BulletWorld::BulletWorld(const models::RobotModel& model, const SimulatorOptions& options)
-    : dispatcher_(&configuration_),
+    : edge_radius_(options.contact.bullet_edge_radius),
+      dispatcher_(&configuration_),
       tyres_(model, options),
       world_(tyres_, dispatcher_, broadphase_, solver_, configuration_) {
   const mjModel& mj = *model.mj;
@@ -380,11 +381,7 @@ void BulletWorld::add_terrain(const models::RobotModel& model) {
   const mjModel& mj = *model.mj;
   for (int geom = 0; geom < mj.ngeom; ++geom) {
     if (mj.geom_bodyid[geom] != 0 || !collides(mj, geom)) continue;
-    btCollisionShape* shape = make_shape(mj, geom);
-    if (mj.geom_type[geom] == mjGEOM_BOX && model.tyre.law != models::Tyre::Law::engine) {
-      shape->setMargin(edge_radius);
-    }
-    const btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, shape);
+    const btRigidBody::btRigidBodyConstructionInfo info(0.0, nullptr, make_shape(mj, geom));
     auto& body = terrain_.emplace_back(std::make_unique<btRigidBody>(info));
     body->setWorldTransform(btTransform(to_bullet(models::quaternion_at(mj.geom_quat, geom)),
                                         to_bullet(models::vector_at(mj.geom_pos, geom))));
@@ -394,7 +391,10 @@ void BulletWorld::add_terrain(const models::RobotModel& model) {
 }
 
 btCollisionShape* BulletWorld::make_shape(const mjModel& mj, int geom) {
-  return shapes_.emplace_back(shape_of(mj, geom)).get();
+  btCollisionShape* shape = shapes_.emplace_back(shape_of(mj, geom)).get();
+  const bool has_edges = mj.geom_type[geom] == mjGEOM_BOX || mj.geom_type[geom] == mjGEOM_CYLINDER;
+  if (has_edges && edge_radius_ < shape->getMargin()) shape->setMargin(edge_radius_);
+  return shape;
 }
 
 }  // namespace touchdown::simulators

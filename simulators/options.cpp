@@ -13,6 +13,8 @@ static void describe(Fields& fields, ContactModel& contact) {
       .doc("N/m", "Stiffness of the tyres in Bullet.");
   fields("bullet_damping", contact.bullet_damping, 0.0, 1e9)
       .doc("N·s/m", "Damping of the tyres in Bullet.");
+  fields("bullet_edge_radius", contact.bullet_edge_radius, 0.0, 0.04)
+      .doc("m", "Radius of the edges of boxes in Bullet; its own default is 0.04.");
   fields("rolling_resistance", contact.rolling_resistance, 0.0, 1.0)
       .doc("m", "Torque against rolling per newton of load.");
 }

@@ -23,6 +23,9 @@ struct ContactModel {
   double solref_damping_ratio = 1.0;   ///< MuJoCo: its damping ratio
   double bullet_stiffness = 3e4;       ///< Bullet: of the tyres (N/m)
   double bullet_damping = 1e3;         ///< Bullet: of the tyres (N·s/m)
+  /// Bullet: of the edges of boxes and cylinders (m), at most a tenth of their least half extent.
+  /// Bullet's own default is 0.04.
+  double bullet_edge_radius = 1e-4;
   /// Both engines: torque that opposes rolling, per newton of load (N·m/N = m).
   double rolling_resistance = 0.004;
 };

@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include <fmt/format.h>
 
 #include "tests/scratch_folder.hpp"
@@ -73,30 +75,68 @@ TEST_P(Contact, ATorsoOnTheFloorIsNotAWheel) {
   EXPECT_TRUE(touched);
 }
 
-TEST_P(Contact, AHullTouchesAtItsOwnHeight) {
+TEST_P(Contact, APartTouchesAtItsOwnHeight) {
   ScratchFolder folder;
-  for (const char* vertices :  // a cube, a pyramid on its tip, a sliver
-       {"-1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1",
-        "0 0 -1 1 1 1 -1 1 1 1 -1 1 -1 -1 1", "3 0 -1 -3 0 -1 0 .1 -1 0 0 -.9"}) {
+  const std::string mesh = "type=\"mesh\" mesh=\"pad\" ";
+  const std::string tilted = "euler=\"0.7853981634 0 0\" ";
+  const std::string cube = "-1 -1 -1 1 -1 -1 -1 1 -1 1 1 -1 -1 -1 1 1 -1 1 -1 1 1 1 1 1";
+  struct Part {
+    std::string geom, vertices = "0 0 -1 1 1 1 -1 1 1 1 -1 1 -1 -1 1";
+    double bottom = 0.02;  // m below its middle
+  };
+  for (const Part& part :
+       {Part{mesh, cube}, Part{mesh}, Part{mesh, "3 0 -1 -3 0 -1 0 .1 -1 0 0 -.9"},
+        Part{tilted + "type=\"box\" size=\".05 .02 .02\"", cube, 0.02 * std::numbers::sqrt2},
+        Part{tilted + "type=\"cylinder\" size=\".03 .01\"", cube, 0.04 / std::numbers::sqrt2}}) {
     const auto file = folder.write(
         "robot.xml",
         edited_upkie({{"<asset>", fmt::format("<asset><mesh name=\"pad\" scale=\".02 .02 .02\" "
                                               "vertex=\"{}\"/>",
-                                              vertices)},
+                                              part.vertices)},
                       {"<site name=\"imu\"",
-                       "<geom class=\"collider\" type=\"mesh\" mesh=\"pad\" "
-                       "pos=\"0 0 -0.7\"/>$&"}}));
+                       "<geom class=\"collider\" " + part.geom + " pos=\"0 0 -0.7\"/>$&"}}));
     const auto simulator = make(
         std::make_shared<models::RobotModel>(models::compile_robot_model(file, models::Terrain{})));
-    constexpr double bottom = 0.72;  // m below the base
-    simulator->reset(at_height(bottom + 0.005));
+    const double bottom = 0.7 + part.bottom;  // m below the base
+    simulator->reset(at_height(bottom + 0.0005));
     double height = 0.0;
     for (int i = 0; i < 100 && !simulator->ground_truth().body_touches_terrain; ++i) {
       height = simulator->state().position.z() - bottom;
       simulator->step(torques());
     }
     EXPECT_TRUE(simulator->ground_truth().body_touches_terrain);
-    EXPECT_NEAR(height, 0.0, 1e-3) << vertices;
+    EXPECT_NEAR(height, 0.0, 3e-4) << part.geom;
+  }
+}
+
+/// Height above an edge of the ground (m) at which the tyres touch it, with their axle this far
+/// beyond it.
+double height_at_edge(Simulator& simulator, double beyond, double edge_height) {
+  const double base_above_axle = upright().position.z() - 0.05;
+  for (double height = 0.05; height > 0.0; height -= 1e-4) {
+    RobotState start = at_height(base_above_axle + edge_height + height);
+    start.position.x() = beyond;
+    simulator.reset(start);
+    simulator.step(torques());
+    if (simulator.ground_truth().wheel_normal_force[0] > 0.0) return height;
+  }
+  return 0.0;
+}
+
+TEST_P(Contact, AnEdgeOfTheGroundIsSharp) {
+  models::Terrain terrain;
+  terrain.pieces = {models::Flat{2.0}, models::Step{.drop = 0.25, .nosing_radius = 0.0}};
+  for (const bool rubber : {false, true}) {
+    const auto robot = upkie(
+        [&](models::RobotModel& model) {
+          if (rubber) model.tyre.law = models::Tyre::Law::spring_damper;
+        },
+        terrain);
+    for (const double beyond : {0.01, 0.03, 0.045}) {
+      EXPECT_NEAR(height_at_edge(*make(robot), beyond, 0.25), std::sqrt(0.0025 - beyond * beyond),
+                  4e-4)
+          << beyond << ' ' << rubber;
+    }
   }
 }
 
@@ -160,6 +200,22 @@ TEST_P(Contact, RollingResistanceOpposesBothDirectionsAndIsNotReported) {
     // factor, not in sign.
     EXPECT_GT(std::abs(slowed), 0.1 * 0.004 * 9.81 / (0.05 * 0.05) * 0.2);
     EXPECT_LT(std::abs(slowed), 10.0 * 0.004 * 9.81 / (0.05 * 0.05) * 0.2);
+  }
+}
+
+TEST(EdgesInBullet, AreRoundedByAnOption) {
+  models::Terrain terrain;
+  terrain.pieces = {models::Flat{2.0}, models::Step{.drop = 0.25, .nosing_radius = 0.0}};
+  const double beyond = 0.03;
+  for (const double radius : {0.004, 0.008, 0.012}) {  // below a tenth of half the height
+    SimulatorOptions options;
+    options.contact.bullet_edge_radius = radius;
+    const auto simulator = make_simulator("bullet", upkie({}, terrain), options);
+    const double reach = 0.05 + radius;
+    const double across = beyond + radius;
+    EXPECT_NEAR(height_at_edge(*simulator, beyond, 0.25),
+                std::sqrt(reach * reach - across * across) - radius, 4e-4)
+        << radius;
   }
 }
 
