@@ -48,19 +48,20 @@ class MujocoTyres {
     return wheel_of_geom_[static_cast<std::size_t>(geom)];
   }
 
-  /// Makes tyre contacts springs and dampers; called between `mj_step1` and `mj_step2`. MuJoCo's
-  /// contacts are reference accelerations, which the solver tries to reach for any mass. But a row
+  /// Makes tyre contacts springs and dampers; called between `mj_step1` and `mj_step2`. A row of
+  /// MuJoCo's solver has the force f = (a_ref − a)/R, with the acceleration a that f itself
+  /// changes. With R = 1/(c·h) and a_ref = R·(k·δ + c·δ̇) it is
   ///
-  ///     f = (a_ref − a)/R
+  ///     f = k·δ + c·(δ̇ − h·a)
   ///
-  /// with a_ref = R·F and R much larger than the inverse mass at the contact is a force F that
-  /// hardly depends on the motion. Only normal rows are changed. Friction stays MuJoCo's, within
-  /// the friction cone of that force.
+  /// the damper at the end of a step h, which is stable for any c. Only normal rows are changed.
+  /// Friction stays MuJoCo's, within the friction cone of that force.
   void press(mjData& data) const;
 
  private:
   models::Tyre tyre_;
-  double share_;  ///< of one strip in its tyre
+  double share_;   ///< of one strip in its tyre
+  double period_;  ///< of a physics step (s)
   std::vector<std::optional<std::size_t>> wheel_of_geom_;
 };
 
@@ -90,6 +91,7 @@ class MujocoSimulator : public Simulator {
 MujocoTyres::MujocoTyres(const models::RobotModel& robot, const mjModel& engine_model)
     : tyre_(robot.tyre),
       share_(1.0 / static_cast<double>(tyre_.strips().size())),
+      period_(engine_model.opt.timestep),
       wheel_of_geom_(static_cast<std::size_t>(engine_model.ngeom)) {
   for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
     for (const int strip : robot.tyre_strips[wheel]) {
@@ -113,16 +115,14 @@ void MujocoTyres::press(mjData& data) const {
     numbers.push_back(i);
   }
 
-  constexpr double softness = 1e3;  // R relative to the inverse mass
-  constexpr double none = -1e6;     // N: a pull, which gives no contact force
+  constexpr double none = -1e6;  // N: a pull, which gives no contact force
   const std::vector<bool> counts = counted_contacts(contacts);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     mjContact& contact = data.contact[numbers[i]];
     const int row = contact.efc_address;
-    const double pressing_in = -data.efc_vel[row];  // m/s
-    const double force =
-        share_ * (tyre_.stiffness * contacts[i].depth + tyre_.damping * pressing_in);
-    data.efc_R[row] = softness * data.efc_diagApprox[row];
+    const double damping = share_ * tyre_.damping;
+    const double force = share_ * tyre_.stiffness * contacts[i].depth - damping * data.efc_vel[row];
+    data.efc_R[row] = 1.0 / (damping * period_);
     data.efc_D[row] = 1.0 / data.efc_R[row];
     data.efc_aref[row] = data.efc_R[row] * (counts[i] ? force : none);
     // The friction cone of MuJoCo's solver, scaled by both rows' R.

@@ -8,15 +8,15 @@ namespace touchdown::simulators {
 
 SimulatorOptions with_steps_for_tyres(SimulatorOptions options, const models::RobotModel& model) {
   if (model.tyre.law == models::Tyre::Law::engine) return options;
-  constexpr double largest_angle = 0.1;  // rad
-  constexpr double largest_loss = 0.25;  // of the speed in one step, by the damper
+  constexpr double largest_angle = 0.37;  // rad
   double lightest = std::numeric_limits<double>::infinity();
   for (const int tyre : model.tyre_geom) {
     lightest = std::min(lightest, model.mj->body_mass[model.mj->geom_bodyid[tyre]]);
   }
+  // Bullet's damper is reduced by step · stiffness (bullet_world.cpp), and must not push.
   const double longest_us =
       1e6 * std::min(largest_angle * std::sqrt(lightest / model.tyre.stiffness),
-                     largest_loss * lightest / model.tyre.damping);
+                     model.tyre.damping / model.tyre.stiffness);
   StepSizes& steps = options.steps;
   for (std::int64_t count = steps.control_us / steps.physics_us; count <= steps.control_us;
        ++count) {
