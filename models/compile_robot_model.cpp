@@ -137,8 +137,10 @@ void check_stance(const RobotModel& robot, const RobotDescription& description,
 
 }  // namespace
 
-RobotModel compile_robot_model(const std::filesystem::path& file, const Terrain& terrain) {
+RobotModel compile_robot_model(const std::filesystem::path& file, const Terrain& terrain,
+                               const std::optional<Tyre>& tyre) {
   RobotDescription description = robot_description(file);
+  if (tyre) description.tyre = *tyre;
   const RobotKeys keys(file);
   RobotFile source = robot_file(description, keys);
   PartNames& parts = description.parts;

@@ -100,11 +100,13 @@ std::string motor_name(const RobotModel& robot, std::size_t servo);
 
 /// Compiles a robot (an MJCF, or a YAML file about an MJCF or URDF: models/robot_description.hpp)
 /// together with a terrain. Errors: `InputError` with file:line:column for broken XML, for an
-/// element that the contract lacks, and for one that not every engine simulates.
+/// element that the contract lacks, and for one that not every engine simulates. `tyre` replaces
+/// the one of the robot's file.
 ///
 /// From the first call on, MuJoCo's fatal errors are thrown as `Error` in the whole process, and
 /// its warnings are dropped. MuJoCo's own handlers wait for a key press and write files.
-RobotModel compile_robot_model(const std::filesystem::path& robot, const Terrain& terrain);
+RobotModel compile_robot_model(const std::filesystem::path& robot, const Terrain& terrain,
+                               const std::optional<Tyre>& tyre = std::nullopt);
 
 /// Writes the pose of the base and the joint positions into mjData::qpos. Cranks and rods of closed
 /// legs follow hip and knee, with one motor also the knee; where the loops do not close, they stay

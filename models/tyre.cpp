@@ -13,6 +13,7 @@ std::vector<double> Tyre::strips() const {
 void describe(Fields& fields, Tyre& tyre) {
   fields.choose("law", {"engine", "spring_damper"}, tyre.law)
       .doc("The engine's own contact model, or one spring and damper in both engines.");
+  if (!fields.reading() && tyre.law == Tyre::Law::engine) return;
   fields("stiffness", tyre.stiffness, 100.0, 1e7)
       .doc("N/m", "Stiffness of a whole wheel; only with `spring_damper`.");
   fields("damping", tyre.damping, 1.0, 1e4)

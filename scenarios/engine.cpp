@@ -30,6 +30,7 @@ void deviate(models::RobotModel& model, const Deviations& deviations) {
 std::string scene_of(const Scenario& scenario) {
   Scenario scene;
   scene.robot = scenario.robot;
+  scene.tyre = scenario.tyre;
   scene.terrain = scenario.terrain;
   scene.mass_scale = scenario.mass_scale;
   scene.deviations = scenario.deviations;
@@ -39,7 +40,8 @@ std::string scene_of(const Scenario& scenario) {
 }  // namespace
 
 models::RobotModel compile_robot(const Scenario& scenario) {
-  models::RobotModel model = models::compile_robot_model(scenario.robot, scenario.terrain);
+  models::RobotModel model =
+      models::compile_robot_model(scenario.robot, scenario.terrain, scenario.tyre);
   const bool deviates = scenario.deviations != Deviations{};
   if (scenario.mass_scale != 1.0) models::scale_mass(*model.mj, scenario.mass_scale);
   if (deviates) deviate(model, scenario.deviations);
@@ -61,6 +63,7 @@ std::shared_ptr<const models::RobotModel> CompiledScenes::of(const Scenario& sce
 
 std::shared_ptr<const models::RobotModel> CompiledScenes::as_described(Scenario scenario) {
   scenario.terrain = {};
+  scenario.tyre = std::nullopt;
   scenario.mass_scale = 1.0;
   scenario.deviations = {};
   return of(scenario);

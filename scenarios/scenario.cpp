@@ -115,6 +115,7 @@ static void describe(Fields& fields, Scenario& scenario, const policies::LqrGain
   std::string robot = scenario.robot.string();
   fields("robot", robot).doc("Robot: an MJCF, or a YAML file about one.");
   scenario.robot = robot;
+  fields.section("tyre", scenario.tyre).doc("Contact model of both tyres, instead of the robot's.");
   fields.section("terrain", scenario.terrain)
       .doc("The ground, as pieces laid end to end on a floor.");
   fields.section("start", scenario.start).doc("Position and stance at the start.");
@@ -128,12 +129,20 @@ static void describe(Fields& fields, Scenario& scenario, const policies::LqrGain
       .doc("Drive commands, each from its time on.");
   fields.list_if_any("crouch", scenario.crouch, scenario.crouch)
       .doc("Crouch commands, each from its time on.");
+  fields.know("clip_crouches");
+  if (fields.present("clip_crouches", scenario.clip_crouches)) {
+    fields("clip_crouches", scenario.clip_crouches)
+        .doc(
+            "Crouches beyond the ranges of the robot's joints end there, instead of being "
+            "refused.");
+  }
   fields.section("tether", scenario.tether).doc("A rope that holds the robot.");
   fields.list_if_any("guides", scenario.guides)
       .doc("Horizontal springs that keep the robot above a place.");
   fields.list_if_any("forces", scenario.forces).doc("Forces on the base, such as pushes.");
   fields.optional("forces_for_mass", scenario.forces_for_mass, 0.01, 1e4)
-      .doc("kg", "Mass that forces and lifts are written for; they scale with the robot's mass.");
+      .doc("kg",
+           "Mass that forces, lifts and tyre are written for; they scale with the robot's mass.");
   fields("mass_scale", scenario.mass_scale, 0.01, 100.0)
       .doc("Factor on mass and inertia of every body.");
   fields.know("deviations");

@@ -56,16 +56,19 @@ struct Deviations {
 struct Scenario {
   std::string name;
   std::filesystem::path robot = "models/upkie.xml";
+  std::optional<models::Tyre> tyre;  ///< instead of the robot's own
   models::Terrain terrain;
   Start start;
   policies::WheelBalancerConfig balancer;
   policies::PolicyConfig policy;
   policies::VelocityScript velocity;
   policies::CrouchScript crouch;
+  /// Crouches that the robot's joints cannot have end where their ranges do.
+  bool clip_crouches = false;
   std::optional<policies::Tether> tether;
   std::vector<policies::Guide> guides;
   policies::ForceScript forces;
-  /// Mass that `forces` and random lifts are written for (kg), if they scale with the mass.
+  /// Mass that `forces`, random lifts and `tyre` are written for (kg), if they scale with the mass.
   std::optional<double> forces_for_mass;
   double mass_scale = 1.0;  ///< on mass and inertia of every body
   Deviations deviations;

@@ -58,6 +58,53 @@ models::Stance stance_of(DescribedRobot& robot) {
                          : models::usual_stance(robot.model());
 }
 
+/// The stance of a crouch: the knee follows the hip.
+models::Stance crouched(const Start& start, double hip) {
+  return {hip, start.knee + policies::knee_per_hip * (hip - start.hip)};
+}
+
+/// The angle nearest to `hip` of which the robot can have the stance; it can have that of `from`.
+template <typename StanceOf>
+double within_ranges(const models::RobotModel& robot, double from, double hip, StanceOf stance_of) {
+  if (!stance_error(robot, stance_of(hip))) return hip;
+  double within = from;
+  for (double step = 0.5 * (hip - from); std::abs(step) > 1e-6; step *= 0.5) {
+    if (!stance_error(robot, stance_of(within + step))) within += step;
+  }
+  return within;
+}
+
+/// Ends crouches within the ranges of the robot's joints, if the scenario wants it.
+void clip_crouches(Scenario& scenario, const models::RobotModel& robot) {
+  if (!scenario.clip_crouches) return;
+  scenario.clip_crouches = false;
+  const Start& start = scenario.start;
+  const auto clip = [&](double& hip) {
+    hip = within_ranges(robot, start.hip, hip, [&](double to) { return crouched(start, to); });
+  };
+  for (policies::CrouchCommand& crouch : scenario.crouch) clip(crouch.hip);
+  if (auto& random = scenario.perturbation.crouching) {
+    clip(random->hip.low);
+    clip(random->hip.high);
+  }
+}
+
+/// Keeps the drawn stances of starts within the ranges of the robot's joints. `perturbed` bends
+/// knees with the hips, and no leg straighter than `least_bend`.
+void clip_starts(Scenario& scenario, const models::RobotModel& robot) {
+  const Start& start = scenario.start;
+  double& width = scenario.perturbation.crouch;
+  if (width == 0.0 || start.hip == 0.0) return;
+  const double straighter = std::max(std::abs(start.hip) - width, least_bend);
+  for (const double bend : {std::abs(start.hip) + width, straighter}) {
+    const double hip =
+        within_ranges(robot, start.hip, std::copysign(bend, start.hip), [&](double to) {
+          return models::Stance{to, start.knee * to / start.hip};
+        });
+    if (std::abs(hip) != bend) width = std::min(width, std::abs(hip - start.hip));
+  }
+}
+
 /// Checks that random crouches do not bend knees both ways.
 void check_stays_bent(const Scenario& scenario, const std::string& document) {
   const Start& start = scenario.start;
@@ -83,7 +130,7 @@ void check_angles(const Scenario& scenario, const std::string& document, Describ
   check("start", {start.hip, start.knee});
   if (!robot.model().has(models::index(models::Servo::left_hip))) return;
   const auto check_crouch = [&](const std::string& section, double hip) {
-    check(section, {hip, start.knee + policies::knee_per_hip * (hip - start.hip)});
+    check(section, crouched(start, hip));
   };
   for (const policies::CrouchCommand& crouch : scenario.crouch) check_crouch("crouch", crouch.hip);
   if (scenario.perturbation.crouching) {
@@ -111,7 +158,7 @@ policies::WheelBalancerConfig balancer_of(const std::filesystem::path& robot,
   return balancer;
 }
 
-/// Scales forces that are written for a robot of another mass to the mass of this one.
+/// Scales forces and tyres that are written for a robot of another mass to the mass of this one.
 void scale_forces(Scenario& scenario, DescribedRobot& robot) {
   if (!scenario.forces_for_mass) return;
   const double mass = mj_getTotalmass(robot.model().mj.get());
@@ -119,6 +166,10 @@ void scale_forces(Scenario& scenario, DescribedRobot& robot) {
   constexpr double same_mass = 1e-6;  // then the forces stay bit-identical
   if (std::abs(factor - 1.0) < same_mass) return;
   for (policies::TimedForce& timed : scenario.forces) timed.force *= factor;
+  if (auto& tyre = scenario.tyre) {
+    tyre->stiffness *= factor;
+    tyre->damping *= factor;
+  }
   if (auto& lift = scenario.perturbation.lift) {
     lift->force = {factor * lift->force.low, factor * lift->force.high};
   }
@@ -185,7 +236,11 @@ Scenario complete_scenario(const YamlDocument& document) {
   Scenario scenario = scenario_from_yaml(document, defaults, lqr);
   scenario.robot = defaults.robot;
   scale_forces(scenario, robot);
+  clip_crouches(scenario, robot.model());
   check_angles(scenario, document.name(), robot);
+  if (robot.model().has(models::index(models::Servo::left_hip))) {
+    clip_starts(scenario, robot.model());
+  }
   return scenario;
 }
 

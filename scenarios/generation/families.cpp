@@ -62,6 +62,7 @@ Scenario crouching(const Draws& draws, Bend bend, Extend extend) {
         {.time = time, .hip = squat.between("high", 0.2, 0.4), .rate = extend(squat)});
     time += squat.between("high_hold", 1.2, 2.0);
   }
+  scenario.clip_crouches = true;
   scenario.terrain.friction = draws.between("friction", 0.4, 1.0);
   scenario.end.duration = time;
   scenario.perturbation = {.yaw = 0.5, .mass_scale = 0.1, .servo_gain_scale = 0.2};
@@ -82,6 +83,7 @@ Scenario draw_drives(const Draws& draws) {
     varied.crouching = RandomCrouches{.hip = {0.2, draws.between("deepest", 0.5, 0.9)},
                                       .rate = draws.log_between("rate", 0.2, 1.0),
                                       .start = 1.0};
+    scenario.clip_crouches = true;
   }
   varied.yaw = 0.5;
   varied.crouch = 0.1;
@@ -100,6 +102,31 @@ Scenario draw_hops(const Draws& draws) {
   return crouching(
       draws, [](const Draws& squat) { return squat.log_between("bend_rate", 0.8, 2.0); },
       [](const Draws& squat) { return squat.between("extend_rate", 6.0, 9.0); });
+}
+
+// On tyres that are springs and dampers, in a scene of another family.
+
+/// `damping_ratio`: of half of Upkie on one tyre.
+Scenario on_tyres(const Draws& draws, double stiffness, double damping_ratio) {
+  const int last = static_cast<int>(families().size()) - 3;  // before these two families
+  const auto family = static_cast<std::size_t>(draws.whole("family", 0, last));
+  Scenario scenario = families()[family].draw(draws.of("scene", 0));
+  scenario.tyre =
+      models::Tyre{.law = models::Tyre::Law::spring_damper,
+                   .stiffness = stiffness,
+                   .damping = 2.0 * damping_ratio * std::sqrt(stiffness * 0.5 * written_mass)};
+  scenario.forces_for_mass = written_mass;
+  return scenario;
+}
+
+Scenario draw_soft_tyres(const Draws& draws) {
+  return on_tyres(draws, draws.log_between("stiffness", 8e3, 3e4),
+                  draws.between("damping_ratio", 0.12, 0.4));
+}
+
+Scenario draw_hard_tyres(const Draws& draws) {
+  return on_tyres(draws, draws.log_between("stiffness", 3e4, 1e5),
+                  draws.between("damping_ratio", 0.4, 0.8));
 }
 
 }  // namespace
@@ -186,6 +213,8 @@ const std::vector<Family>& families() {
       {"drives", "Random drive commands on level ground, always in contact.", draw_drives},
       {"squats", "Legs that bend quickly: the torso falls.", draw_squats},
       {"hops", "Legs that extend quickly: small hops.", draw_hops},
+      {"soft_tyres", "A scene of another family on soft rubber, which bounces.", draw_soft_tyres},
+      {"hard_tyres", "The same on hard tyres, which do not.", draw_hard_tyres},
   };
   return all;
 }

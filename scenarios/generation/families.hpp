@@ -13,6 +13,9 @@ namespace touchdown::scenarios {
 /// Gravity in every scene (m/s²).
 inline constexpr double scene_gravity = 9.81;
 
+/// Upkie's mass (kg), for which forces and tyres are written.
+inline constexpr double written_mass = 5.33922;
+
 /// Why a drawn scenario is rejected; empty if it is kept. The rules look at the scenario alone,
 /// never at an estimator or a simulation: a robot that is lifted must not rise out of reach, and a
 /// jump must end on the ground that is meant for it.

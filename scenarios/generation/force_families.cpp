@@ -7,9 +7,6 @@ namespace touchdown::scenarios {
 
 namespace {
 
-/// Upkie's mass (kg), for which the forces are written.
-constexpr double forces_mass = 5.33922;
-
 const Eigen::Vector3d handle(0.0, 0.0, 0.06);  // base frame (m)
 
 /// Hands that keep the torso upright and carry no load.
@@ -22,9 +19,9 @@ std::vector<policies::Guide> hands() {
 Scenario lifted(const Draws& draws, double least_ramp, double most_ramp) {
   Scenario scenario;
   scenario.guides = hands();
-  scenario.forces_for_mass = forces_mass;
+  scenario.forces_for_mass = written_mass;
   scenario.mass_scale = draws.between("mass_scale", 0.9, 1.1);
-  const double weight = forces_mass * scenario.mass_scale * scene_gravity;
+  const double weight = written_mass * scenario.mass_scale * scene_gravity;
   const int count = draws.whole("count", 1, 3);
   double time = draws.between("start", 1.0, 2.0);
   for (int i = 0; i < count; ++i) {
@@ -87,7 +84,7 @@ Scenario draw_hangs(const Draws& draws) {
 
 Scenario draw_pushes(const Draws& draws) {
   Scenario scenario;
-  scenario.forces_for_mass = forces_mass;
+  scenario.forces_for_mass = written_mass;
   double time = 1.5;
   const int count = draws.whole("count", 3, 6);
   for (int i = 0; i < count; ++i) {
@@ -128,7 +125,7 @@ Scenario draw_push_offs(const Draws& draws) {
                       .force = {draws.between("force", 8.0, 15.0), 0.0, 0.0},
                       .point_in_base = {0.0, 0.0, -0.1},
                       .along_heading = true}};
-  scenario.forces_for_mass = forces_mass;
+  scenario.forces_for_mass = written_mass;
   scenario.start.yaw = draws.between("yaw", -0.6, 0.6);
   scenario.end = {.duration = 12.0, .x = 1.5, .settle = 1.5};
   scenario.perturbation = {.x = 0.1, .y = 0.2, .yaw = 0.1, .velocity = 0.05, .crouch = 0.1};

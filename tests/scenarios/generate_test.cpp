@@ -1,14 +1,21 @@
 #include "scenarios/generation/generate.hpp"
 
+#include <cmath>
 #include <set>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/resources.hpp"
+#include "models/stance.hpp"
+#include "scenarios/engine.hpp"
 #include "scenarios/generation/families.hpp"
 #include "scenarios/scenario_file.hpp"
 #include "tests/complaint.hpp"
+#include "tests/models/upkie.hpp"
 #include "tests/scenarios/runs.hpp"
+#include "tests/scratch_folder.hpp"
 
 namespace touchdown::scenarios {
 namespace {
@@ -115,6 +122,86 @@ TEST(Generation, OfSlowLiftsGrowsAndFadesAndLifts) {
     EXPECT_GT(greatest_height(scenario.forces, *scenario.forces_for_mass * scenario.mass_scale,
                               scenario.end.duration),
               0.0);
+  }
+}
+
+TEST(Generation, OfTyresPutsAnotherFamilysSceneOnSpringsThatScaleWithTheRobot) {
+  std::set<std::size_t> pieces;
+  for (const auto& [family, softest, stiffest] :
+       {std::tuple("soft_tyres", 8e3, 3e4), std::tuple("hard_tyres", 3e4, 1e5)}) {
+    for (const GeneratedScenario& drawn :
+         generate({.seed = 3, .count = 12, .families = {family}})) {
+      const Scenario scenario = read(drawn);
+      ASSERT_TRUE(scenario.tyre) << drawn.text;
+      EXPECT_GE(scenario.tyre->stiffness, softest);
+      EXPECT_LE(scenario.tyre->stiffness, stiffest);
+      EXPECT_EQ(compile_robot(scenario).tyre.stiffness, scenario.tyre->stiffness);
+      const Scenario heavy = read(drawn, "models/upkie_heavy.yaml");
+      const double ratio = *heavy.forces_for_mass / *scenario.forces_for_mass;
+      EXPECT_GT(ratio, 1.2);
+      EXPECT_NEAR(heavy.tyre->stiffness / scenario.tyre->stiffness, ratio, 1e-9);
+      EXPECT_NEAR(heavy.tyre->damping / scenario.tyre->damping, ratio, 1e-9);
+      pieces.insert(scenario.terrain.pieces.size() + 100 * scenario.forces.size());
+    }
+  }
+  EXPECT_GT(pieces.size(), 4U) << "scenes of several families";
+}
+
+TEST(Generation, EndsCrouchesWithinTheRangesOfTheRobotsJoints) {
+  const models::RobotModel legs =
+      models::compile_robot_model(find_resource("models/five_bar.yaml"), {});
+  int clipped = 0;
+  for (const GeneratedScenario& drawn :
+       generate({.seed = 3, .count = 24, .families = {"squats", "hops", "drives"}})) {
+    const Scenario upkie = read(drawn);
+    const Scenario scenario = read(drawn, "models/five_bar.yaml");
+    std::vector<double> wanted;
+    std::vector<double> hips;
+    const auto add = [](const Scenario& of, std::vector<double>& to) {
+      for (const policies::CrouchCommand& crouch : of.crouch) to.push_back(crouch.hip);
+      if (const auto& random = of.perturbation.crouching) {
+        to.insert(to.end(), {random->hip.low, random->hip.high});
+      }
+    };
+    add(upkie, wanted);
+    add(scenario, hips);
+    ASSERT_EQ(hips.size(), wanted.size());
+    for (std::size_t i = 0; i < hips.size(); ++i) {
+      const double knee =
+          scenario.start.knee + policies::knee_per_hip * (hips[i] - scenario.start.hip);
+      EXPECT_FALSE(models::stance_error(legs, {hips[i], knee})) << drawn.text;
+      if (hips[i] == wanted[i]) continue;
+      ++clipped;
+      const double further = hips[i] + std::copysign(0.001, wanted[i] - hips[i]);
+      EXPECT_TRUE(models::stance_error(
+          legs, {further, knee + policies::knee_per_hip * (further - hips[i])}))
+          << "the joints reach no further\n"
+          << drawn.text;
+    }
+  }
+  EXPECT_GT(clipped, 5);
+}
+
+TEST(RandomStarts, AreWithinTheRangesOfTheRobotsJoints) {
+  const ScratchFolder folder;
+  for (const auto& [low, high, width] : {std::tuple(0.6, 2.5, 0.11), std::tuple(-2.5, 0.85, 0.034),
+                                         std::tuple(0.78, 0.8, 0.005), std::tuple(0.0, 2.5, 0.3)}) {
+    const std::filesystem::path file =
+        folder.write("upkie.xml", edited_upkie({{R"x(("left_knee" axis="0 -1 0" range=)"[^"]*")x",
+                                                 fmt::format("$1\"{} {}\"", -high, -low)},
+                                                {R"x(("right_knee" axis="0 1 0" range=)"[^"]*")x",
+                                                 fmt::format("$1\"{} {}\"", low, high)}}));
+    const models::RobotModel robot = models::compile_robot_model(file, {});
+    const Scenario scenario = complete_scenario(YamlDocument::parse(
+        fmt::format("name: x\nrobot: {}\nperturbation: {{crouch: 0.3}}\n", file.string()), "x"));
+    double largest = 0.0;
+    for (int run = 0; run < 50; ++run) {
+      const Start start = perturbed(scenario, 7, run).start;
+      EXPECT_FALSE(models::stance_error(robot, {start.hip, start.knee})) << low << ' ' << high;
+      largest = std::max(largest, std::abs(start.hip - scenario.start.hip));
+    }
+    EXPECT_LE(largest, width) << low << ' ' << high;
+    EXPECT_GT(largest, 0.8 * width) << low << ' ' << high;
   }
 }
 

@@ -130,6 +130,8 @@ TEST(ScenarioYaml, EveryScenarioOfTheProjectSurvivesTheRoundTrip) {
 
 /// A value other than its default under every key that a shipped scenario leaves out.
 constexpr const char* unusual = R"(name: unusual
+tyre: {law: spring_damper, stiffness: 3e4, damping: 90, width: 0.03}
+clip_crouches: true
 policy: {law: soft_landing, contact: script, delay: 0.25, contact_script: [{time: 1, left: false}]}
 velocity: [{time: 0.1, velocity: 0.30000000000000004}, {time: 2, yaw_rate: -0.7}]
 crouch: [{time: 2, hip: 0.3, rate: 0.2}]
@@ -142,7 +144,7 @@ simulation:
   physics_step_us: 250
   control_step_us: 2000
   contact: {solref_time_constant: 0.02, solref_damping_ratio: 0.9, bullet_stiffness: 2e4,
-            bullet_damping: 500, rolling_resistance: 0.001}
+            bullet_damping: 500, bullet_edge_radius: 0.04, rolling_resistance: 0.001}
 )";
 
 TEST(ScenarioYaml, KeepsEveryNumberToTheBit) {
@@ -164,7 +166,11 @@ TEST(ScenarioYaml, KeepsEveryNumberToTheBit) {
   EXPECT_EQ(again.simulation.contact.rolling_resistance, 0.001);
   const Scenario bare = parse("name: bare\n");  // only the name is required
   EXPECT_EQ(bare.end.duration, End{}.duration);
-  EXPECT_THAT(to_yaml(bare), Not(AnyOf(HasSubstr("policy"), HasSubstr("com_x"))));
+  Scenario own = bare;
+  own.tyre = models::Tyre{};  // the engines' law, on a robot with rubber tyres
+  EXPECT_EQ(parse(to_yaml(own)).tyre->law, models::Tyre::Law::engine);
+  EXPECT_THAT(to_yaml(bare), Not(AnyOf(HasSubstr("policy"), HasSubstr("com_x"), HasSubstr("tyre"),
+                                       HasSubstr("clip"))));
 }
 
 TEST(ScenarioYaml, IsRefusedWithPlaceKeyAndExpectation) {
@@ -215,6 +221,9 @@ TEST(ScenarioYaml, IsRefusedWithPlaceKeyAndExpectation) {
        {"name: x\nperturbation: {crouchingg: {rate: 1}}\n", {"did you mean 'crouching'"}},
        {"name: x\nperturbation: {lift: {force: 3}}\n", {"scene.yaml:2:"}},
        {"name: x\nperturbation: {lift: {forse: [1, 2]}}\n", {"did you mean 'force'"}},
+       {"name: x\ntyre: {law: spring}\n", {"scene.yaml:2:13:", "spring_damper"}},
+       {"name: x\ntyre: {stiffness: 3e4}\n", {"scene.yaml:2:", "law: spring_damper"}},
+       {"name: x\nclip_crouches: deep\n", {"scene.yaml:2:16:"}},
        {"name: x\nforces_for_mas: 5\n", {"did you mean 'forces_for_mass'?"}},
        {"name: x\nforces_for_mass: -5\n", {"scene.yaml:2:18"}},
        {"name: x\ndeviatons: {com_x: 1}\n", {"did you mean 'deviations'?"}},
