@@ -6,6 +6,16 @@
 
 namespace touchdown::simulators {
 
+/// The longest steps up to a limit that divide the control step.
+static void shorten(StepSizes& steps, double longest_us) {
+  for (std::int64_t count = steps.control_us / steps.physics_us; count <= steps.control_us;
+       ++count) {
+    if (steps.control_us % count != 0) continue;
+    steps.physics_us = steps.control_us / count;
+    if (static_cast<double>(steps.physics_us) <= longest_us) break;
+  }
+}
+
 SimulatorOptions with_steps_for_tyres(SimulatorOptions options, const models::RobotModel& model) {
   if (model.tyre.law == models::Tyre::Law::engine) return options;
   constexpr double largest_angle = 0.37;  // rad
@@ -17,13 +27,13 @@ SimulatorOptions with_steps_for_tyres(SimulatorOptions options, const models::Ro
   const double longest_us =
       1e6 * std::min(largest_angle * std::sqrt(lightest / model.tyre.stiffness),
                      model.tyre.damping / model.tyre.stiffness);
-  StepSizes& steps = options.steps;
-  for (std::int64_t count = steps.control_us / steps.physics_us; count <= steps.control_us;
-       ++count) {
-    if (steps.control_us % count != 0) continue;
-    steps.physics_us = steps.control_us / count;
-    if (static_cast<double>(steps.physics_us) <= longest_us) break;
-  }
+  shorten(options.steps, longest_us);
+  return options;
+}
+
+SimulatorOptions with_half_steps(SimulatorOptions options, const models::RobotModel& model) {
+  options = with_steps_for_tyres(options, model);
+  shorten(options.steps, 0.5 * static_cast<double>(options.steps.physics_us));
   return options;
 }
 

@@ -17,6 +17,9 @@ namespace touchdown::simulators {
 /// control step remains a multiple of them.
 SimulatorOptions with_steps_for_tyres(SimulatorOptions options, const models::RobotModel& model);
 
+/// The options with at most half of those steps: the longest that divide the control step.
+SimulatorOptions with_half_steps(SimulatorOptions options, const models::RobotModel& model);
+
 /// The wheel with a tyre that contains this geom of the robot's model, if any.
 std::optional<std::size_t> wheel_of_tyre(const models::RobotModel& robot, int geom);
 

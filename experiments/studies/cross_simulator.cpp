@@ -11,8 +11,10 @@
 #include "core/table.hpp"
 #include "experiments/config/experiment_yaml.hpp"
 #include "experiments/studies/registry.hpp"
+#include "scenarios/engine.hpp"
 #include "scenarios/perturbation.hpp"
 #include "scenarios/scenario_file.hpp"
+#include "simulators/tyres.hpp"
 
 namespace touchdown::experiments {
 
@@ -44,6 +46,25 @@ static void describe(Fields& fields, Factor& factor, const std::vector<std::stri
   if (fields.reading() && factor.simulators.empty()) factor.simulators = simulators;
 }
 
+static void describe(Fields& fields, CausesConfig& causes, const Experiment& experiment) {
+  if (fields.reading()) causes.runs = std::min(causes.runs, experiment.test.runs);
+  fields("runs", causes.runs, 1, experiment.test.runs)
+      .range("1 to test.runs")
+      .doc("Test runs per engine and setting.");
+  fields.section("tyre", causes.tyre).doc("The contact model that both engines get.");
+  fields.check(causes.tyre.law == models::Tyre::Law::spring_damper, "tyre",
+               "expected 'law: spring_damper', which is the same in both engines");
+  fields
+      .within("tolerances",
+              [&](Fields& each) {
+                for (std::size_t q = 0; q < quantity_count; ++q) {
+                  const QuantityName& name = name_of(q);
+                  each(name.key, causes.tolerances[q], 0.0, 1e15).doc(name.unit, name.title);
+                }
+              })
+      .doc("A quantity has converged if half the physics step changes it by no more than this.");
+}
+
 static void describe(Fields& section, CrossSimulatorConfig& config, const Experiment& experiment) {
   section
       .within("sensitivity",
@@ -71,6 +92,12 @@ static void describe(Fields& section, CrossSimulatorConfig& config, const Experi
                     .doc("Estimators that must pass, or the run fails.");
               })
       .doc("What an estimator must achieve.");
+  if (section.present("causes", config.causes.has_value())) {
+    if (section.reading()) config.causes.emplace();
+    section.section("causes", *config.causes, experiment)
+        .fallback("none")
+        .doc("How much of the difference is edges, tyres, physics step and solver.");
+  }
   section
       .within("overlay",
               [&](Fields& fields) {
@@ -84,36 +111,20 @@ static void describe(Fields& section, CrossSimulatorConfig& config, const Experi
 
 namespace {
 
-std::string group_name(const Variation& variation) {
-  return fmt::format("factor {} {} {}", variation.factor_index, exact(variation.value),
-                     variation.simulator);
+std::string group_name(const ChangedRuns& changed) {
+  return changed.change.empty() ? "" : changed.change + " " + changed.simulator;
 }
 
-/// Adds the runs of one value, with the perturbations of the experiment's test runs.
-void plan_varied_runs(const RunRequest& request, const Variation& variation, Plan& plan) {
-  const Experiment& experiment = request.experiment;
-  const auto& config = experiment.studies.at<CrossSimulatorConfig>();
-  const Factor& factor = config.factors[variation.factor_index];
-  const NamedScenario& named = scenario_of(request, experiment.test.scenarios.front());
+/// The scene with one value of a factor.
+scenarios::Scenario varied_scene(const RunRequest& request, const Variation& variation) {
+  const auto& config = request.experiment.studies.at<CrossSimulatorConfig>();
+  const std::string& key = config.factors[variation.factor_index].key;
+  const NamedScenario& named = scenario_of(request, request.experiment.test.scenarios.front());
   try {
-    const scenarios::Scenario scenario =
-        scenarios::varied(named.scenario, factor.key, variation.value, named.file);
-    for (int i = 0; i < config.sensitivity_runs; ++i) {
-      plan.runs.push_back(
-          {.role = RunRole::test,
-           .simulator = variation.simulator,
-           .scenario = experiment.test.perturbed
-                           ? scenarios::perturbed(scenario, experiment.seed, i)
-                           : scenario,
-           .run = i,
-           .file = fmt::format("{}_{}_factor_{}_{}_{:03}.mpack", variation.simulator, scenario.name,
-                               variation.factor_index, exact(variation.value), i),
-           .seed = experiment.seed,
-           .group = plan.groups.size()});
-    }
+    return scenarios::varied(named.scenario, key, variation.value, named.file);
   } catch (const InputError& error) {
     throw InputError(fmt::format("cross_simulator.sensitivity.factors.{}: {}={}: {}",
-                                 variation.factor_index, factor.key, exact(variation.value),
+                                 variation.factor_index, key, exact(variation.value),
                                  error.what()));
   }
 }
@@ -142,14 +153,44 @@ std::vector<Variation> variations(const RunRequest& request) {
   return all;
 }
 
-std::vector<std::size_t> runs_of(const Variation& variation, const RunRequest& request,
-                                 const Plan& plan) {
-  if (const auto group = plan.group_called(group_name(variation))) return plan.runs_in(*group);
-  std::vector<std::size_t> runs = plan.runs_in(0);
+ChangedRuns changed_runs(const Variation& variation, const Experiment& experiment) {
+  std::string change;
+  if (!variation.is_nominal()) {
+    change = fmt::format("factor_{}_{}", variation.factor_index, exact(variation.value));
+  }
+  return {std::move(change), variation.simulator,
+          experiment.studies.at<CrossSimulatorConfig>().sensitivity_runs};
+}
+
+void plan_changed_runs(const RunRequest& request, const ChangedRuns& changed,
+                       const scenarios::Scenario& scenario, std::vector<Condition> conditions,
+                       bool has_half_step, Plan& plan) {
+  const Experiment& experiment = request.experiment;
+  scenarios::CompiledScenes scenes;
+  for (int i = 0; i < changed.runs; ++i) {
+    scenarios::Scenario scene =
+        experiment.test.perturbed ? scenarios::perturbed(scenario, experiment.seed, i) : scenario;
+    if (has_half_step) {
+      scene.simulation = simulators::with_half_steps(scene.simulation, *scenes.of(scene));
+    }
+    plan.runs.push_back({.role = RunRole::test,
+                         .simulator = changed.simulator,
+                         .scenario = std::move(scene),
+                         .run = i,
+                         .file = fmt::format("{}_{}_{}_{:03}.mpack", changed.simulator,
+                                             scenario.name, changed.change, i),
+                         .seed = experiment.seed,
+                         .group = plan.groups.size()});
+  }
+  plan.groups.push_back(
+      {group_name(changed), std::move(conditions), {experiment.highlights.front()}, {}});
+}
+
+std::vector<std::size_t> runs_of(const ChangedRuns& changed, const Plan& plan) {
+  std::vector<std::size_t> runs = plan.runs_in(plan.group_called(group_name(changed)).value());
   std::erase_if(runs,
-                [&](std::size_t run) { return plan.runs[run].simulator != variation.simulator; });
-  runs.resize(static_cast<std::size_t>(
-      request.experiment.studies.at<CrossSimulatorConfig>().sensitivity_runs));
+                [&](std::size_t run) { return plan.runs[run].simulator != changed.simulator; });
+  runs.resize(static_cast<std::size_t>(changed.runs));
   return runs;
 }
 
@@ -182,13 +223,17 @@ class CrossSimulatorStudy final : public SectionStudy<CrossSimulatorConfig> {
       // One of the values may be the nominal one, which the experiment's own runs cover.
       variations += static_cast<double>((factor.values.size() - 1) * factor.simulators.size());
     }
-    add_runs(needs, scenario_of(request, experiment.test.scenarios.front()).scenario,
-             variations * config.sensitivity_runs, experiment.noise.seeds);
+    double runs = variations * config.sensitivity_runs;
+    for (const CauseSetting& setting : cause_settings(experiment)) {
+      if (!setting.runs.change.empty()) runs += setting.runs.runs;
+    }
+    add_runs(needs, scenario_of(request, experiment.test.scenarios.front()).scenario, runs,
+             experiment.noise.seeds);
   }
 
   /// Estimators that were fitted in the other engine are evaluated, too. Every value but the
-  /// nominal ones gets a group of runs, evaluated at the first highlighted noise setting. Errors:
-  /// `InputError` that names the factor and the invalid value.
+  /// nominal ones, and every setting of `causes`, gets a group of runs. Errors: `InputError` that
+  /// names the factor and the invalid value.
   void plan(const RunRequest& request, Plan& plan) const override {
     const Experiment& experiment = request.experiment;
     RunGroup& own = plan.groups.front();
@@ -198,12 +243,11 @@ class CrossSimulatorStudy final : public SectionStudy<CrossSimulatorConfig> {
     const std::size_t first = plan.runs.size();
     for (const Variation& variation : variations(request)) {
       if (variation.is_nominal()) continue;
-      plan_varied_runs(request, variation, plan);
-      plan.groups.push_back({group_name(variation),
-                             tested_on(own_engine_conditions(experiment), variation.simulator),
-                             {experiment.highlights.front()},
-                             {}});
+      plan_changed_runs(
+          request, changed_runs(variation, experiment), varied_scene(request, variation),
+          tested_on(own_engine_conditions(experiment), variation.simulator), false, plan);
     }
+    plan_causes(request, plan);
     plan_tasks(experiment, first, plan);
     plan.pictured.insert(section_of(request.experiment).overlay.run);
   }

@@ -2,11 +2,13 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/interval.hpp"
 #include "experiments/studies/study.hpp"
+#include "models/tyre.hpp"
 #include "scoring/bootstrap.hpp"
 #include "scoring/histogram.hpp"
 
@@ -36,13 +38,54 @@ struct OverlayConfig {
   int drop = 3;  ///< of that run, from 0
 };
 
+/// Quantities of the runs that are compared between engines, independent of estimators.
+/// docs/reference/metrics.md defines each.
+enum class Quantity : int {
+  flight_duration,    ///< ms
+  peak_acceleration,  ///< of a landing (m/s²)
+  edge_contacts,      ///< per drop
+  bounces,            ///< per drop
+  contact_ratio,
+  descent,  ///< time to the bottom (s)
+};
+inline constexpr std::size_t quantity_count = 6;
+
+/// The names of a quantity in files and in tables, and its unit, which may be empty.
+struct QuantityName {
+  const char* key;
+  const char* title;
+  const char* unit;
+};
+const QuantityName& name_of(std::size_t quantity);
+
+/// The section `causes`: how much of the engines' difference has which cause.
+struct CausesConfig {
+  int runs = 8;  ///< test runs per engine and setting, at most
+  /// The contact model that both engines get.
+  models::Tyre tyre{
+      .law = models::Tyre::Law::spring_damper, .stiffness = 3e4, .damping = 300.0, .width = 0.04};
+  /// The greatest change at half of the physics step of a quantity that has converged.
+  std::array<double, quantity_count> tolerances = {2.0, 5.0, 0.05, 0.05, 0.002, 0.05};
+};
+
 /// The section `cross_simulator`: how much the results depend on the engine.
 struct CrossSimulatorConfig {
   std::vector<Factor> factors;
   int sensitivity_runs = 4;  ///< test runs per engine and value of a factor, at most
   VerdictConfig verdict;
   OverlayConfig overlay;
+  std::optional<CausesConfig> causes;
 };
+
+/// The first test runs of one engine, with a change of the scene.
+struct ChangedRuns {
+  std::string change;  ///< unique name; empty: none
+  std::string simulator;
+  int runs = 0;
+};
+
+/// These runs in the plan.
+std::vector<std::size_t> runs_of(const ChangedRuns& changed, const Plan& plan);
 
 /// One value of one factor in one engine.
 struct Variation {
@@ -55,13 +98,18 @@ struct Variation {
   bool is_nominal() const { return value == nominal; }
 };
 
+/// Adds a group with these runs in a changed scene, evaluated at the first highlighted noise
+/// setting. They have the perturbations of the experiment's test runs.
+void plan_changed_runs(const RunRequest& request, const ChangedRuns& changed,
+                       const scenarios::Scenario& scenario, std::vector<Condition> conditions,
+                       bool has_half_step, Plan& plan);
+
 /// Every value of every factor, nominal ones included, in each engine of the factor. Errors:
 /// `InputError` that names the factor when the scenario has no such key.
 std::vector<Variation> variations(const RunRequest& request);
 
-/// The runs of one value; for a nominal value, the experiment's own first test runs.
-std::vector<std::size_t> runs_of(const Variation& variation, const RunRequest& request,
-                                 const Plan& plan);
+/// The runs of one value; a nominal value changes nothing.
+ChangedRuns changed_runs(const Variation& variation, const Experiment& experiment);
 
 /// A mean as a sum and a count, so that parts can be added.
 struct Mean {
@@ -79,18 +127,6 @@ struct Mean {
   }
   double value() const { return sum / count; }
 };
-
-/// Quantities of the runs that are compared between engines, independent of estimators.
-/// docs/reference/metrics.md defines each.
-enum class Quantity : int {
-  flight_duration,    ///< ms
-  peak_acceleration,  ///< of a landing (m/s²)
-  edge_contacts,      ///< per drop
-  bounces,            ///< per drop
-  contact_ratio,
-  descent,  ///< time to the bottom (s)
-};
-inline constexpr std::size_t quantity_count = 6;
 
 /// Torque distributions: joint by joint, in contact and in flight.
 enum class TorqueSet : int { knee_contact, knee_flight, wheel_contact, wheel_flight };
@@ -178,6 +214,56 @@ struct Sensitivity {
   Interval success;        ///< accuracy; NaN without scored runs
 };
 
+/// One setting of the runs that separate causes.
+struct CauseSetting {
+  ChangedRuns runs;
+  bool has_one_law = false;     ///< the tyre of the section `causes`, in both engines
+  bool has_half_step = false;   ///< half of the physics step that the engine makes
+  bool has_wide_edges = false;  ///< Bullet's own radius of edges
+};
+
+/// Four settings of the first engine, four of the second, then wide edges in Bullet. The four: own
+/// laws, half the step, one law, one law at half the step. None without the section `causes`.
+std::vector<CauseSetting> cause_settings(const Experiment& experiment);
+
+/// Adds a group of runs for every setting.
+void plan_causes(const RunRequest& request, Plan& plan);
+
+/// The share of a cause in the difference of one quantity between the engines, or between two
+/// settings of one engine, paired by run.
+struct CauseEffect {
+  std::string cause;
+  std::string simulator;  ///< "both": the second engine minus the first
+  std::size_t quantity = 0;
+  Interval change;
+  std::optional<double> tolerance = {};  ///< of a change by half the step
+
+  /// "converged", "not converged"; empty without a tolerance. Undefined changes have not converged.
+  std::string convergence() const;
+};
+
+/// The accuracy that a cause costs an estimator that was fitted on the nominal scene of an engine:
+/// accuracy in one setting minus that in the other, paired by run.
+struct CauseCost {
+  std::string cause;
+  std::string simulator;  ///< of the fit
+  std::string estimator;
+  Interval cost;
+};
+
+struct Causes {
+  std::size_t runs = 0;  ///< completed in every setting
+  std::vector<CauseEffect> effects;
+  std::vector<CauseCost> costs;
+};
+
+/// The effects from the facts of each run, by setting: `facts[s][i]` has draw i in every setting s.
+std::vector<CauseEffect> cause_effects(const std::vector<std::vector<RunFacts>>& facts,
+                                       const Experiment& experiment);
+
+/// Errors: `Error` when the robot completes no run in every setting.
+Causes causes_of(const Evaluation& evaluation);
+
 /// The result of the cross-simulator check.
 struct CrossSimulatorResult {
   Experiment experiment;
@@ -185,14 +271,16 @@ struct CrossSimulatorResult {
   std::vector<Transfer> transfers;
   std::vector<Sensitivity> sensitivities;
   std::vector<Verdict> verdicts;
+  Causes causes;
 };
 
 /// Compares the runs of the two engines, the loss of estimators that were fitted in the other
-/// engine, and the effect of one factor at a time, and gives verdicts. A failed verdict is a
-/// result, not an error. Errors: `Error` when the robot completes no test run in both engines.
+/// engine, and the effect of one factor at a time, separates causes, and gives verdicts. A failed
+/// verdict is a result, not an error. Errors: `Error` when the robot completes no test run in both
+/// engines.
 CrossSimulatorResult check_across_simulators(const Evaluation& evaluation);
 
-/// Writes `tables/{agreement,torques,transfer,sensitivity,verdicts}.csv` and
+/// Writes `tables/{agreement,torques,transfer,sensitivity,verdicts}.csv`, those of causes, and
 /// `tables/cross_simulator.md`, and returns texts and figures.
 StudyResult summarize_check(const CrossSimulatorResult& result, const RunDirectory& directory);
 

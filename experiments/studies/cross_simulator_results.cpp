@@ -24,18 +24,13 @@ constexpr std::size_t knee_bins = 3200;      // of 0.01 N·m
 constexpr std::size_t wheel_bins = 1700;     // of 0.002 N·m
 constexpr std::size_t merged = 10;           // bins into one for the overlap: 0.1 and 0.02 N·m
 
-struct QuantityName {
-  const char* name;
-  const char* unit;
-};
-
 constexpr std::array<QuantityName, quantity_count> quantity_names = {{
-    {"flight duration", "ms"},
-    {"peak landing acceleration", "m/s²"},
-    {"touches after the nosing, per drop", ""},
-    {"bounces, per drop", ""},
-    {"contact ratio", ""},
-    {"time to the bottom", "s"},
+    {"flight_duration", "flight duration", "ms"},
+    {"peak_acceleration", "peak landing acceleration", "m/s²"},
+    {"edge_contacts", "touches after the nosing, per drop", ""},
+    {"bounces", "bounces, per drop", ""},
+    {"contact_ratio", "contact ratio", ""},
+    {"descent", "time to the bottom", "s"},
 }};
 
 constexpr std::array<const char*, torque_set_count> torque_names = {
@@ -107,6 +102,8 @@ double within_engine(const std::vector<RunFacts>& runs, std::size_t set) {
 
 }  // namespace
 
+const QuantityName& name_of(std::size_t quantity) { return quantity_names[quantity]; }
+
 RunFacts& RunFacts::operator+=(const RunFacts& other) {
   for (std::size_t i = 0; i < quantity_count; ++i) quantity[i] += other.quantity[i];
   for (std::size_t i = 0; i < torque_set_count; ++i) torque[i] += other.torque[i];
@@ -150,7 +147,7 @@ Agreement agreement(const std::vector<RunFacts>& first, const std::vector<RunFac
 
   Agreement result{first.size(), {}, {}};
   for (std::size_t q = 0; q < quantity_count; ++q) {
-    result.quantities.push_back({quantity_names[q].name, quantity_names[q].unit, intervals[3 * q],
+    result.quantities.push_back({quantity_names[q].title, quantity_names[q].unit, intervals[3 * q],
                                  intervals[3 * q + 1], intervals[3 * q + 2]});
   }
   for (std::size_t t = 0; t < torque_set_count; ++t) {
@@ -304,7 +301,8 @@ Agreement agreement_of(const Evaluation& evaluation) {
 void add_sensitivity(const Variation& variation, const Evaluation& evaluation,
                      std::vector<Sensitivity>& all) {
   const Experiment& experiment = evaluation.request.experiment;
-  const std::vector<std::size_t> varied = runs_of(variation, evaluation.request, evaluation.plan);
+  const std::vector<std::size_t> varied =
+      runs_of(changed_runs(variation, experiment), evaluation.plan);
   const auto failed = static_cast<std::size_t>(std::ranges::count_if(
       varied, [&](std::size_t run) { return evaluation.runs.at(run).failed(); }));
   const CollectedCounts counts = collect(evaluation.plan, varied, evaluation.saved);
@@ -329,7 +327,8 @@ void add_sensitivity(const Variation& variation, const Evaluation& evaluation,
 
 CrossSimulatorResult check_across_simulators(const Evaluation& evaluation) {
   const Experiment& experiment = evaluation.request.experiment;
-  CrossSimulatorResult result{experiment, agreement_of(evaluation), {}, {}, {}};
+  CrossSimulatorResult result{experiment, agreement_of(evaluation), {}, {},
+                              {},         causes_of(evaluation)};
   result.transfers =
       transfers(evaluation.own.counted, evaluation.plan.groups.front().counted, experiment);
   for (const Variation& variation : variations(evaluation.request)) {

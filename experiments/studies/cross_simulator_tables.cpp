@@ -79,6 +79,26 @@ Columns<Verdict> verdict_columns() {
       .is(ColumnRole::note);
 }
 
+Columns<CauseEffect> effect_columns() {
+  return Columns<CauseEffect>()
+      .text("quantity", [](const CauseEffect& e) { return name_of(e.quantity).title; })
+      .as("metric")
+      .text("unit", [](const CauseEffect& e) { return name_of(e.quantity).unit; })
+      .text("cause", &CauseEffect::cause)
+      .text("simulator", &CauseEffect::simulator)
+      .interval("change", &CauseEffect::change)
+      .text("convergence", &CauseEffect::convergence)
+      .is(ColumnRole::note);
+}
+
+Columns<CauseCost> cost_columns() {
+  return Columns<CauseCost>()
+      .text("cause", &CauseCost::cause)
+      .text("simulator", &CauseCost::simulator)
+      .text("estimator", &CauseCost::estimator)
+      .interval("cost", &CauseCost::cost);
+}
+
 CaptionedTable agreement_table(const CrossSimulatorResult& result) {
   const std::vector<std::string>& engine = result.experiment.simulators;
   CaptionedTable table{
@@ -167,6 +187,55 @@ CaptionedTable sensitivity_table(const CrossSimulatorResult& result) {
   return table;
 }
 
+/// A row per quantity, a column per cause: what separates the engines, or half the step.
+CaptionedTable effect_table(const CrossSimulatorResult& result, bool is_of_step) {
+  const std::string caption =
+      is_of_step
+          ? "Change of each quantity by half the physics step; one that changes by more than the "
+            "tolerance has not converged"
+          : fmt::format(
+                "Causes of the difference {} − {}: \"own laws\" is \"tyre\" plus "
+                "\"solver\", which is left with one law; \"edge\" is Bullet's own radius",
+                result.experiment.simulators[1], result.experiment.simulators[0]);
+  const std::vector<CauseEffect> effects = where(result.causes.effects, [&](const CauseEffect& e) {
+    return is_of_step ? e.tolerance.has_value() : e.simulator == "both" || e.cause == "edge";
+  });
+  return {fmt::format("{} ({} runs each{}).", caption, result.causes.runs,
+                      setup_caption(result.experiment)),
+          is_of_step ? "convergence" : "causes",
+          pivot(
+              effects,
+              [](const CauseEffect& e) {
+                const QuantityName& name = name_of(e.quantity);
+                const std::string unit = *name.unit == 0 ? "" : fmt::format(" ({})", name.unit);
+                const std::string limit =
+                    e.tolerance ? fmt::format(", tolerance {}", exact(*e.tolerance)) : "";
+                return name.title + unit + limit;
+              },
+              [](const CauseEffect& e) {
+                return e.tolerance ? fmt::format("{}, {}", e.cause, e.simulator) : e.cause;
+              },
+              [](const CauseEffect& e) {
+                const std::string change =
+                    with_interval(e.change, std::abs(e.change.estimate) >= 10.0 ? 1 : 3);
+                return e.convergence() == "not converged" ? change + " not converged" : change;
+              })};
+}
+
+CaptionedTable cost_table(const CrossSimulatorResult& result) {
+  return {
+      fmt::format("Accuracy that each cause costs estimators, fitted on the nominal scene of "
+                  "the named engine ({}{}).",
+                  noise_text(result.experiment.highlights.front()),
+                  setup_caption(result.experiment)),
+      "cause_costs",
+      pivot(
+          result.causes.costs,
+          [](const CauseCost& c) { return fmt::format("{}, {}", c.cause, c.simulator); },
+          [&](const CauseCost& c) { return estimator_entry(result.experiment, c.estimator).title; },
+          [](const CauseCost& c) { return fmt::format("{:.4f}", c.cost.estimate); })};
+}
+
 std::string verdict_lines(const std::vector<Verdict>& verdicts, const char* bullet) {
   std::string text;
   for (const Verdict& verdict : verdicts) {
@@ -176,13 +245,17 @@ std::string verdict_lines(const std::vector<Verdict>& verdicts, const char* bull
   return text;
 }
 
-/// The tables of the report: agreement, transfer, sensitivity.
+/// The tables of the report: agreement, transfer, sensitivity, causes.
 std::vector<CaptionedTable> report_tables(const CrossSimulatorResult& result) {
   std::vector<CaptionedTable> tables = {agreement_table(result), torque_table(result)};
   for (const noise::NoiseCell& cell : result.experiment.highlights) {
     tables.push_back(transfer_table(result, cell));
   }
   if (!result.sensitivities.empty()) tables.push_back(sensitivity_table(result));
+  if (result.causes.runs > 0) {
+    tables.insert(tables.end(),
+                  {effect_table(result, false), effect_table(result, true), cost_table(result)});
+  }
   return tables;
 }
 
@@ -250,6 +323,10 @@ StudyResult summarize_check(const CrossSimulatorResult& result, const RunDirecto
       directory.write_table("transfer.csv", transfer_columns(), result.transfers);
   const Table sensitivity =
       directory.write_table("sensitivity.csv", sensitivity_columns(), result.sensitivities);
+  if (result.causes.runs > 0) {
+    directory.write_table("causes.csv", effect_columns(), result.causes.effects);
+    directory.write_table("cause_costs.csv", cost_columns(), result.causes.costs);
+  }
   directory.write_table("verdicts.csv", verdict_columns(), result.verdicts);
   std::string text;
   std::string markdown;

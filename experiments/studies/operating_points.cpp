@@ -11,6 +11,7 @@
 
 #include "core/rows.hpp"
 #include "experiments/config/experiment_yaml.hpp"
+#include "experiments/estimators/baselines.hpp"
 #include "experiments/evaluation/joint_bootstrap.hpp"
 #include "experiments/figures/figure_spec.hpp"
 #include "experiments/results/captions.hpp"
