@@ -17,12 +17,12 @@ readonly sensors=noise/profiles/upkie.yaml
 # leave_below and return_above of both operating points
 readonly balanced_point=(0.65 0.98) quiet_point=(0.2 0.99)
 
-# Drawn scenes of each robot. Families take turns, so 15 are one of each.
+# Drawn scenes of each robot. Families take turns, so 17 are one of each.
 scenes_of() { # robot
   case "$1" in
-    upkie_straight.yaml) echo 15 ;;
-    upkie_straight_actuated.yaml) echo 45 ;;
-    *) echo 60 ;;
+    upkie_straight.yaml) echo 17 ;;
+    upkie_straight_actuated.yaml) echo 51 ;;
+    *) echo 68 ;;
   esac
 }
 
