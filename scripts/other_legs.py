@@ -24,7 +24,7 @@ def output_of(*arguments):
 
 def score(program, recording, robot):
     """Balanced accuracy on one recording; `robot` gives the legs, Upkie's if it is None."""
-    legs = ["--robot", robot] if robot else []
+    legs = ["--robot", robot or "models/upkie.xml"]
     text = output_of(program, "estimate", recording, "--model", "models/evidence_curves.npz", "--transfer", *legs)
     recalls = [(float(m[1]) + float(m[3])) / 2 for m in RECALL.findall(text)]
     return statistics.mean(recalls)
