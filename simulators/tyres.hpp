@@ -12,9 +12,9 @@
 namespace touchdown::simulators {
 
 /// The options, with physics steps short enough for the robot's tyres, if these are springs and
-/// dampers. For a wheel alone on its tyre, the phase of the oscillation advances by at most 0.37 rad
-/// per step; landings then are within two percent of continuous time. Steps never get longer, and a
-/// control step remains a multiple of them.
+/// dampers. For a wheel alone on its tyre, the phase of the oscillation advances by at most 0.37
+/// rad per step; peaks of landings then are within six percent of continuous time. Steps never get
+/// longer, and a control step remains a multiple of them.
 SimulatorOptions with_steps_for_tyres(SimulatorOptions options, const models::RobotModel& model);
 
 /// The options with at most half of those steps: the longest that divide the control step.

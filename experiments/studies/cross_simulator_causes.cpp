@@ -137,14 +137,15 @@ Causes causes_of(const Evaluation& evaluation) {
   const Experiment& experiment = evaluation.request.experiment;
   const std::vector<CauseSetting> settings = cause_settings(experiment);
   if (settings.empty()) return {};
+  std::vector<std::vector<std::size_t>> planned;
+  for (const CauseSetting& setting : settings) {
+    planned.push_back(runs_of(setting.runs, evaluation.plan));
+  }
   std::vector<std::vector<std::size_t>> runs(settings.size());
   std::vector<std::vector<RunFacts>> facts(settings.size());
-  const int planned = settings.front().runs.runs;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(planned); ++i) {
+  for (std::size_t i = 0; i < planned.front().size(); ++i) {
     std::vector<std::size_t> draw;
-    for (const CauseSetting& setting : settings) {
-      draw.push_back(runs_of(setting.runs, evaluation.plan)[i]);
-    }
+    for (const std::vector<std::size_t>& of_setting : planned) draw.push_back(of_setting[i]);
     if (std::ranges::any_of(draw,
                             [&](std::size_t run) { return evaluation.runs.at(run).failed(); })) {
       continue;

@@ -106,9 +106,11 @@ Scenario draw_hops(const Draws& draws) {
 
 // On tyres that are springs and dampers, in a scene of another family.
 
+constexpr int families_of_tyres = 2;  // the last ones of the list
+
 /// `damping_ratio`: of half of Upkie on one tyre.
 Scenario on_tyres(const Draws& draws, double stiffness, double damping_ratio) {
-  const int last = static_cast<int>(families().size()) - 3;  // before these two families
+  const int last = static_cast<int>(families().size()) - families_of_tyres - 1;
   const auto family = static_cast<std::size_t>(draws.whole("family", 0, last));
   Scenario scenario = families()[family].draw(draws.of("scene", 0));
   scenario.tyre =
