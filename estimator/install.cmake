@@ -12,7 +12,7 @@ set(public
   bayes/config bayes/filter bayes/measurement_fit bayes/measurement_model bayes/measurement_only
   bayes/transition_model
   decision/augmentation decision/config decision/descent decision/draws decision/filter decision/fit
-  decision/network
+  decision/network decision/operating_point
   evidence/curves evidence/filter evidence/fit
   force/closed_legs force/force_kinematics force/force_kinematics_fit force/leg_geometry force/linkage
   force/support_force

@@ -4,12 +4,14 @@
 
 namespace touchdown::scoring {
 
-ContactSequence decisions(const std::vector<double>& p_contact, const Hysteresis& thresholds) {
+ContactSequence decisions(const std::vector<double>& p_contact, double period,
+                          const OperatingPoint& point) {
   ContactSequence decided;
   decided.reserve(p_contact.size());
   bool is_contact = true;
+  ContactDecision decision;
   for (const double p : p_contact) {
-    is_contact = is_contact ? p >= thresholds.leave_below : p > thresholds.return_above;
+    is_contact = decision.update(is_contact, p, period, point);
     decided.push_back(is_contact ? 1 : 0);
   }
   return decided;

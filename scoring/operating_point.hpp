@@ -4,21 +4,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "estimator/decision/operating_point.hpp"
 #include "scoring/score.hpp"
 
 namespace touchdown::scoring {
 
-/// Thresholds of a decision with hysteresis. A wheel leaves contact when P(contact) falls below one
-/// and returns when it rises above the other, which is no lower.
-struct Hysteresis {
-  double leave_below = 0.5;
-  double return_above = 0.5;
-
-  friend bool operator==(const Hysteresis&, const Hysteresis&) = default;
-};
-
-/// The decision at every step. The wheel starts in contact.
-ContactSequence decisions(const std::vector<double>& p_contact, const Hysteresis& thresholds);
+/// The decision at every step of `period` seconds. The wheel starts in contact.
+ContactSequence decisions(const std::vector<double>& p_contact, double period,
+                          const OperatingPoint& point);
 
 /// Score of the decisions about both wheels, over one or many runs. Sums, so they add.
 /// docs/reference/metrics.md, "Operating points".

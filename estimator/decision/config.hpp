@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "estimator/decision/augmentation.hpp"
+#include "estimator/decision/operating_point.hpp"
 #include "estimator/force/leg_geometry.hpp"
 #include "estimator/signal_guard.hpp"
 
@@ -36,15 +37,9 @@ struct DecisionFitConfig {
   bool operator==(const DecisionFitConfig&) const = default;
 };
 
-/// A wheel leaves contact when P(contact) falls below `leave_below`, and returns above
-/// `return_above`.
-struct OperatingPoint {
-  double leave_below;
-  double return_above;
-};
-
 /// Of evidence curves: both errors count alike.
-inline constexpr OperatingPoint balanced_point = {.leave_below = 0.85, .return_above = 0.99};
+inline constexpr OperatingPoint balanced_point = {
+    .leave_below = 0.85, .return_above = 0.99, .settle_at = 0.9, .settle_after = 0.02};
 /// Of evidence curves: few false takeoffs, at the price of later ones.
 inline constexpr OperatingPoint quiet_point = {.leave_below = 0.4, .return_above = 0.99};
 /// Of the decision network: both errors count alike.
@@ -65,12 +60,19 @@ struct DecisionConfig {
   /// The operating point.
   double leave_below = balanced_point.leave_below;
   double return_above = balanced_point.return_above;
+  double settle_at = balanced_point.settle_at;
+  double settle_after = balanced_point.settle_after;  ///< s
   SignalGuardConfig guard = {};
 
   bool operator==(const DecisionConfig&) const = default;
 };
 
+[[nodiscard]] inline OperatingPoint point_of(const DecisionConfig& config) noexcept {
+  return {config.leave_below, config.return_above, config.settle_at, config.settle_after};
+}
+
 /// Throw InputError for invalid values.
+void check_operating_point(const OperatingPoint& point);
 void check_decision_fit_config(const DecisionFitConfig& config);
 void check_decision_config(const DecisionConfig& config);
 

@@ -6,7 +6,8 @@
 
 namespace touchdown {
 
-LogitDecision::LogitDecision(const DecisionConfig& config) : config_(config), features_(config) {
+LogitDecision::LogitDecision(const DecisionConfig& config)
+    : config_(config), point_(point_of(config)), features_(config) {
   reset();
 }
 
@@ -19,6 +20,7 @@ LogitDecision::LogitDecision(DecisionConfig config, bool has_servo_load)
 void LogitDecision::reset() noexcept {
   features_.reset();
   is_started_ = {};
+  decision_ = {};
   belief_ = Belief{};
   for (WheelBelief& wheel : belief_.wheel) wheel.contact = true;
 }
@@ -41,11 +43,11 @@ const Belief& LogitDecision::decide(const std::array<double, 2>& logit) noexcept
       logit_[side] = is_started_[side] ? logit_[side] + gain * (now - logit_[side]) : now;
       is_started_[side] = true;
       wheel.p_contact = 1.0 / (1.0 + exponential(-logit_[side]));
-      wheel.contact = wheel.contact ? wheel.p_contact >= config_.leave_below
-                                    : wheel.p_contact > config_.return_above;
+      wheel.contact = decision_[side].update(wheel.contact, wheel.p_contact, step_.elapsed, point_);
     } else {  // the last decision stands
       wheel.p_contact = features_.relaxed(wheel.p_contact, step_.elapsed);
       is_started_[side] = false;
+      decision_[side].reset();
     }
   }
   multiply_wheels(belief_);

@@ -11,7 +11,7 @@ namespace touchdown {
 
 /// The common part of estimators that compute a logit for each wheel from the inputs of
 /// `FeatureExtractor`. It low-passes the logit, more strongly the noisier the torques, and decides
-/// by hysteresis.
+/// by its operating point.
 ///
 /// If a leg is unusable or frozen, its own belief relaxes to the prior, and the other wheel's
 /// inputs take both legs as alike. Without a usable IMU both beliefs relax. The status gives the
@@ -51,10 +51,12 @@ class LogitDecision {
 
  private:
   DecisionConfig config_;
+  OperatingPoint point_;
   FeatureExtractor features_;
   FeatureExtractor::Step step_;
   std::array<double, 2> logit_{};  ///< low-passed
   std::array<bool, 2> is_started_{};
+  std::array<ContactDecision, 2> decision_{};
   Belief belief_;
 };
 

@@ -232,6 +232,8 @@ void visit_members(Visit& visit, Config& config) {
   visit("smoothing", config.smoothing);
   visit("leave_below", config.leave_below);
   visit("return_above", config.return_above);
+  visit("settle_at", config.settle_at);
+  visit("settle_after", config.settle_after);
   visit_guard(visit, config.guard);
 }
 
@@ -264,7 +266,13 @@ void configure(BayesFilterConfig& config, const ConfigurationText& text) { read(
 void configure(PhaseFilterConfig& config, const ConfigurationText& text) { read(config, text); }
 void configure(NeuralEstimatorConfig& config, const ConfigurationText& text) { read(config, text); }
 void configure(ForceKinematicsConfig& config, const ConfigurationText& text) { read(config, text); }
-void configure(DecisionConfig& config, const ConfigurationText& text) { read(config, text); }
+void configure(DecisionConfig& config, const ConfigurationText& text) {
+  // In older files thresholds alone decide.
+  if (text.contains("return_above") && !text.contains("settle_after")) {
+    config.settle_after = 0.0;
+  }
+  read(config, text);
+}
 
 SignalBounds signal_bounds_of(const ConfigurationText& text) {
   SignalBounds bounds;

@@ -104,7 +104,10 @@ template <typename Estimator, auto model_of>
 Recipe of_decisions(std::string_view name, std::string_view fit, const OperatingPoint& point) {
   return recipe_of<Estimator, of_parameters<model_of>>(
       name, fit,
-      DecisionConfig{.leave_below = point.leave_below, .return_above = point.return_above});
+      DecisionConfig{.leave_below = point.leave_below,
+                     .return_above = point.return_above,
+                     .settle_at = point.settle_at,
+                     .settle_after = point.settle_after});
 }
 
 const std::vector<Recipe>& recipes() {
@@ -172,8 +175,9 @@ ConfigurationText configuration_for(const ModelMetadata& metadata, const std::st
     configuration = metadata.configuration;
   } else if (recipe(estimator).fit == curves_fit) {
     configuration = metadata.configuration;
-    configuration.erase("leave_below");
-    configuration.erase("return_above");
+    for (const char* threshold : {"leave_below", "return_above", "settle_at", "settle_after"}) {
+      configuration.erase(threshold);
+    }
   }
   if (replaced.empty()) return configuration;
   const ConfigurationText usual = recipe(estimator).configuration(metadata.sample_rate, {}, false);

@@ -55,6 +55,7 @@ BoostedTreesEstimator<Inputs>::BoostedTreesEstimator(BoostedTrees trees, const C
 template <typename Inputs>
 void BoostedTreesEstimator<Inputs>::reset() noexcept {
   inputs_.reset();
+  decision_ = {};
   belief_ = Belief{};
   for (WheelBelief& wheel : belief_.wheel) wheel.contact = true;
 }
@@ -68,10 +69,11 @@ const Belief& BoostedTreesEstimator<Inputs>::estimate(const Signals& signals) no
     if (step.is_valid[side]) {
       const auto logit = static_cast<double>(trees_.logit(inputs_.features(side)));
       wheel.p_contact = 1.0 / (1.0 + std::exp(-logit));
-      wheel.contact = wheel.contact ? wheel.p_contact >= config_.leave_below
-                                    : wheel.p_contact > config_.return_above;
+      wheel.contact =
+          decision_[side].update(wheel.contact, wheel.p_contact, step.elapsed, config_.point);
     } else {  // the last decision holds
       wheel.p_contact = inputs_.relaxed(wheel.p_contact, step.elapsed);
+      decision_[side].reset();
     }
   }
   multiply_wheels(belief_);

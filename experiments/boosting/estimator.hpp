@@ -38,10 +38,7 @@ class BoostedTreesEstimator : public ContactEstimator {
  public:
   struct Config {
     TreeInputsConfig inputs = {};
-    /// A wheel leaves contact when P(contact) falls below `leave_below`, and returns to contact
-    /// above `return_above`.
-    double leave_below = 0.75;
-    double return_above = 0.9;
+    OperatingPoint point = network_point;
   };
 
   /// Errors: those of `check_trees`.
@@ -55,6 +52,7 @@ class BoostedTreesEstimator : public ContactEstimator {
   Config config_;
   BoostedTrees trees_;
   Inputs inputs_;
+  std::array<ContactDecision, 2> decision_{};
   Belief belief_;
 };
 

@@ -76,8 +76,10 @@ std::unique_ptr<ContactEstimator> make_boosted_trees(const EstimatorEntry& entry
           .inputs = {.sample_rate = setup.sample_rate,
                      .legs = setup.legs.value_or(LegGeometry{}),
                      .servo_load = parameter(parameters, "servo_load") != 0.0},
-          .leave_below = entry.chosen("leave_below"),
-          .return_above = entry.chosen("return_above")});
+          .point = {.leave_below = entry.chosen("leave_below"),
+                    .return_above = entry.chosen("return_above"),
+                    .settle_at = network_point.settle_at,
+                    .settle_after = network_point.settle_after}});
 }
 
 template <typename Inputs>

@@ -27,17 +27,20 @@ namespace {
 constexpr const char* operating_points_name = "operating_points";
 
 /// The section `operating_points`: scores of every estimator with these thresholds instead of its
-/// own. Each `leave_below` is paired with each `return_above` that is not lower
-/// (docs/reference/metrics.md).
+/// own. Each `leave_below` is paired with each `return_above` that is not lower, without and with
+/// each rule in time (docs/reference/metrics.md).
 struct OperatingPointsConfig {
   std::vector<double> leave_below = {0.02, 0.05, 0.1, 0.15, 0.25, 0.4, 0.5, 0.6, 0.75, 0.85, 0.95};
   std::vector<double> return_above = {0.25, 0.5, 0.75, 0.9, 0.98};
+  std::vector<double> settle_at = {};
+  double settle_after = 0.02;  ///< s
 };
 
 void describe(Fields& fields, OperatingPointsConfig& config, const Experiment& /*experiment*/) {
-  const auto describe_thresholds = [&](const char* key, std::vector<double>& thresholds) {
+  const auto describe_thresholds = [&](const char* key, std::vector<double>& thresholds,
+                                       bool is_optional = false) {
     const KeyNotes notes = fields.in_line(key, thresholds);
-    fields.check(!thresholds.empty(), key, "expected at least one probability");
+    fields.check(is_optional || !thresholds.empty(), key, "expected at least one probability");
     fields.check(thresholds.empty() ||
                      (thresholds.front() > 0.0 && thresholds.back() < 1.0 &&
                       std::is_sorted(thresholds.begin(), thresholds.end(), std::less_equal<>())),
@@ -50,14 +53,21 @@ void describe(Fields& fields, OperatingPointsConfig& config, const Experiment& /
       .doc("Thresholds of P(contact) above which contact begins.");
   fields.check(config.leave_below.front() <= config.return_above.back(), "return_above",
                "expected a threshold of at least the lowest leave_below");
+  describe_thresholds("settle_at", config.settle_at, true)
+      .doc("P(contact) on the other side of one of these changes a decision after `settle_after`.");
+  fields("settle_after", config.settle_after, 1e-3, 10.0).doc("s", "That time.");
 }
 
 /// The pairs of thresholds.
-std::vector<scoring::Hysteresis> points_of(const OperatingPointsConfig& config) {
-  std::vector<scoring::Hysteresis> points;
+std::vector<OperatingPoint> points_of(const OperatingPointsConfig& config) {
+  std::vector<OperatingPoint> points;
   for (const double leave_below : config.leave_below) {
     for (const double return_above : config.return_above) {
-      if (leave_below <= return_above) points.push_back({leave_below, return_above});
+      if (leave_below > return_above) continue;
+      points.push_back({leave_below, return_above});
+      for (const double settle_at : config.settle_at) {
+        points.push_back({leave_below, return_above, settle_at, config.settle_after});
+      }
     }
   }
   return points;
@@ -67,7 +77,7 @@ std::vector<scoring::Hysteresis> points_of(const OperatingPointsConfig& config) 
 /// each pair of thresholds: scores of type `scoring::OperatingScore`, over the whole run.
 Measure operating_points_measure(const OperatingPointsConfig& config) {
   using Scores = std::vector<scoring::OperatingScore>;
-  std::vector<scoring::Hysteresis> points = points_of(config);
+  std::vector<OperatingPoint> points = points_of(config);
   const std::size_t most = 1 + points.size();
   return measure_of_predictions<scoring::OperatingScore>(
       operating_points_name, most, [points = std::move(points)](const MeasuredPrediction& made) {
@@ -81,9 +91,10 @@ Measure operating_points_measure(const OperatingPointsConfig& config) {
                                                     run.info.control_period_us, made.run.scoring));
         };
         add({prediction[0].contact, prediction[1].contact});
-        for (const scoring::Hysteresis& point : points) {
-          add({scoring::decisions(prediction[0].p_contact, point),
-               scoring::decisions(prediction[1].p_contact, point)});
+        const double period = 1e-6 * static_cast<double>(run.info.control_period_us);
+        for (const OperatingPoint& point : points) {
+          add({scoring::decisions(prediction[0].p_contact, period, point),
+               scoring::decisions(prediction[1].p_contact, period, point)});
         }
         return scores;
       });
@@ -95,15 +106,15 @@ struct OperatingRow {
   std::string scene;
   noise::NoiseCell noise;
   std::string estimator;
-  std::optional<scoring::Hysteresis> thresholds = {};  ///< empty: its own decision
-  scoring::OperatingScore score = {};                  ///< of all runs, both wheels added
+  std::optional<OperatingPoint> thresholds = {};  ///< empty: its own decision
+  scoring::OperatingScore score = {};             ///< of all runs, both wheels added
 };
 
 /// The mean over all scenes and engines, with equal weights.
 struct OperatingMean {
   noise::NoiseCell noise;
   std::string estimator;
-  std::optional<scoring::Hysteresis> thresholds = {};
+  std::optional<OperatingPoint> thresholds = {};
   double balanced_accuracy = 0.0;
   double extra_switches_per_minute = 0.0;
   double false_takeoffs_per_minute = 0.0;
@@ -139,7 +150,7 @@ std::map<std::pair<std::uint32_t, std::uint32_t>, PointScores> point_scores(
 std::vector<OperatingRow> operating_rows(const Evaluation& evaluation) {
   const Experiment& experiment = evaluation.request.experiment;
   const RunGroup& group = evaluation.plan.groups.front();
-  const std::vector<scoring::Hysteresis> points =
+  const std::vector<OperatingPoint> points =
       points_of(experiment.studies.at<OperatingPointsConfig>());
   std::vector<OperatingRow> rows;
   for (std::size_t scene = 0; scene < experiment.test.scenarios.size(); ++scene) {
@@ -221,7 +232,7 @@ std::vector<OperatingMean> operating_means(const std::vector<OperatingRow>& rows
 
 /// A threshold as a cell; empty for an estimator's own decision.
 template <typename Row>
-auto threshold(double scoring::Hysteresis::*one) {
+auto threshold(double OperatingPoint::*one) {
   return [one](const Row& row) {
     return row.thresholds ? exact((*row.thresholds).*one) : std::string();
   };
@@ -233,8 +244,12 @@ Columns<Row> point_columns() {
   return Columns<Row>()
       .part(&Row::noise, noise_columns())
       .text("estimator", &Row::estimator)
-      .text("leave_below", threshold<Row>(&scoring::Hysteresis::leave_below))
-      .text("return_above", threshold<Row>(&scoring::Hysteresis::return_above));
+      .text("leave_below", threshold<Row>(&OperatingPoint::leave_below))
+      .text("return_above", threshold<Row>(&OperatingPoint::return_above))
+      .text("settle_at", [](const Row& row) {
+        const bool settles = row.thresholds && row.thresholds->settle_after > 0.0;
+        return settles ? exact(row.thresholds->settle_at) : std::string();
+      });
 }
 
 Columns<OperatingRow> row_columns() {

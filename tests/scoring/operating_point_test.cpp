@@ -12,9 +12,24 @@ using ::testing::ElementsAre;
 
 TEST(OperatingPoint, LeavesBelowOneThresholdAndReturnsAboveTheOther) {
   const std::vector<double> p = {0.5, 0.3, 0.29, 0.6, 0.8, 0.81, 0.3, 0.1, 0.79};
-  EXPECT_THAT(decisions(p, {0.3, 0.8}), ElementsAre(1, 1, 0, 0, 0, 1, 1, 0, 0));
-  EXPECT_THAT(decisions(p, {0.3, 0.3}), ElementsAre(1, 1, 0, 1, 1, 1, 1, 0, 1));
-  EXPECT_THAT(decisions({}, {0.3, 0.8}), ElementsAre());
+  EXPECT_THAT(decisions(p, 0.001, {0.3, 0.8}), ElementsAre(1, 1, 0, 0, 0, 1, 1, 0, 0));
+  EXPECT_THAT(decisions(p, 0.001, {0.3, 0.3}), ElementsAre(1, 1, 0, 1, 1, 1, 1, 0, 1));
+  EXPECT_THAT(decisions({}, 0.001, {0.3, 0.8}), ElementsAre());
+}
+
+TEST(OperatingPoint, ADecisionThatContradictsItsProbabilityEndsAfterATime) {
+  const OperatingPoint point = {0.3, 0.9, 0.6, 0.003};
+  // Each number is P(contact) of 1 ms. Takeoff; 2 ms of .7 are too short; 3 ms are not.
+  EXPECT_THAT(decisions({0.2, 0.7, 0.7, 0.5, 0.7, 0.7, 0.7, 0.7}, 0.001, point),
+              ElementsAre(0, 0, 0, 0, 0, 0, 1, 1));
+  // Likewise from contact: .5 is above `leave_below`.
+  EXPECT_THAT(decisions({0.5, 0.5, 0.8, 0.5, 0.5, 0.5, 0.5}, 0.001, point),
+              ElementsAre(1, 1, 1, 1, 1, 0, 0));
+  // Thresholds decide at once, and the time is one, not a number of steps.
+  EXPECT_THAT(decisions({0.5, 0.2, 0.95, 0.5, 0.5}, 0.002, point), ElementsAre(1, 0, 1, 1, 0));
+  // Beyond the thresholds it is limited to them: P between the two never flickers.
+  EXPECT_THAT(decisions({0.1, 0.7, 0.7, 0.85, 0.85, 0.91, 0.95}, 0.002, {0.3, 0.9, 0.99, 0.003}),
+              ElementsAre(0, 0, 0, 0, 0, 1, 1));
 }
 
 using BothWheels = std::array<ContactSequence, models::wheel_count>;

@@ -196,6 +196,7 @@ TEST(Configuration, ReadsBackFromItsText) {
   DecisionConfig decision;
   decision.geometry.wheel_inertia = 1.0 / 3e4;
   decision.leave_below = 0.6;
+  decision.settle_after = 0.03;
   decision.geometry.upper_mass = 0.7;
   decision.geometry.robot_mass = 8.1;
   decision.guard.frozen_after = 0.0;
@@ -329,15 +330,23 @@ TEST(Parameters, OfModelsWithTheServoLoadReadBack) {
   EXPECT_THROW(static_cast<void>(evidence_curve_sets_of(parameters)), InputError);
 }
 
-std::array<double, 2> thresholds_of(const ConfigurationText& configuration) {
-  return {std::stod(configuration.at("leave_below")), std::stod(configuration.at("return_above"))};
+OperatingPoint point_in(const ConfigurationText& configuration) {
+  DecisionConfig config;
+  configure(config, configuration);
+  return point_of(config);
+}
+
+TEST(EvidenceCurves, OfFilesWithoutATimeDecideByThresholdsAlone) {
+  ConfigurationText older = default_configuration("evidence_curves", 1000.0);
+  older.erase("settle_at");
+  older.erase("settle_after");
+  EXPECT_EQ(point_in(older).settle_after, 0.0);
+  EXPECT_EQ(point_in(older).return_above, balanced_point.return_above);
 }
 
 TEST(EvidenceCurves, HaveTwoOperatingPointsOfOneModel) {
-  const std::array<double, 2> balanced = {balanced_point.leave_below, balanced_point.return_above};
-  const std::array<double, 2> quiet = {quiet_point.leave_below, quiet_point.return_above};
-  EXPECT_EQ(thresholds_of(default_configuration("evidence_curves", 1000.0)), balanced);
-  EXPECT_EQ(thresholds_of(default_configuration("evidence_curves_quiet", 1000.0)), quiet);
+  EXPECT_EQ(point_in(default_configuration("evidence_curves", 1000.0)), balanced_point);
+  EXPECT_EQ(point_in(default_configuration("evidence_curves_quiet", 1000.0)), quiet_point);
   EXPECT_TRUE(share_fit("evidence_curves", "evidence_curves_quiet"));
 
   // Each makes the other from its model, which keeps the rest of the configuration.
@@ -349,9 +358,11 @@ TEST(EvidenceCurves, HaveTwoOperatingPointsOfOneModel) {
     const EvidenceCurveSets model = evidence_curve_sets_of(parameters_of(arrays));
     for (const std::string made : {"evidence_curves", "evidence_curves_quiet"}) {
       const OperatingPoint& point = made == "evidence_curves" ? balanced_point : quiet_point;
-      EvidenceCurves expected(
-          model,
-          {.geometry = legs, .leave_below = point.leave_below, .return_above = point.return_above});
+      EvidenceCurves expected(model, {.geometry = legs,
+                                      .leave_below = point.leave_below,
+                                      .return_above = point.return_above,
+                                      .settle_at = point.settle_at,
+                                      .settle_after = point.settle_after});
       EXPECT_EQ(beliefs_of(*make_estimator(arrays, {.estimator = made})), beliefs_of(expected))
           << name << " as " << made;
     }

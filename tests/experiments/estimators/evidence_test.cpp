@@ -77,7 +77,9 @@ TEST(EvidenceEntries, ShareAFitAndDifferInTheirOperatingPoint) {
       for (const EstimatorEntry& entry : {balanced, quiet}) {
         const OperatingPoint& point = entry.name == balanced.name ? balanced_point : quiet_point;
         EvidenceCurves expected(evidence_in(model).value(), {.leave_below = point.leave_below,
-                                                             .return_above = point.return_above});
+                                                             .return_above = point.return_above,
+                                                             .settle_at = point.settle_at,
+                                                             .settle_after = point.settle_after});
         EXPECT_EQ(decide(*entry.make({.model = &model}), other, noise_run(other, {}), {}),
                   decide(expected, other, noise_run(other, {}), {}))
             << fitted.name << " as " << entry.name;
