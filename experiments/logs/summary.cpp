@@ -21,25 +21,30 @@ std::string percent(std::int64_t part, std::int64_t whole) {
   return fmt::format("{:.1f} %", 100.0 * scoring::ratio(part, whole));
 }
 
-/// The events of the truth: flights that last long enough.
-std::string found(const scoring::TransitionCounts& counts, std::string_view name) {
+/// The events of the truth: flights that last long enough. `listed` is the number of those in the
+/// list, so that the text accounts for each.
+std::string found(const scoring::TransitionCounts& counts, std::int64_t listed,
+                  std::string_view name) {
   std::string text = fmt::format("{} {} of {} found", name, counts.detected, counts.events);
   if (counts.detected > 0) {
     text += fmt::format(", latency {:.1f}", 1e3 * counts.latency_mean());
     if (counts.detected > 1) text += fmt::format(" ± {:.1f}", 1e3 * counts.latency_deviation());
     text += " ms";
   }
-  return text + fmt::format(", {} false", counts.false_alarms);
+  text += fmt::format(", {} false", counts.false_alarms);
+  const std::int64_t others = listed - counts.detected - counts.false_alarms;
+  if (others > 0) text += fmt::format(", {} in or beside a shorter or unscored flight", others);
+  return text;
 }
 
-std::string score_text(const scoring::Score& score) {
+std::string score_text(const scoring::Score& score, std::int64_t takeoffs, std::int64_t landings) {
   return fmt::format(
       "{:<12} accuracy {:.4f}, precision and recall of contact {:.4f} {:.4f}, of no contact {:.4f} "
       "{:.4f}, Brier {:.4f}\n{:<12} {}; {}\n",
       "truth", score.points.success(), score.points.contact_precision(),
       score.points.contact_recall(), score.points.no_contact_precision(),
       score.points.no_contact_recall(), score.calibration.brier(), "",
-      found(score.takeoff, "takeoffs"), found(score.landing, "landings"));
+      found(score.takeoff, takeoffs, "takeoffs"), found(score.landing, landings, "landings"));
 }
 
 }  // namespace
@@ -143,7 +148,10 @@ std::string LogSummary::Clock::text(double start) const {
   return text;
 }
 
-LogSummary::WheelEvents::WheelEvents(double period) : period_(period) { interrupt(); }
+LogSummary::WheelEvents::WheelEvents(double period, double shortest)
+    : period_(period), shortest_(shortest) {
+  interrupt();
+}
 
 void LogSummary::WheelEvents::interrupt() {
   if (stream_) stream_->finish();
@@ -153,7 +161,7 @@ void LogSummary::WheelEvents::interrupt() {
   constexpr double between = 0.5;  // of 0, no contact, and 1
   stream_.emplace(
       period_,
-      scoring::LabelConfig{.force_threshold = between, .debounce = scoring::LabelConfig{}.debounce},
+      scoring::LabelConfig{.force_threshold = between, .debounce = shortest_},
       [this](std::uint8_t contact) { label(contact != 0); });
 }
 
@@ -176,7 +184,8 @@ LogSummary::LogSummary(double period, const scoring::ScoringConfig& scoring)
     : clock_{period, NAN, NAN, NAN},
       skipped_(std::llround(scoring.skip / period)),
       longest_bridged_(std::llround(SignalGuardConfig{}.maximum_gap / period)),
-      wheels_{std::make_unique<WheelEvents>(period), std::make_unique<WheelEvents>(period)} {}
+      wheels_{std::make_unique<WheelEvents>(period, scoring.minimum_flight),
+              std::make_unique<WheelEvents>(period, scoring.minimum_flight)} {}
 
 double LogSummary::duration() const {
   return std::isnan(clock_.previous) ? 0.0 : clock_.last - clock_.first + clock_.period;
@@ -271,7 +280,10 @@ std::string LogSummary::text(const std::optional<scoring::RobotScore>& score, do
       fmt::format("{:<12} {}\n{:<12} {}\n{:<12} {}\n{:<12} {}\n{:<12} {}\n", "time",
                   clock_.text(start), "contact", contact_text(), "left wheel", events_text(0),
                   "right wheel", events_text(1), "signals", signals_text(findings));
-  if (score) text += score_text(score->wheels());
+  if (score) {
+    text += score_text(score->wheels(), wheels_[0]->takeoffs.count + wheels_[1]->takeoffs.count,
+                       wheels_[0]->landings.count + wheels_[1]->landings.count);
+  }
   return text;
 }
 

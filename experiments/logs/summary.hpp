@@ -67,8 +67,9 @@ class LogScore {
 /// Counts an estimator's results on a log. It keeps only the first takeoffs and landings, so its
 /// memory does not grow with the log. Only steps with good signals count: what is invalid is no
 /// contact information. In the first `scoring.skip` seconds it counts the signals' status alone:
-/// there, beliefs still depend on the prior. Takeoffs and landings are those of the decision after
-/// the debounce of the labels; the switches of the raw decision are counted beside them.
+/// there, beliefs still depend on the prior. A takeoff and a landing enclose a flight of at least
+/// `scoring.minimum_flight`, as those of the score do; shorter states are merged into their
+/// neighbours, and the switches of the raw decision are counted beside them.
 class LogSummary {
  public:
   /// `period` in seconds.
@@ -114,7 +115,8 @@ class LogSummary {
   /// The decisions about one wheel, debounced.
   class WheelEvents {
    public:
-    explicit WheelEvents(double period);
+    /// States shorter than `shortest` (s) are no events.
+    WheelEvents(double period, double shortest);
     WheelEvents(const WheelEvents&) = delete;
     WheelEvents& operator=(const WheelEvents&) = delete;
 
@@ -131,6 +133,7 @@ class LogSummary {
     void label(bool contact);
 
     double period_;
+    double shortest_;
     std::optional<scoring::LabelStream> stream_;
     std::deque<double> times_;  ///< of the decisions that are not labelled yet
     std::optional<bool> raw_;
