@@ -16,6 +16,7 @@ namespace {
 /// Applies the deviations to the robot that its file describes.
 void deviate(models::RobotModel& model, const Deviations& deviations) {
   models::shift_mass(*model.mj, model.base_body, {deviations.com_x, 0.0, deviations.com_z});
+  model.mj->body_mass[model.base_body] += deviations.payload;
   models::scale_wheels(*model.mj, deviations.wheel_radius_scale);
   model.wheel_radius *= deviations.wheel_radius_scale;
   for (std::size_t i = 0; i < models::servo_count; ++i) {

@@ -93,6 +93,8 @@ static void describe(Fields& fields, Deviations& deviations) {
       .doc("m", "Offset of the base body's centre of mass, forward.");
   fields("com_z", deviations.com_z, -1.0, 1.0)
       .doc("m", "Offset of the base body's centre of mass, upward.");
+  fields("payload", deviations.payload, 0.0, 1e4)
+      .doc("kg", "What the base body carries at its centre of mass; estimators do not know of it.");
   fields("wheel_radius_scale", deviations.wheel_radius_scale, 0.1, 10.0)
       .doc("Factor on the radius of both wheels.");
   fields("actuator_friction_scale", deviations.actuator_friction_scale, 0.0, 10.0)

@@ -41,8 +41,9 @@ struct End {
 
 /// How the robot of one run differs from its description.
 struct Deviations {
-  double com_x = 0.0;  ///< offset of the base body's centre of mass, forward (m)
-  double com_z = 0.0;  ///< and upward (m)
+  double com_x = 0.0;    ///< offset of the base body's centre of mass, forward (m)
+  double com_z = 0.0;    ///< and upward (m)
+  double payload = 0.0;  ///< that the base body carries at its centre of mass (kg)
   double wheel_radius_scale = 1.0;
   double actuator_friction_scale = 1.0;  ///< on Coulomb and viscous friction of every joint
   /// Relative errors of the torque constants, added to those in the robot's file.

@@ -53,9 +53,9 @@ std::string estimators_text() {
   return to_text(table, 5);
 }
 
-std::string families_text() {
+std::string families_text(const std::vector<scenarios::Family>& families) {
   TextTable table{{}, {}};
-  for (const scenarios::Family& family : scenarios::families()) {
+  for (const scenarios::Family& family : families) {
     table.rows.push_back({family.name, family.summary});
   }
   return to_text(table, 2);
@@ -64,7 +64,10 @@ std::string families_text() {
 void list() {
   print_files("experiments", "experiments");
   print_files("scenarios", "scenarios");
-  print("families of drawn scenarios (touchdown generate)\n{}\n", families_text());
+  print("families of drawn scenarios (touchdown generate)\n{}\n",
+        families_text(scenarios::families()));
+  print("scenes of no family, drawn where a file names them: tests of fits to families\n{}\n",
+        families_text({scenarios::random_scenes()}));
   print_files("robots (every MJCF file is a robot, too)", "models");
   print_files("sensors", "noise/profiles");
   print("simulators\n{}\n", entries_text(simulators::simulator_entries()));

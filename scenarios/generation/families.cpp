@@ -104,34 +104,82 @@ Scenario draw_hops(const Draws& draws) {
       [](const Draws& squat) { return squat.between("extend_rate", 6.0, 9.0); });
 }
 
-// On tyres that are springs and dampers, in a scene of another family.
+Scenario draw_bending_hops(const Draws& draws) {
+  Scenario scenario;
+  double time = 1.0;
+  double hip = 0.45;
+  const auto bend_to = [&](double target, double rate, double pause) {
+    scenario.crouch.push_back({.time = time, .hip = target, .rate = rate});
+    time += std::abs(target - hip) / rate + pause;
+    hip = target;
+  };
+  const int count = draws.whole("count", 2, 4);
+  for (int i = 0; i < count; ++i) {
+    const Draws hop = draws.of("hop", i);
+    bend_to(hop.between("low", 0.65, 0.85), hop.log_between("bend_rate", 0.8, 3.0),
+            hop.between("low_hold", 0.3, 1.5));
+    const int springs = hop.whole("springs", 1, 2);
+    for (int k = 0; k < springs; ++k) {
+      const Draws spring = hop.of("spring", k);
+      bend_to(spring.between("high", 0.2, 0.45), spring.between("extend_rate", 6.0, 9.0),
+              spring.log_between("in_air", 0.01, 0.15));
+      bend_to(spring.between("bent", 0.4, 0.75), spring.log_between("retract_rate", 2.0, 7.0),
+              spring.log_between("landed", 0.05, 0.4));
+    }
+    time += hop.between("pause", 0.8, 1.6);
+  }
+  scenario.clip_crouches = true;
+  scenario.terrain.width = 20.0;
+  scenario.terrain.friction = draws.between("friction", 0.4, 1.0);
+  scenario.end.duration = time;
+  scenario.perturbation = {.yaw = 0.5, .mass_scale = 0.1, .servo_gain_scale = 0.2};
+  if (draws.happens("drives", 0.6)) {
+    scenario.perturbation.drive = RandomDrive{.velocity = draws.between("velocity", 0.0, 0.25),
+                                              .yaw_rate = draws.between("yaw_rate", 0.0, 1.0)};
+  }
+  return scenario;
+}
 
-constexpr int families_of_tyres = 2;  // the last ones of the list
+// A scene of another family, with a difference.
 
-/// `damping_ratio`: of half of Upkie on one tyre.
-Scenario on_tyres(const Draws& draws, double stiffness, double damping_ratio) {
-  const int last = static_cast<int>(families().size()) - families_of_tyres - 1;
-  const auto family = static_cast<std::size_t>(draws.whole("family", 0, last));
-  Scenario scenario = families()[family].draw(draws.of("scene", 0));
-  scenario.tyre =
-      models::Tyre{.law = models::Tyre::Law::spring_damper,
-                   .stiffness = stiffness,
-                   .damping = 2.0 * damping_ratio * std::sqrt(stiffness * 0.5 * written_mass)};
+/// Draws a scene of one of the first `count` families.
+Scenario of_another_family(const Draws& draws, int count) {
+  const auto family = static_cast<std::size_t>(draws.whole("family", 0, count - 1));
+  return families()[family].draw(draws.of("scene", 0));
+}
+
+/// A payload that estimators do not know of.
+Scenario draw_payloads(const Draws& draws) {
+  Scenario scenario = of_another_family(draws, static_cast<int>(families().size()) - 3);
+  scenario.deviations.payload = draws.between("payload", 0.5, 3.5);
+  scenario.deviations.com_z = draws.between("com_z", 0.0, 0.05);
+  return scenario;
+}
+
+Scenario on_tyres(const Draws& draws, const models::Tyre& tyre) {
+  Scenario scenario = of_another_family(draws, static_cast<int>(families().size()) - 2);
+  scenario.tyre = tyre;
   scenario.forces_for_mass = written_mass;
   return scenario;
 }
 
 Scenario draw_soft_tyres(const Draws& draws) {
-  return on_tyres(draws, draws.log_between("stiffness", 8e3, 3e4),
-                  draws.between("damping_ratio", 0.12, 0.4));
+  return on_tyres(draws, spring_tyre(draws.log_between("stiffness", 8e3, 3e4),
+                                     draws.between("damping_ratio", 0.12, 0.4)));
 }
 
 Scenario draw_hard_tyres(const Draws& draws) {
-  return on_tyres(draws, draws.log_between("stiffness", 3e4, 1e5),
-                  draws.between("damping_ratio", 0.4, 0.8));
+  return on_tyres(draws, spring_tyre(draws.log_between("stiffness", 3e4, 1e5),
+                                     draws.between("damping_ratio", 0.4, 0.8)));
 }
 
 }  // namespace
+
+models::Tyre spring_tyre(double stiffness, double damping_ratio) {
+  return {.law = models::Tyre::Law::spring_damper,
+          .stiffness = stiffness,
+          .damping = 2.0 * damping_ratio * std::sqrt(stiffness * 0.5 * written_mass)};
+}
 
 double greatest_height(const policies::ForceScript& forces, double mass, double duration) {
   constexpr double step = 1e-3;  // s
@@ -215,14 +263,28 @@ const std::vector<Family>& families() {
       {"drives", "Random drive commands on level ground, always in contact.", draw_drives},
       {"squats", "Legs that bend quickly: the torso falls.", draw_squats},
       {"hops", "Legs that extend quickly: small hops.", draw_hops},
+      {"bending_hops", "Hops with legs that bend in flight, while driving and turning.",
+       draw_bending_hops},
+      {"light_stands", "A hand or a rope carries part of the weight for seconds.",
+       draw_light_stands},
+      {"rockings", "Rocked from wheel to wheel.", draw_rockings},
+      {"rubble", "Over small blocks, with bent legs.", draw_rubble},
+      {"payloads", "A scene of another family with a payload.", draw_payloads},
       {"soft_tyres", "A scene of another family on soft rubber, which bounces.", draw_soft_tyres},
       {"hard_tyres", "The same on hard tyres, which do not.", draw_hard_tyres},
   };
   return all;
 }
 
+const Family& random_scenes() {
+  static const Family family = {"random_scenes", "Random commands and forces on random terrain.",
+                                draw_random_scene};
+  return family;
+}
+
 const Family& family_called(const std::string& name) {
-  std::vector<std::string> names;
+  if (name == random_scenes().name) return random_scenes();
+  std::vector<std::string> names = {random_scenes().name};
   for (const Family& family : families()) {
     if (family.name == name) return family;
     names.push_back(family.name);

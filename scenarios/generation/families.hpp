@@ -62,15 +62,27 @@ struct Family {
 /// All families, in the order in which `generate` takes turns.
 const std::vector<Family>& families();
 
-/// Errors: `InputError` for an unknown family, with the nearest one.
+/// Scenes without a plan: random commands and forces on random terrain. It takes no turns, so that
+/// models that are fitted to the families can be tested on what no family draws.
+const Family& random_scenes();
+
+/// One of them or `random_scenes`. Errors: `InputError` for an unknown family, with the nearest
+/// one.
 const Family& family_called(const std::string& name);
 
-Scenario draw_lifts(const Draws& draws);       ///< forces that appear and vanish at once
-Scenario draw_slow_lifts(const Draws& draws);  ///< forces that grow and fade over .2 to 10 s
-Scenario draw_put_downs(const Draws& draws);   ///< lifted and put down while the wheels spin
-Scenario draw_hangs(const Draws& draws);       ///< on a rope, never in contact
-Scenario draw_pushes(const Draws& draws);      ///< pushed while it stands, from all sides
-Scenario draw_push_offs(const Draws& draws);   ///< pushed over the edge of a platform
+Scenario draw_lifts(const Draws& draws);         ///< forces that appear and vanish at once
+Scenario draw_slow_lifts(const Draws& draws);    ///< forces that grow and fade over .2 to 10 s
+Scenario draw_put_downs(const Draws& draws);     ///< lifted and put down while the wheels spin
+Scenario draw_hangs(const Draws& draws);         ///< on a rope, never in contact
+Scenario draw_pushes(const Draws& draws);        ///< pushed while it stands, from all sides
+Scenario draw_light_stands(const Draws& draws);  ///< a hand or a rope carries part of the weight
+Scenario draw_rockings(const Draws& draws);      ///< rocked from wheel to wheel
+Scenario draw_push_offs(const Draws& draws);     ///< pushed over the edge of a platform
+
+Scenario draw_random_scene(const Draws& draws);
+
+/// A tyre for Upkie's mass; `damping_ratio`: of half of Upkie on one tyre.
+models::Tyre spring_tyre(double stiffness, double damping_ratio);
 
 Scenario draw_stairs(const Draws& draws);      ///< down a flight of stairs
 Scenario draw_kerbs(const Draws& draws);       ///< up a ramp and off its end with one wheel
@@ -78,5 +90,6 @@ Scenario draw_ridges(const Draws& draws);      ///< along a washboard, with both
 Scenario draw_ramps(const Draws& draws);       ///< up a ramp, along a top, down a step or a ramp
 Scenario draw_ramp_jumps(const Draws& draws);  ///< up a ramp and off its end at speed
 Scenario draw_courses(const Draws& draws);     ///< several of these pieces in a row
+Scenario draw_rubble(const Draws& draws);      ///< over small blocks, with bent legs
 
 }  // namespace touchdown::scenarios

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -9,14 +10,24 @@ namespace {
 
 const Eigen::Vector3d handle(0.0, 0.0, 0.06);  // base frame (m)
 
+constexpr Range usual_hold = {0.3, 1.2};  // s
+// The longer a force takes to fade, the further the robot goes on upwards.
+constexpr Range slow_weight = {1.01, 1.05};
+
 /// Hands that keep the torso upright and carry no load.
 std::vector<policies::Guide> hands() {
   return {{.point_in_base = handle, .stiffness = 400.0, .damping = 60.0},
           {.point_in_base = {0.0, 0.0, -0.25}, .stiffness = 400.0, .damping = 60.0}};
 }
 
-/// Lifts the robot once or more, each time with a force that grows and fades within these times.
-Scenario lifted(const Draws& draws, double least_ramp, double most_ramp) {
+/// Forces upwards, each of which grows and fades within times of `ramp`, or at once.
+struct Lifts {
+  Range ramp;    ///< s
+  Range hold;    ///< s
+  Range weight;  ///< shares of the robot's
+};
+
+Scenario lifted(const Draws& draws, const Lifts& lifts) {
   Scenario scenario;
   scenario.guides = hands();
   scenario.forces_for_mass = written_mass;
@@ -27,15 +38,15 @@ Scenario lifted(const Draws& draws, double least_ramp, double most_ramp) {
   for (int i = 0; i < count; ++i) {
     const Draws lift = draws.of("lift", i);
     const auto ramp = [&](std::string_view quantity) {
-      return most_ramp > 0.0 ? lift.log_between(quantity, least_ramp, most_ramp) : 0.0;
+      const Range& of = lifts.ramp;
+      return of.high > 0.0 ? lift.log_between(quantity, of.low, of.high) : 0.0;
     };
     policies::TimedForce force{.time = time, .point_in_base = handle};
     force.rise = ramp("rise");
     force.fall = ramp("fall");
-    force.duration = force.rise + lift.between("hold", 0.3, 1.2) + force.fall;
-    // The longer a force takes to fade, the further the robot goes on upwards.
-    const double most = most_ramp > 0.0 ? 1.05 : 1.12;
-    force.force.z() = weight * lift.between("force", 1.01, most);
+    force.duration =
+        force.rise + lift.between("hold", lifts.hold.low, lifts.hold.high) + force.fall;
+    force.force.z() = weight * lift.between("force", lifts.weight.low, lifts.weight.high);
     scenario.forces.push_back(force);
     time += force.duration + lift.between("pause", 0.8, 1.8);
   }
@@ -48,12 +59,63 @@ Scenario lifted(const Draws& draws, double least_ramp, double most_ramp) {
 
 }  // namespace
 
-Scenario draw_lifts(const Draws& draws) { return lifted(draws, 0.0, 0.0); }
+Scenario draw_lifts(const Draws& draws) { return lifted(draws, {{}, usual_hold, {1.01, 1.12}}); }
 
-Scenario draw_slow_lifts(const Draws& draws) { return lifted(draws, 0.2, 10.0); }
+Scenario draw_slow_lifts(const Draws& draws) {
+  return lifted(draws, {{0.2, 10.0}, usual_hold, slow_weight});
+}
+
+Scenario draw_light_stands(const Draws& draws) {
+  Scenario scenario = lifted(draws, {{0.05, 2.0}, {1.0, 5.0}, {0.5, 0.97}});
+  if (draws.happens("rope", 0.3)) {
+    // Soft, so that its pull hardly depends on the height of the handle, some .55 m above ground.
+    constexpr double handle_height = 0.55;
+    const double pull = draws.between("pull", 0.5, 0.95) * written_mass * scene_gravity;
+    policies::Tether tether{.length = 0.5,
+                            .stiffness = draws.log_between("rope_stiffness", 40, 150)};
+    tether.damping = draws.between("rope_damping", 0.0, 10.0);
+    tether.anchor.z() = handle_height + tether.length + pull / tether.stiffness;
+    scenario.tether = tether;
+    scenario.forces.clear();
+    scenario.end.duration = std::min(scenario.end.duration, 10.0);
+  }
+  if (draws.happens("drives", 0.5)) {
+    scenario.guides.clear();
+    scenario.perturbation.drive = RandomDrive{.velocity = draws.between("velocity", 0.1, 0.5),
+                                              .yaw_rate = draws.between("yaw_rate", 0.0, 0.5)};
+  }
+  return scenario;
+}
+
+Scenario draw_rockings(const Draws& draws) {
+  Scenario scenario;
+  scenario.guides = {hands().back()};  // at the wheels, so that the torso tilts
+  scenario.forces_for_mass = written_mass;
+  double time = draws.between("start", 1.0, 2.0);
+  const int count = draws.whole("count", 4, 10);
+  double side = draws.happens("left", 0.5) ? 1.0 : -1.0;
+  for (int i = 0; i < count; ++i) {
+    const Draws rock = draws.of("rock", i);
+    // A couple about the heading: tipping over a wheel takes 8 N·m with Upkie's track.
+    policies::TimedForce force{.time = time, .duration = rock.between("duration", 0.1, 0.35)};
+    force.rise = force.fall = 0.3 * force.duration;
+    force.force.z() = rock.between("force", 22.0, 38.0);
+    force.point_in_base = {0.0, 0.2 * side, -0.1};
+    scenario.forces.push_back(force);
+    force.force.z() *= -1.0;
+    force.point_in_base.y() *= -1.0;
+    scenario.forces.push_back(force);
+    time += force.duration + rock.log_between("pause", 0.1, 1.0);
+    side = -side;
+  }
+  scenario.terrain.friction = draws.between("friction", 0.4, 1.0);
+  scenario.end.duration = time + 1.0;
+  scenario.perturbation = {.yaw = 0.3, .crouch = 0.15, .mass_scale = 0.1, .force_scale = 0.2};
+  return scenario;
+}
 
 Scenario draw_put_downs(const Draws& draws) {
-  Scenario scenario = lifted(draws, 0.02, 0.5);
+  Scenario scenario = lifted(draws, {{0.02, 0.5}, usual_hold, slow_weight});
   scenario.perturbation.drive = RandomDrive{.velocity = draws.between("velocity", 0.2, 0.6),
                                             .yaw_rate = 0.0,
                                             .standing = 0.1,

@@ -115,6 +115,7 @@ void describe(Fields& fields, Generation& generation) {
   fields("count", generation.count, 1, 100'000).doc("Number of scenarios.");
   std::vector<std::string> all = family_names();
   if (generation.families.empty()) generation.families = all;
+  all.push_back(random_scenes().name);
   fields.names("families", all, generation.families)
       .doc("Families that take turns (default: all).");
 }

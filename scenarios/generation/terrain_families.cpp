@@ -32,6 +32,20 @@ void drive_to(Scenario& scenario, const Draws& draws, double finish, double slow
   scenario.perturbation.y = 0.05;
 }
 
+/// Small blocks under one wheel, `y` being the middle of its lane.
+models::Strip lane_of_blocks(const Draws& draws, double y, double length) {
+  models::Strip lane{.pieces = {}, .start_x = approach, .y = y, .width = 0.6};
+  for (double x = 0.0; x < length;) {
+    const Draws block = draws.of("block", static_cast<int>(lane.pieces.size()));
+    const models::Platform platform{block.log_between("length", 0.03, 0.4),
+                                    block.between("height", 0.003, 0.018), 0.003};
+    const Flat gap{block.log_between("gap", 0.02, 0.5)};
+    lane.pieces.insert(lane.pieces.end(), {platform, gap});
+    x += platform.length + gap.length;
+  }
+  return lane;
+}
+
 double nosing(const Draws& draws) { return draws.log_between("nosing_radius", 0.003, 0.03); }
 
 std::vector<TerrainPiece> ridge(const Draws& draws) {
@@ -94,6 +108,19 @@ Scenario draw_ridges(const Draws& draws) {
   }
   drive_to(scenario, draws, approach + count * length_of_ridge(pieces) + room_to_settle, 0.4, 0.9);
   scenario.perturbation.yaw = 0.15;
+  return scenario;
+}
+
+Scenario draw_rubble(const Draws& draws) {
+  constexpr double length = 4.0;  // m
+  Scenario scenario;
+  scenario.terrain.beside = {lane_of_blocks(draws.of("lane", 0), 0.3, length),
+                             lane_of_blocks(draws.of("lane", 1), -0.3, length)};
+  scenario.start.hip = draws.between("hip", 0.4, 0.85);
+  scenario.start.knee = policies::knee_per_hip * scenario.start.hip;
+  drive_to(scenario, draws, approach + length, 0.25, 0.7);
+  scenario.perturbation.yaw = 0.05;
+  scenario.perturbation.mass_scale = 0.1;
   return scenario;
 }
 

@@ -236,6 +236,40 @@ TEST(Generation, OfEveryFamilyPlaysInBothEngines) {
   }
 }
 
+TEST(Generation, DrawsRandomScenesOnlyWhereTheyAreNamed) {
+  const std::string random = random_scenes().name;
+  const int turns = static_cast<int>(families().size());
+  for (const GeneratedScenario& drawn : generate({.seed = 4, .count = 2 * turns})) {
+    EXPECT_NE(drawn.family, random);
+  }
+  // Every one has ground that both engines accept and a robot that starts; some fly, some do not.
+  int flying = 0;
+  for (const GeneratedScenario& drawn : generate({.seed = 4, .count = 12, .families = {random}})) {
+    Scenario scenario = read(drawn);
+    EXPECT_NO_THROW(static_cast<void>(compile_robot(scenario))) << drawn.text;
+    flying += play(drawn, "mujoco").in_the_air > 0.05 ? 1 : 0;
+  }
+  EXPECT_GE(flying, 3);
+  EXPECT_LE(flying, 10);
+}
+
+TEST(Generation, CarriesPartOfTheWeightOfALightStand) {
+  int on_a_rope = 0;
+  for (const GeneratedScenario& drawn :
+       generate({.seed = 3, .count = 12, .families = {"light_stands"}})) {
+    const Scenario scenario = read(drawn);
+    on_a_rope += scenario.tether ? 1 : 0;
+    EXPECT_NE(scenario.tether.has_value(), !scenario.forces.empty()) << drawn.text;
+    for (const policies::TimedForce& force : scenario.forces) {
+      const double share = force.force.z() / (written_mass * scenario.mass_scale * scene_gravity);
+      EXPECT_GT(share, 0.49) << drawn.text;
+      EXPECT_LT(share, 0.98) << drawn.text;
+    }
+  }
+  EXPECT_GT(on_a_rope, 0);
+  EXPECT_LT(on_a_rope, 12);
+}
+
 TEST(Draws, DependOnSeedFamilyNumberAttemptListAndQuantity) {
   std::set<double> values;
   const auto add = [&](const Draws& draws) { values.insert(draws.between("rise", 0.0, 1.0)); };
