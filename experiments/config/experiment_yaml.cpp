@@ -320,8 +320,8 @@ static Experiment default_experiment(std::vector<StudySection> sections,
   Experiment defaults;
   defaults.studies = StudySections(std::move(sections));
   defaults.external_estimators = std::move(external_estimators);
-  defaults.fit = {.scenarios = {}, .runs = 1, .perturbed = false};
-  defaults.test = {.scenarios = {}, .runs = 8, .perturbed = true};
+  defaults.fit = {.scenarios = {}, .runs = 1};
+  defaults.test = {.scenarios = {}, .runs = 8};
   return defaults;
 }
 
