@@ -1,6 +1,7 @@
 #include "estimator/evidence/fit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -46,13 +47,21 @@ void add_smoothness(const EvidenceModel& model, float cost, EvidenceModel& gradi
   }
 }
 
-/// The curves of the own load and of the own load by the servo law.
-void make_loads_monotone(EvidenceModel& model) {
-  static_assert(std::string_view(evidence_channels[0].name) == "load" &&
-                std::string_view(servo_load_channels[0].name) == "servo_load");
-  for (std::size_t i = 0; i < decision_scales; ++i) make_monotone(model.curve[i]);
-  if (model.servo_curve.empty()) return;
-  for (std::size_t i = 0; i < decision_scales; ++i) make_monotone(model.servo_curve[i]);
+/// The channels with curves that never fall (`EvidenceFitConfig::monotone`).
+constexpr std::array<std::string_view, 5> monotone_channels = {
+    "load", "servo_load", "axle_velocity", "axle_acceleration", "vertical_acceleration"};
+
+void make_curves_monotone(EvidenceModel& model) {
+  const auto along = [](const auto& channels, auto& curves) {
+    for (std::size_t i = 0; i < channels.size() * decision_scales && i < curves.size(); ++i) {
+      const std::string_view name = channels[i / decision_scales].name;
+      if (std::ranges::find(monotone_channels, name) != monotone_channels.end()) {
+        make_monotone(curves[i]);
+      }
+    }
+  };
+  along(evidence_channels, model.curve);
+  along(servo_load_channels, model.servo_curve);
 }
 
 /// Subtracts from a curve its mean, given the weight of each knot. Returns the mean.
@@ -164,7 +173,7 @@ EvidenceModel train_evidence_model(const DecisionRows& rows, const EvidenceFitCo
             static_cast<void>(evidence_loss(model, batch, &gradient));
             add_smoothness(model, static_cast<float>(config.smoothness), gradient);
             for_each_number(adam_step, model, gradient, mean, square);
-            if (config.monotone_loads) make_loads_monotone(model);
+            if (config.monotone) make_curves_monotone(model);
           });
   centre(model, rows);
   set_seen_ranges(model, rows);

@@ -48,9 +48,11 @@ struct EvidenceFitConfig {
   DecisionFitConfig descent = {.learning_rate = 1e-2, .decay = 0.0, .class_exponent = -0.8};
   /// Half of this times the squared differences of neighbouring knots (nats²) is added to the loss.
   double smoothness = 1e-4;
-  /// Whether more load on the wheel, by torques or by the servos' laws, never counts against its
-  /// contact: the curves of the own load do not fall, at any time scale.
-  bool monotone_loads = true;
+  /// Whether more load on the wheel, by torques or by the servos' laws, an axle that moves or
+  /// accelerates upwards, and a torso that accelerates upwards never count against contact: these
+  /// curves do not fall, at any time scale. Free curves of both accelerations grow large and cancel
+  /// in flights with passive legs, so that they fail where legs move in the air.
+  bool monotone = true;
 
   bool operator==(const EvidenceFitConfig&) const = default;
 };

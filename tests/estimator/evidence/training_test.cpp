@@ -202,30 +202,35 @@ DecisionRows peak(int count, bool of_servo_load, std::size_t input) {
   return rows;
 }
 
-TEST(EvidenceTraining, KeepsCurvesOfTheOwnLoadFromFalling) {
+TEST(EvidenceTraining, KeepsCurvesOfTheOwnLoadAndOfMotionsFromFalling) {
   const auto largest_fall = [](const EvidenceCurve& curve) {
     float fall = 0.0F;
     for (std::size_t k = 1; k < curve.size(); ++k) fall = std::max(fall, curve[k - 1] - curve[k]);
     return fall;
   };
+  // Of each channel the first and the last scale: own load, reaction, axle velocity and
+  // acceleration, the same of the other leg, vertical acceleration, roll rate.
+  const std::vector<bool> of_torques = {true,  false, true,  true, false,
+                                        false, false, false, true, false};
   for (const bool of_servo_load : {false, true}) {
-    // The own load at 1 and 128 ms, the other leg's load, and for torques the wheel's own reaction.
-    for (const std::size_t input :
-         {std::size_t{0}, std::size_t{7}, std::size_t{8}, std::size_t{15}}) {
+    const std::vector<bool> rises = of_servo_load ? std::vector<bool>{true, false} : of_torques;
+    for (std::size_t end = 0; end < 2 * rises.size(); ++end) {
+      const std::size_t channel = end / 2;
+      const std::size_t input =
+          channel * decision_scales + (end % 2 == 0 ? 0 : decision_scales - 1);
       const DecisionRows rows = peak(8000, of_servo_load, input);
       const auto curve_of = [&](const EvidenceFitConfig& config) {
         const EvidenceModel model = train_evidence_model(rows, config);
         return of_servo_load ? model.servo_curve[input] : model.curve[input];
       };
-      const bool is_own_load = input < decision_scales;
       const float fall = largest_fall(curve_of(brisk));
-      if (is_own_load) {
+      if (rises[channel]) {
         EXPECT_LT(fall, 1e-5F) << input;
       } else {
         EXPECT_GT(fall, 0.5F) << input;
       }
       EvidenceFitConfig free = brisk;
-      free.monotone_loads = false;
+      free.monotone = false;
       EXPECT_GT(largest_fall(curve_of(free)), 0.5F) << input;
     }
   }
