@@ -14,15 +14,15 @@ readonly seed=103
 readonly simulators=(mujoco bullet)
 readonly robots=(upkie.xml upkie_actuated.yaml upkie_straight.yaml upkie_straight_actuated.yaml)
 readonly sensors=noise/profiles/upkie.yaml
-# leave_below and return_above of both operating points
-readonly balanced_point=(0.65 0.98) quiet_point=(0.2 0.99)
+# leave_below, return_above, settle_at and settle_after of both operating points
+readonly balanced_point=(0.7 0.98 0.8 0.02) quiet_point=(0.5 0.99 0.9 0)
 
-# Drawn scenes of each robot. Families take turns, so 17 are one of each.
+# Drawn scenes of each robot. Families take turns, so 22 are one of each.
 scenes_of() { # robot
   case "$1" in
-    upkie_straight.yaml) echo 17 ;;
-    upkie_straight_actuated.yaml) echo 51 ;;
-    *) echo 68 ;;
+    upkie_straight.yaml) echo 22 ;;
+    upkie_straight_actuated.yaml) echo 44 ;;
+    *) echo 66 ;;
   esac
 }
 
@@ -41,8 +41,13 @@ for robot in "${robots[@]}"; do
   done
 done
 "$program" fit "$logs"/*.mpack --estimator evidence_curves --servo-load --robot upkie \
-  --set leave_below="${balanced_point[0]}" --set return_above="${balanced_point[1]}" -o "$output"
-"$program" export "$output" --set leave_below="${quiet_point[0]}" --set return_above="${quiet_point[1]}" -o "$quiet"
+  --no-accuracy -o "$logs/fit.npz"
+at_point() { # leave_below return_above settle_at settle_after model
+  "$program" export "$logs/fit.npz" --set leave_below="$1" --set return_above="$2" --set settle_at="$3" \
+    --set settle_after="$4" -o "$5"
+}
+at_point "${balanced_point[@]}" "$output"
+at_point "${quiet_point[@]}" "$quiet"
 
 words() { printf '"%s", ' "$@" | sed 's/, $//'; }
 describe() { # model, operating point

@@ -29,6 +29,7 @@ struct FitFlags {
   std::vector<std::string> hyperparameters;
   experiments::LogFitConfig config;
   std::string robot;
+  bool skips_accuracy = false;
   std::vector<int> grid;
   std::vector<double> bandwidth;
   std::vector<double> bandwidth_floor;
@@ -148,6 +149,8 @@ void add_fit_flags(Verb& verb, FitFlags& flags) {
               "leave_below=0.25")
       .value_name("NAME=NUMBER")
       .one_at_a_time();
+  verb.flag("--no-accuracy", &flags.skips_accuracy,
+            "Leave out the accuracy on left-out logs, which takes five more fits");
   verb.flag("--servo-load", &flags.config.servo_load,
             "Give networks and evidence curves the load by the laws of the servos: for logs with "
             "the\ncommands of hips and knees (action.servo)");
@@ -251,7 +254,7 @@ void fit(const FitFlags& flags, const CliSession& session) {
   print("{}: {}, {:.3f} s of {} {}\n", flags.output, entry.title, report.seconds, logs.size(),
         logs.size() == 1 ? "log" : "logs");
   show_samples(report, entry.fitting.torques.has_value());
-  show_accuracy(entry, logs, config, model);
+  if (!flags.skips_accuracy) show_accuracy(entry, logs, config, model);
   print("{:<12} touchdown estimate LOG --model {} --estimator {}\n", "next", flags.output,
         entry.name);
 }
