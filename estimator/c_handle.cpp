@@ -27,7 +27,9 @@ touchdown_belief in_c(const Belief& belief, RecordFaults faults) noexcept {
           belief.p_both_wheels,
           static_cast<int>(belief.status),
           faults.bits,
-          static_cast<int>(belief.unusable)};
+          static_cast<int>(belief.unusable),
+          {belief.wheel[0].load.force, belief.wheel[1].load.force},
+          {belief.wheel[0].load.deviation, belief.wheel[1].load.deviation}};
 }
 
 /// The conventions of a C program, at the rate of its records.

@@ -10,12 +10,20 @@
 
 namespace touchdown {
 
+/// The normal force of the ground on a wheel. NaN: the estimator has no leg geometry, signals are
+/// not usable, or the force cannot be known, as on a straight leg without targets.
+struct WheelLoad {
+  double force = std::numeric_limits<double>::quiet_NaN();      ///< N
+  double deviation = std::numeric_limits<double>::quiet_NaN();  ///< its standard deviation (N)
+};
+
 /// An estimator's belief about one wheel.
 struct WheelBelief {
   /// P(S_t = C | m_0:t).
   double p_contact = 0.5;
   /// The estimator's own decision, from `p_contact` by its threshold (or hysteresis).
   bool contact = false;
+  WheelLoad load = {};
 };
 
 /// Whether the last signals were usable and, if not, why.

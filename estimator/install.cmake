@@ -22,7 +22,8 @@ set(public
 # The headers of types that these hold by value. They are not for programs and may change.
 set(detail
   bayes/noisy_measurement bayes/recursion
-  decision/feature_extractor decision/logit_decision force/wheel_loads neural/forward numerics/axis
+  decision/feature_extractor decision/logit_decision force/load_estimate force/servo_law force/wheel_loads
+  neural/forward numerics/axis
   numerics/exponential numerics/noise_estimate
   numerics/sliding_dft phase/prepared_model)
 set(include_dir ${CMAKE_INSTALL_INCLUDEDIR}/touchdown)

@@ -114,13 +114,15 @@ enum touchdown_fault {
 
 /* The estimate after one record. Arrays hold the left wheel, then the right wheel. */
 typedef struct touchdown_belief {
-  double p_contact[2];  /* P(this wheel is in contact) */
-  int contact[2];       /* the estimator's decision; 1: in contact */
-  double p_any_wheel;   /* P(at least one wheel is in contact) */
-  double p_both_wheels; /* P(both wheels are in contact) */
-  int status;           /* enum touchdown_status */
-  unsigned faults;      /* bits of enum touchdown_fault */
-  int unusable;         /* the first that is NaN, beyond its bound or stopped; -1: none */
+  double p_contact[2];      /* P(this wheel is in contact) */
+  int contact[2];           /* the estimator's decision; 1: in contact */
+  double p_any_wheel;       /* P(at least one wheel is in contact) */
+  double p_both_wheels;     /* P(both wheels are in contact) */
+  int status;               /* enum touchdown_status */
+  unsigned faults;          /* bits of enum touchdown_fault */
+  int unusable;             /* the first that is NaN, beyond its bound or stopped; -1: none */
+  double load[2];           /* normal force on this wheel (N); NaN: not known */
+  double load_deviation[2]; /* its standard deviation (N) */
 } touchdown_belief;
 
 /* Returns a record to fill in: all its measurements are NaN, the command is 0. */

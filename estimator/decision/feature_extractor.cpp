@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 
-#include "estimator/force/servo_law.hpp"
 #include "estimator/low_pass.hpp"
 
 namespace touchdown {
@@ -47,10 +46,7 @@ auto scales_at(auto& inputs, std::size_t begin) noexcept {
 }  // namespace
 
 LegFeatureExtractor::LegFeatureExtractor(const DecisionConfig& config, bool mirrored)
-    : geometry_(config.geometry),
-      guard_(config.guard),
-      mass_ratio_(mass_ratio(config.geometry)),
-      mirrored_(mirrored) {
+    : geometry_(config.geometry), mass_ratio_(mass_ratio(config.geometry)), mirrored_(mirrored) {
   const double steps = std::clamp(std::round(config.difference * config.sample_rate), 1.0, 1e4);
   velocities_.resize(static_cast<std::size_t>(steps));
   rate_ = config.sample_rate / steps;
@@ -67,11 +63,8 @@ inline double LegFeatureExtractor::load_of(const FootJacobian& foot, double forc
   return within(load, largest_load);
 }
 
-ServoLoadFeature LegFeatureExtractor::servo_load(const LegSignals& leg, const LegTargets& target,
-                                                 const FootJacobian& foot,
-                                                 double vertical_acceleration) const noexcept {
-  const ServoLoad load =
-      touchdown::servo_load(geometry_, foot, leg, target, mirrored_, vertical_acceleration, guard_);
+ServoLoadFeature LegFeatureExtractor::servo_load(const FootJacobian& foot,
+                                                 const ServoLoad& load) const noexcept {
   if (!std::isfinite(load.force_times_determinant)) return {unobservable_load, true};
   return {load_of(foot, load.force_times_determinant, least_servo_area,
                   mass_ratio_ * load.torque_noise),
@@ -89,14 +82,14 @@ LegFeatures LegFeatureExtractor::update(const LegSignals& leg, const FootJacobia
   next_ = next_ + 1 == velocities_.size() ? 0 : next_ + 1;
   count_ = std::min(count_ + 1, velocities_.size());
 
-  const double load = load_of(
-      foot,
-      vertical_force_times_determinant(geometry_, foot, leg, mirrored_, vertical_acceleration),
-      least_area, torque_noise);
+  const double force_times_determinant =
+      vertical_force_times_determinant(geometry_, foot, leg, mirrored_, vertical_acceleration);
+  const double load = load_of(foot, force_times_determinant, least_area, torque_noise);
   const double reaction =
       sign * leg.wheel.torque - geometry_.wheel_inertia * rate_ * (now[0] - before[0]);
   return {load, within(mass_ratio_ * reaction, largest_feature), now[1],
-          within(vertical_acceleration + rate_ * (now[1] - before[1]), largest_feature)};
+          within(vertical_acceleration + rate_ * (now[1] - before[1]), largest_feature),
+          force_times_determinant};
 }
 
 LowPassBank::LowPassBank(double sample_rate) noexcept {
@@ -135,7 +128,8 @@ FeatureExtractor::FeatureExtractor(const DecisionConfig& config)
       density_(std::sqrt(reference_rate / config.sample_rate)),
       log_density_(std::log(density_)),
       torque_noise_(0.01, 10.0, noise_gain, warm_up * config.sample_rate),
-      acceleration_noise_(0.05, 30.0, noise_gain, warm_up * config.sample_rate) {}
+      acceleration_noise_(0.05, 30.0, noise_gain, warm_up * config.sample_rate),
+      load_estimates_(config.geometry, config.sample_rate) {}
 
 void FeatureExtractor::reset() noexcept {
   guard_.reset();
@@ -144,6 +138,8 @@ void FeatureExtractor::reset() noexcept {
   torque_noise_.reset();
   acceleration_noise_.reset();
   for (LegFeatureExtractor& leg : leg_extractor_) leg.reset();
+  load_estimates_.reset();
+  load_ = {};
   reset_features();
   leg_age_ = {};
   acceleration_age_ = roll_rate_age_ = 0.0;
@@ -165,6 +161,7 @@ void FeatureExtractor::dropout(double seconds) noexcept {
   roll_rate_age_ += seconds;
   torque_noise_.reset_signals();
   acceleration_noise_.reset_signals();
+  load_estimates_.reset();
 }
 
 // The next functions are inline, because position-independent code calls all others.
@@ -183,10 +180,9 @@ inline void FeatureExtractor::update(LowPassBank& channel, double input,
   channel.update(input);
 }
 
-inline void FeatureExtractor::update_servo_load(const Signals& signals, std::size_t side,
+inline void FeatureExtractor::update_servo_load(const ServoLoad& load, std::size_t side,
                                                 const FootJacobian& foot, double age) noexcept {
-  const ServoLoadFeature feature = leg_extractor_[side].servo_load(
-      signals.leg[side], signals.target[side], foot, signals.vertical_acceleration);
+  const ServoLoadFeature feature = leg_extractor_[side].servo_load(foot, load);
   is_muted_ = is_muted_ || feature.is_muted;
   update(servo_load_[side], feature.load, age);
 }
@@ -196,6 +192,7 @@ inline void FeatureExtractor::update_legs(const Signals& signals,
                                           bool has_acceleration, double elapsed) noexcept {
   const std::array<FootJacobian, 2> foot = foot_jacobians(geometry_, signals.leg);
   const double noise = torque_noise();
+  std::array<LegLoad, 2> loads;
   is_muted_ = false;
   for (std::size_t side = 0; side < 2; ++side) {
     double& age = leg_age_[side];
@@ -212,10 +209,18 @@ inline void FeatureExtractor::update_legs(const Signals& signals,
       const double longer = std::max(age, acceleration_age_);
       update(leg_[side][0], features.load, longer);
       update(leg_[side][3], features.axle_acceleration, longer);
-      if (has_servo_load_) update_servo_load(signals, side, foot[side], longer);
+      LegLoad& load = loads[side];
+      load.is_usable = true;
+      load.by_torques = features.force_times_determinant;
+      load.by_servos =
+          touchdown::servo_load(geometry_, foot[side], signals.leg[side], signals.target[side],
+                                side == 1, signals.vertical_acceleration, config_);
+      if (has_servo_load_) update_servo_load(load.by_servos, side, foot[side], longer);
     }
     age = 0.0;
   }
+  load_ = load_estimates_.update(
+      foot, loads, {torque_noise_.sigma() / mass_ratio_, acceleration_noise_.sigma()});
   // A leg without usable signals takes over the features of the other leg.
   for (std::size_t side = 0; side < 2; ++side) {
     if (is_valid[side] || !is_valid[1 - side]) continue;
@@ -237,6 +242,7 @@ inline void FeatureExtractor::write_noise(float* inputs) const noexcept {
 FeatureExtractor::Step FeatureExtractor::update(const Signals& signals) noexcept {
   const SignalGuard::Verdict verdict = guard_.check(signals.time, signals.vertical_acceleration);
   Step step{verdict.status, verdict.elapsed, verdict.elapsed > config_.maximum_gap, {}};
+  load_ = {};
   if (!std::isfinite(signals.time)) return step;  // no record: the next record's time gives the gap
   if (step.restart) dropout(step.elapsed);
   const auto report = [&](SignalStatus status) {

@@ -9,6 +9,7 @@
 
 #include "estimator/decision/config.hpp"
 #include "estimator/decision/network.hpp"
+#include "estimator/force/load_estimate.hpp"
 #include "estimator/force/wheel_loads.hpp"
 #include "estimator/numerics/noise_estimate.hpp"
 #include "estimator/signal_guard.hpp"
@@ -32,6 +33,8 @@ struct LegFeatures {
   /// The upward acceleration of the axle (m/s²): 0 while the wheel rolls on level ground, even if
   /// the torso falls.
   double axle_acceleration = 0.0;
+  /// `vertical_force_times_determinant` by the torques (N·m²).
+  double force_times_determinant = 0.0;
 };
 
 /// The load on the wheel by the servo law (N), computed as `LegFeatures::load`.
@@ -60,9 +63,8 @@ class LegFeatureExtractor {
 
   /// Likewise, with ε² = (0.001 m²)² + (0.004 m²/(N·m) σ)²: σ is the noise of the positions'
   /// resolution.
-  [[nodiscard]] ServoLoadFeature servo_load(const LegSignals& leg, const LegTargets& target,
-                                            const FootJacobian& foot,
-                                            double vertical_acceleration) const noexcept;
+  [[nodiscard]] ServoLoadFeature servo_load(const FootJacobian& foot,
+                                            const ServoLoad& load) const noexcept;
 
  private:
   /// The load of `LegFeatures`, from a vertical force times the determinant (N·m²).
@@ -71,7 +73,6 @@ class LegFeatureExtractor {
                                double torque_noise) const noexcept;
 
   LegGeometry geometry_;
-  SignalGuardConfig guard_;
   double mass_ratio_;
   bool mirrored_;
   double rate_;
@@ -202,6 +203,8 @@ class FeatureExtractor {
   /// The estimated white noise of the torques (N·m), scaled to Upkie's mass and to a rate of 1 kHz:
   /// a lower rate has fewer samples to average.
   [[nodiscard]] double torque_noise() const noexcept { return density_ * torque_noise_.sigma(); }
+  /// The normal force on a wheel at this step.
+  [[nodiscard]] const WheelLoad& load(std::size_t side) const noexcept { return load_[side]; }
   /// A belief after `elapsed` seconds without a measurement.
   [[nodiscard]] double relaxed(double p_contact, double elapsed) const noexcept {
     return guard_.relaxed(p_contact, elapsed);
@@ -214,7 +217,7 @@ class FeatureExtractor {
   void write_noise(float* inputs) const noexcept;
   bool is_frozen(const LegSignals& leg, std::size_t side) noexcept;
   void update(LowPassBank& channel, double input, double age) const noexcept;
-  void update_servo_load(const Signals& signals, std::size_t side, const FootJacobian& foot,
+  void update_servo_load(const ServoLoad& load, std::size_t side, const FootJacobian& foot,
                          double age) noexcept;
   void update_legs(const Signals& signals, const std::array<bool, 2>& is_valid,
                    bool has_acceleration, double elapsed) noexcept;
@@ -240,6 +243,8 @@ class FeatureExtractor {
   double roll_rate_age_ = 0.0;
   NoiseEstimate<2> torque_noise_;
   NoiseEstimate<1> acceleration_noise_;
+  LoadEstimates load_estimates_;
+  std::array<WheelLoad, 2> load_;
   alignas(32) DecisionInputs inputs_{};         ///< of the left wheel
   alignas(32) DecisionPairInputs pair_{};       ///< of both
   alignas(32) ServoLoadInputs servo_inputs_{};  ///< of the left wheel

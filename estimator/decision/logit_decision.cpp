@@ -29,6 +29,7 @@ const std::array<bool, 2>& LogitDecision::update(const Signals& signals) noexcep
   step_ = features_.update(signals);
   belief_.status = step_.status;
   if (step_.restart) is_started_ = {};
+  for (std::size_t side = 0; side < 2; ++side) belief_.wheel[side].load = features_.load(side);
   return step_.is_valid;
 }
 

@@ -130,6 +130,7 @@ const Belief& ForceKinematics::estimate(const Signals& signals) noexcept {
   belief_.status = step.status;
   for (std::size_t side = 0; side < 2; ++side) {
     WheelBelief& wheel = belief_.wheel[side];
+    wheel.load = step.load[side];
     double& p_air = p_air_[side];
     if (!step.is_measured[side] || step.status == SignalStatus::gap) {
       wheel.p_contact = observations_.relaxed(wheel.p_contact, step.elapsed);

@@ -5,7 +5,8 @@
 #include <limits>
 
 #include "estimator/contact_estimator.hpp"
-#include "estimator/force/leg_geometry.hpp"
+#include "estimator/force/load_estimate.hpp"
+#include "estimator/numerics/noise_estimate.hpp"
 #include "estimator/signal_guard.hpp"
 
 namespace touchdown {
@@ -40,6 +41,7 @@ class WheelLoads {
     bool restart = false;                  ///< the guard's verdict
     bool acceleration_good = true;         ///< the guard's verdict
     std::array<bool, 2> is_measured = {};  ///< whether this step has a force
+    std::array<WheelLoad, 2> load = {};    ///< the normal forces, as beliefs have them
   };
 
   /// Throws InputError if `SignalGuard` does.
@@ -56,6 +58,7 @@ class WheelLoads {
     belief.status = step.status;
     for (std::size_t side = 0; side < 2; ++side) {
       WheelBelief& wheel = belief.wheel[side];
+      wheel.load = step.load[side];
       if (step.is_measured[side]) {
         decide(wheel, force_[side]);
       } else {
@@ -79,6 +82,9 @@ class WheelLoads {
   double gain_;
   std::array<double, 2> force_ = {};
   std::array<bool, 2> is_started_ = {};
+  NoiseEstimate<2> torque_noise_;
+  NoiseEstimate<1> acceleration_noise_;
+  LoadEstimates load_estimates_;
 };
 
 }  // namespace touchdown

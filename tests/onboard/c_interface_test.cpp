@@ -76,6 +76,34 @@ TEST_F(CInterface, BelievesWhatTheLibraryBelieves) {
   touchdown_destroy(estimator);
 }
 
+TEST_F(CInterface, HasTheLoadsOfTheLibrary) {
+  logs::write_npz(test::fitted_model("evidence_curves"), folder_ / "curves.npz");
+  touchdown_estimator* const estimator =
+      touchdown_create((folder_ / "curves.npz").c_str(), nullptr, nullptr, 0);
+  const auto expected = make_estimator(test::fitted_model("evidence_curves"));
+  for (Signals s : test::drops(500)) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      s.leg[side].hip.position = (side == 0 ? 0.455 : -0.455) + 1e-3 * std::sin(9.0 * s.time);
+      s.leg[side].knee.position = (side == 0 ? -0.791 : 0.791) + 1e-3 * std::sin(9.0 * s.time);
+    }
+    const touchdown_record record = record_of(s);
+    const touchdown_belief found = touchdown_update(estimator, &record);
+    const Belief& belief = expected->update(s);
+    for (std::size_t side = 0; side < 2; ++side) {
+      const WheelLoad& load = belief.wheel[side].load;
+      ASSERT_EQ(std::isnan(found.load[side]), std::isnan(load.force));
+      if (s.time > 0.1) {
+        ASSERT_FALSE(std::isnan(load.force));
+      }
+      if (std::isnan(load.force)) continue;
+      ASSERT_EQ(found.load[side], load.force);
+      ASSERT_EQ(found.load_deviation[side], load.deviation);
+    }
+  }
+  EXPECT_TRUE(std::isnan(touchdown_update(nullptr, nullptr).load[0]));
+  touchdown_destroy(estimator);
+}
+
 TEST_F(CInterface, ReportsErrorsInsteadOfThrowing) {
   std::array<char, 200> error{};
   touchdown_use use = {nullptr, 200.0, nullptr};
