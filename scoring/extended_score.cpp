@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <numeric>
 
 namespace touchdown::scoring {
 
@@ -130,12 +129,38 @@ FlightCounts& FlightCounts::operator+=(const FlightCounts& other) {
   return *this;
 }
 
+void LoadScore::add(double normal_force, const WheelLoad& load) {
+  ++steps;
+  const double error = std::abs(load.force - normal_force);
+  if (std::isnan(error)) return;
+  ++errors[std::min(static_cast<std::size_t>(error / bin_width), count - 1)];
+  covered += error <= 2.0 * load.deviation ? 1 : 0;
+}
+
+LoadScore& LoadScore::operator+=(const LoadScore& other) {
+  for (std::size_t i = 0; i < count; ++i) errors[i] += other.errors[i];
+  covered += other.covered;
+  steps += other.steps;
+  return *this;
+}
+
+double LoadScore::median_error() const {
+  const std::int64_t all = known();
+  std::int64_t passed = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    passed += errors[i];
+    if (all > 0 && 2 * passed >= all) return bin_width * (static_cast<double>(i) + 0.5);
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 ExtendedScore& ExtendedScore::operator+=(const ExtendedScore& other) {
   away_from_events += other.away_from_events;
   loaded += other.loaded;
   takeoff += other.takeoff;
   landing += other.landing;
   flights += other.flights;
+  load += other.load;
   extra_switches += other.extra_switches;
   log_loss += other.log_loss;
   steps += other.steps;
@@ -163,6 +188,9 @@ ExtendedScore extended_score(
       result.log_loss -=
           std::log(std::clamp(in_contact ? p_contact : 1.0 - p_contact, least_probability, 1.0));
       result.steps += 1;
+      if (!prediction[w].load.empty()) {
+        result.load.add(normal_force[w][k], prediction[w].load[k]);
+      }
     }
     for (const JudgedTransition& judged : judge_transitions(truth[w], predicted, period, config)) {
       if (judged.verdict != Judgement::detected) continue;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numeric>
 
 #include "scoring/score.hpp"
 
@@ -45,6 +46,28 @@ struct FlightCounts {
   double f1() const { return ratio(2 * matched, truth + predicted); }
 };
 
+/// Estimated loads of wheels F̂ ± σ against true normal forces F: docs/reference/metrics.md,
+/// "Loads". Counts of steps, so they add.
+struct LoadScore {
+  static constexpr double bin_width = 0.1;   ///< N
+  static constexpr std::size_t count = 300;  ///< bins of |F̂ − F|; the last holds all larger ones
+  std::array<std::int32_t, count> errors{};  ///< steps with a load
+  std::int64_t covered = 0;                  ///< steps with |F̂ − F| ≤ 2σ
+  std::int64_t steps = 0;                    ///< all
+
+  void add(double normal_force, const WheelLoad& load);
+  LoadScore& operator+=(const LoadScore& other);
+  std::int64_t known() const {
+    return std::accumulate(errors.begin(), errors.end(), std::int64_t{0});
+  }
+  /// Median of |F̂ − F|, to half a bin (N); NaN without loads.
+  double median_error() const;
+  /// The share of steps with a load that have |F̂ − F| ≤ 2σ; NaN without loads.
+  double coverage() const { return ratio(covered, known()); }
+  /// The share of steps with a load.
+  double share() const { return ratio(known(), steps); }
+};
+
 /// Additional metrics of one or many runs, summed over both wheels and over steps, so they add.
 struct ExtendedScore {
   Classification away_from_events;  ///< without ±20 ms of takeoffs and ±5 ms of landings
@@ -52,6 +75,7 @@ struct ExtendedScore {
   Latencies takeoff;
   Latencies landing;
   FlightCounts flights;
+  LoadScore load;
   std::int64_t extra_switches = 0;  ///< predicted switches that detect no flight, however short
   double log_loss = 0.0;            ///< Σ over steps of −ln max(P(truth), 1e−6)
   std::int64_t steps = 0;

@@ -100,6 +100,17 @@ std::vector<Classification> classify(const ContactSequence& truth, const Contact
   return result;
 }
 
+void add_step(Prediction& prediction, const Belief& belief) {
+  const auto views = views_of(belief);
+  for (std::size_t v = 0; v < view_count; ++v) {
+    prediction[v].contact.push_back(std::uint8_t{views[v].contact});
+    prediction[v].p_contact.push_back(views[v].p_contact);
+  }
+  for (std::size_t w = 0; w < models::wheel_count; ++w) {
+    prediction[w].load.push_back(belief.wheel[w].load);
+  }
+}
+
 RobotScore& RobotScore::operator+=(const RobotScore& other) {
   for (std::size_t v = 0; v < view_count; ++v) view[v] += other.view[v];
   return *this;
@@ -146,11 +157,7 @@ ScoreStream::ScoreStream(std::int64_t period_us, const LabelConfig& labels,
 
 void ScoreStream::add(const std::array<double, models::wheel_count>& normal_force,
                       const Belief& belief) {
-  const auto views = views_of(belief);
-  for (std::size_t v = 0; v < view_count; ++v) {
-    prediction_[v].contact.push_back(std::uint8_t{views[v].contact});
-    prediction_[v].p_contact.push_back(views[v].p_contact);
-  }
+  add_step(prediction_, belief);
   for (std::size_t wheel = 0; wheel < labels_.size(); ++wheel) {
     labels_[wheel].add(normal_force[wheel]);
   }
@@ -175,8 +182,9 @@ void ScoreStream::score_until(std::size_t end) {
     truth[wheel] = take_front(truth_[wheel], end);
   }
   for (std::size_t v = 0; v < view_count; ++v) {
-    prediction[v] = {take_front(prediction_[v].contact, end),
-                     take_front(prediction_[v].p_contact, end)};
+    prediction[v] = {
+        take_front(prediction_[v].contact, end), take_front(prediction_[v].p_contact, end), {}};
+    prediction_[v].load.clear();  // not scored
   }
   total_ += score(truth, prediction, {0}, period_us_, scoring_).front();
   scoring_.skip = 0.0;  // only the beginning of the run is skipped, not that of a segment

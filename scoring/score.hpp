@@ -75,8 +75,9 @@ struct Calibration {
 
 /// An estimator's output for one view (a wheel, or both combined), one entry per step.
 struct Track {
-  ContactSequence contact;        ///< its decision
-  std::vector<double> p_contact;  ///< its probability
+  ContactSequence contact;           ///< its decision
+  std::vector<double> p_contact;     ///< its probability
+  std::vector<WheelLoad> load = {};  ///< of a wheel; empty where unknown
 };
 
 /// All counts of one track in one run, or in a part of it. Sums, so scores add.
@@ -132,6 +133,9 @@ inline std::array<ViewBelief, view_count> views_of(const Belief& belief) {
 
 /// An estimator's output for a run, in the order of `View`.
 using Prediction = std::array<Track, view_count>;
+
+/// Adds the belief after the next step, with loads.
+void add_step(Prediction& prediction, const Belief& belief);
 
 /// Scores of one segment of a run, in the order of `View`.
 struct RobotScore {

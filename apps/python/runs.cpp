@@ -90,13 +90,7 @@ py::dict score(const py::object& given_beliefs, const py::object& truth, double 
   const std::vector<Belief> beliefs = beliefs_of(given_beliefs, contact.steps(), "score");
   WheelLabels labels;
   scoring::Prediction prediction;
-  for (const Belief& belief : beliefs) {
-    const auto views = scoring::views_of(belief);
-    for (std::size_t v = 0; v < scoring::view_count; ++v) {
-      prediction[v].contact.push_back(std::uint8_t{views[v].contact});
-      prediction[v].p_contact.push_back(views[v].p_contact);
-    }
-  }
+  for (const Belief& belief : beliefs) scoring::add_step(prediction, belief);
   for (std::size_t k = 0; k < contact.steps(); ++k) {
     for (std::size_t w = 0; w < models::wheel_count; ++w) {
       labels[w].push_back(contact(k, w) != 0.0 ? 1 : 0);

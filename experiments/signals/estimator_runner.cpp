@@ -20,17 +20,9 @@ std::array<scoring::ContactSequence, models::wheel_count> decide(const Estimator
 scoring::Prediction predict(const EstimatorRunner& runner, const RunSignals& run,
                             const NoiseRun& noise, const noise::SensorNoise& levels) {
   scoring::Prediction prediction;
-  prediction.fill({.contact = scoring::ContactSequence(run.steps()),
-                   .p_contact = std::vector<double>(run.steps())});
   runner.run_estimator(
       run, [&](std::size_t k) { return noisy(run, noise, levels, k); },
-      [&](std::size_t k, const Belief& belief) {
-        const auto views = scoring::views_of(belief);
-        for (std::size_t v = 0; v < scoring::view_count; ++v) {
-          prediction[v].contact[k] = std::uint8_t{views[v].contact};
-          prediction[v].p_contact[k] = views[v].p_contact;
-        }
-      });
+      [&](std::size_t /*k*/, const Belief& belief) { scoring::add_step(prediction, belief); });
   return prediction;
 }
 

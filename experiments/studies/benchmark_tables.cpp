@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -189,6 +190,41 @@ Columns<Standings::Difference> pair_columns() {
       .interval("difference", &Difference::value);
 }
 
+/// The loads of one estimator, fitted on its own setup, over all scenes and engines.
+struct LoadRow {
+  const BenchmarkRow* setting;
+  scoring::LoadScore load;
+};
+
+std::vector<LoadRow> load_rows(const std::vector<BenchmarkRow>& rows) {
+  std::vector<const BenchmarkRow*> own;
+  for (const BenchmarkRow& row : rows) {
+    if (row.fitted_on == "own") own.push_back(&row);
+  }
+  std::vector<LoadRow> all;
+  for (const auto& alike : group_by(own, [](const BenchmarkRow* row) {
+         return std::tuple(row->robot, row->sensors, row->noise, row->estimator);
+       })) {
+    LoadRow sum{alike.rows.front(), {}};
+    for (const BenchmarkRow* row : alike.rows) sum.load += row->extended.load;
+    if (sum.load.known() > 0) all.push_back(sum);
+  }
+  return all;
+}
+
+Columns<LoadRow> load_columns() {
+  using Row = LoadRow;
+  return Columns<Row>()
+      .text("robot", [](const Row& row) { return row.setting->robot; })
+      .text("sensors", [](const Row& row) { return row.setting->sensors; })
+      .part([](const Row& row) -> const noise::NoiseCell& { return row.setting->noise; },
+            noise_columns())
+      .text("estimator", [](const Row& row) { return row.setting->estimator; })
+      .metric("load_error_median_n", [](const Row& row) { return row.load.median_error(); })
+      .metric("load_coverage", [](const Row& row) { return row.load.coverage(); })
+      .metric("load_share", [](const Row& row) { return row.load.share(); });
+}
+
 /// Rows: estimators. Columns: scenes, then the mean and the worst scene of estimators that were
 /// scored in every scene with a scored run.
 TextTable scene_table(const std::vector<BenchmarkRow>& rows, const Experiment& experiment) {
@@ -277,7 +313,8 @@ std::string scenes_text(const Standings& standings, const std::string& simulator
 }
 
 /// Writes `benchmark.csv`, `benchmark_standings.csv`, `benchmark_unseen.csv`,
-/// `benchmark_differences.csv`, all four as `benchmark.json`, and `benchmark_unseen.md`.
+/// `benchmark_differences.csv`, `loads.csv`, all five as `benchmark.json`, and
+/// `benchmark_unseen.md`.
 void write_results(const BenchmarkResult& result, const Experiment& experiment,
                    const RunDirectory& directory) {
   const double level = experiment.intervals.bootstrap.level;
@@ -293,6 +330,7 @@ void write_results(const BenchmarkResult& result, const Experiment& experiment,
         parts_of(result.unseen, &Standings::entries));
   write("benchmark_differences.csv", "differences", with_setup(pair_columns()),
         parts_of(result.standings, &Standings::differences));
+  write("loads.csv", "loads", load_columns(), load_rows(result.rows));
   write_atomically(directory.own_file("tables", "benchmark.json"), json.dump(1) + "\n");
   const std::string markdown = unseen_markdown(result.unseen, experiment);
   if (markdown.empty()) return;

@@ -304,10 +304,6 @@ BeliefReport scored(const BeliefRequest& wanted, ExperimentContext& context) {
 
 SubmittedPrediction prediction_of(const logs::Beliefs& beliefs, const RunSignals& run) {
   SubmittedPrediction result;
-  for (scoring::Track& track : result.prediction) {
-    track.contact.reserve(run.steps());
-    track.p_contact.reserve(run.steps());
-  }
   Belief belief;
   apply_threshold(belief, 0.5);
   std::size_t next = 0;  // belief
@@ -322,11 +318,7 @@ SubmittedPrediction prediction_of(const logs::Beliefs& beliefs, const RunSignals
     } else if (has_record(run.signals[k])) {
       ++result.without;
     }
-    const auto views = scoring::views_of(belief);
-    for (std::size_t v = 0; v < scoring::view_count; ++v) {
-      result.prediction[v].contact.push_back(std::uint8_t{views[v].contact});
-      result.prediction[v].p_contact.push_back(views[v].p_contact);
-    }
+    scoring::add_step(result.prediction, belief);
   }
   return result;
 }

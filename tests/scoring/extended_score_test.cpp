@@ -142,6 +142,40 @@ TEST(Flights, BeforeTheScoredPartAreNone) {
   EXPECT_EQ(score.extra_switches, 0);
 }
 
+TEST(LoadScore, HasTheMedianTheCoverageAndTheShareOfSteps) {
+  // Errors of 1, 2, 3 and 40 N with σ = 1.2 N, and one step without a load.
+  LoadScore score;
+  for (const double error : {1.0, -2.0, 3.0, 40.0}) score.add(26.0, {26.0 + error, 1.2});
+  score.add(26.0, {});
+  EXPECT_NEAR(score.median_error(), 2.0, 0.1);
+  EXPECT_EQ(score.coverage(), 0.5);
+  EXPECT_EQ(score.share(), 0.8);
+  LoadScore twice = score;
+  twice += score;
+  EXPECT_EQ(twice.steps, 10);
+  EXPECT_EQ(twice.median_error(), score.median_error());
+  EXPECT_EQ(twice.coverage(), score.coverage());
+  EXPECT_TRUE(std::isnan(LoadScore().median_error()));
+  EXPECT_TRUE(std::isnan(LoadScore().coverage()));
+}
+
+TEST(ExtendedScore, ComparesLoadsWithForcesAfterTheSkippedBeginning) {
+  std::array<ContactSequence, 2> truth;
+  std::array<std::vector<double>, 2> force;
+  Prediction prediction;
+  Belief belief;
+  for (std::size_t wheel = 0; wheel < 2; ++wheel) {
+    truth[wheel].assign(1000, 1);
+    force[wheel].assign(1000, 26.0);
+    belief.wheel[wheel].load = {wheel == 0 ? 25.0 : 29.0, 1.0};
+  }
+  for (int k = 0; k < 1000; ++k) add_step(prediction, belief);
+  const LoadScore load = extended_score(truth, force, prediction, 1000, {}).load;
+  EXPECT_EQ(load.steps, 2 * 700);
+  EXPECT_EQ(load.share(), 1.0);
+  EXPECT_EQ(load.coverage(), 0.5);
+}
+
 TEST(LogLoss, IsBoundedForCertainButWrongEstimates) {
   // Of 2 × 1700 scored steps, 200 in the air are predicted as contact with probability one.
   const ExtendedScore score = score_of({});
