@@ -92,7 +92,7 @@ class BeliefWriter {
   std::string finish(const logs::LogReader& reader, std::size_t findings) {
     flush();
     if (annotator_) annotator_->copy(reader.skipped());
-    return summary_->text(score_->finish(), reader.start_time(), findings);
+    return summary_->text(score_->finish(), reader.start_time(), findings) + score_->load_text();
   }
 
   std::int64_t steps() const { return summary_->steps(); }

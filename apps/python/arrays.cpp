@@ -57,6 +57,9 @@ py::dict arrays_of(std::vector<Belief> beliefs) {
   arrays["p_any_wheel"] = rows.view(&first.p_any_wheel);
   arrays["p_both_wheels"] = rows.view(&first.p_both_wheels);
   arrays["status"] = rows.view(reinterpret_cast<const int*>(&first.status));
+  arrays["load"] = rows.view(&first.wheel[0].load.force, models::wheel_count, sizeof(WheelBelief));
+  arrays["load_deviation"] =
+      rows.view(&first.wheel[0].load.deviation, models::wheel_count, sizeof(WheelBelief));
   return arrays;
 }
 

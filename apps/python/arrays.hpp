@@ -116,7 +116,7 @@ class ArrayMap {
 };
 
 /// Arrays that view beliefs by step: `p_contact` and `contact` (left and right wheel),
-/// `p_any_wheel`, `p_both_wheels`, `status` (its number).
+/// `p_any_wheel`, `p_both_wheels`, `status` (its number), `load` and `load_deviation` (N).
 py::dict arrays_of(std::vector<Belief> beliefs);
 
 /// The inverse. `given` holds such arrays (`p_contact` or `contact` suffices), or is one array of

@@ -214,7 +214,9 @@ void add_belief(py::module_& module) {
   py::class_<Belief>(
       module, "Belief",
       "An estimator's belief after one step: `p_contact` and `contact` of the left and the right "
-      "wheel, `p_any_wheel`, `p_both_wheels`. `status` reports whether the signals were usable: "
+      "wheel, `p_any_wheel`, `p_both_wheels`. `load` and `load_deviation` are the normal force on "
+      "each wheel and its standard deviation (N), NaN where it is not known. `status` reports "
+      "whether the signals were usable: "
       "\"good\", \"invalid\", \"gap\", \"frozen\" or \"degraded\"; `unusable` names the first "
       "signal that is NaN "
       "or "
@@ -226,6 +228,15 @@ void add_belief(py::module_& module) {
       .def_property_readonly("contact",
                              [](const Belief& belief) {
                                return both(belief, [](auto& wheel) { return wheel.contact; });
+                             })
+      .def_property_readonly("load",
+                             [](const Belief& belief) {
+                               return both(belief, [](auto& wheel) { return wheel.load.force; });
+                             })
+      .def_property_readonly("load_deviation",
+                             [](const Belief& belief) {
+                               return both(belief,
+                                           [](auto& wheel) { return wheel.load.deviation; });
                              })
       .def_readonly("p_any_wheel", &Belief::p_any_wheel)
       .def_readonly("p_both_wheels", &Belief::p_both_wheels)
@@ -310,7 +321,8 @@ void add_estimator(py::module_& module) {
            "4). The optional `has_record` is 0 at steps "
            "without a record, where the last belief stays. "
            "Returns `p_contact` (steps, 2) and `contact` (steps, 2, bool) of the wheels, "
-           "`p_any_wheel` and `p_both_wheels` (steps,), `status` (steps,): numbers of `STATUS`.")
+           "`p_any_wheel` and `p_both_wheels` (steps,), `status` (steps,): numbers of `STATUS`, "
+           "`load` and `load_deviation` (steps, 2, N).")
       .def("__repr__", [](const Estimator& estimator) {
         return fmt::format("<Estimator '{}' at {:.6g} Hz>", estimator.name(),
                            estimator.sample_rate());

@@ -183,6 +183,7 @@ LiveState RealTimeLoop::state() {
     const auto& wheel = estimator.belief.wheel;
     state.estimates.push_back({{wheel[0].p_contact, wheel[1].p_contact},
                                {wheel[0].contact, wheel[1].contact},
+                               {wheel[0].load, wheel[1].load},
                                estimator.accuracy()});
   }
   return state;

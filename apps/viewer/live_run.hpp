@@ -152,6 +152,7 @@ struct LiveState {
   struct Estimate {
     std::array<double, models::wheel_count> p_contact;
     std::array<bool, models::wheel_count> contact;
+    std::array<WheelLoad, models::wheel_count> load;
     double accuracy;
   };
   std::vector<Estimate> estimates;  ///< by estimator

@@ -27,6 +27,15 @@ PanelLine slider_line(const LiveControls& controls, LiveNumber number, std::stri
                                 controls.value(number) / range_of(number).most}};
 }
 
+/// "26 ± 1, – N": left and right wheel.
+std::string load_text(const std::array<WheelLoad, models::wheel_count>& load) {
+  const auto text = [](const WheelLoad& wheel) {
+    return std::isnan(wheel.force) ? std::string("–")
+                                   : fmt::format("{:.0f} ± {:.0f}", wheel.force, wheel.deviation);
+  };
+  return fmt::format("{}, {} N", text(load[0]), text(load[1]));
+}
+
 void add_estimators(const LiveControls& controls, const LiveState& state,
                     std::vector<PanelLine>& lines) {
   lines.push_back({.text = "contact: left and right wheel", .value = "accuracy", .heading = true});
@@ -41,6 +50,10 @@ void add_estimators(const LiveControls& controls, const LiveState& state,
           {estimate.contact[0] != state.contact[0], estimate.contact[1] != state.contact[1]}};
     }
     lines.push_back(std::move(line));
+    if (i >= state.estimates.size()) continue;
+    const auto& load = state.estimates[i].load;
+    if (std::isnan(load[0].force) && std::isnan(load[1].force)) continue;
+    lines.push_back({.text = "  load", .value = load_text(load)});
   }
 }
 

@@ -52,15 +52,18 @@ std::string score_text(const scoring::Score& score, std::int64_t takeoffs, std::
 BeliefCsv::BeliefCsv(std::ostream& stream) : stream_(stream) {
   fmt::format_to(std::back_inserter(buffer_),
                  "time_s,p_contact_left,p_contact_right,contact_left,contact_right,p_any_wheel,"
-                 "p_both_wheels,p_takeoff,p_landing,status\n");
+                 "p_both_wheels,p_takeoff,p_landing,status,load_left_n,load_right_n,"
+                 "load_deviation_left_n,load_deviation_right_n\n");
 }
 
 void BeliefCsv::write(double time, const Belief& belief, const Evidence& evidence) {
   const auto& [left, right] = belief.wheel;
-  fmt::format_to(std::back_inserter(buffer_), FMT_COMPILE("{},{},{},{:d},{:d},{},{},{},{},{}\n"),
-                 time, left.p_contact, right.p_contact, left.contact, right.contact,
-                 belief.p_any_wheel, belief.p_both_wheels, evidence.transition.p_takeoff,
-                 evidence.transition.p_landing, to_text(belief.status));
+  fmt::format_to(std::back_inserter(buffer_),
+                 FMT_COMPILE("{},{},{},{:d},{:d},{},{},{},{},{},{},{},{},{}\n"), time,
+                 left.p_contact, right.p_contact, left.contact, right.contact, belief.p_any_wheel,
+                 belief.p_both_wheels, evidence.transition.p_takeoff, evidence.transition.p_landing,
+                 to_text(belief.status), left.load.force, right.load.force, left.load.deviation,
+                 right.load.deviation);
   constexpr std::size_t large = std::size_t{1} << 16U;
   if (buffer_.size() >= large) flush();
 }
@@ -83,6 +86,12 @@ void LogScore::add(const LogStep& step, const Belief& belief) {
     end_segment();
     return;
   }
+  for (std::size_t w = 0; w < belief.wheel.size() && time >= scoring_.skip; ++w) {
+    // Labels of contact stand for an unknown force.
+    if (std::isfinite((*step.normal_force)[w])) {
+      load_.add((*step.normal_force)[w], belief.wheel[w].load);
+    }
+  }
   if (!is_scored_) return;
   if (!duration_) {
     scoring::ScoringConfig scoring = scoring_;
@@ -95,6 +104,13 @@ void LogScore::add(const LogStep& step, const Belief& belief) {
 std::optional<scoring::RobotScore> LogScore::finish() {
   end_segment();
   return is_scored_ ? total_ : std::nullopt;
+}
+
+std::string LogScore::load_text() const {
+  if (load_.known() == 0) return {};
+  return fmt::format("{:<12} median error {:.2f} N, {} within 2 σ, known at {} of steps\n", "load",
+                     load_.median_error(), percent(load_.covered, load_.known()),
+                     percent(load_.known(), load_.steps));
 }
 
 void LogScore::end_segment() {

@@ -13,6 +13,7 @@
 
 #include "estimator/contact_estimator.hpp"
 #include "experiments/logs/log_steps.hpp"
+#include "scoring/extended_score.hpp"
 #include "scoring/labels.hpp"
 #include "scoring/score.hpp"
 
@@ -20,7 +21,8 @@ namespace touchdown::experiments {
 
 /// Writes beliefs as comma-separated values, one line per step: time (s), contact probability and
 /// decision (1 or 0) of each wheel, P(any wheel in contact), P(both wheels in contact), P(takeoff)
-/// and P(landing) of the transition model, status. Numbers are the shortest that read back to the
+/// and P(landing) of the transition model, status, normal force of each wheel and its standard
+/// deviation (N). Numbers are the shortest that read back to the
 /// same bits; `nan` stands for values that an estimator does not compute.
 class BeliefCsv {
  public:
@@ -51,6 +53,9 @@ class LogScore {
   /// Ends the log. Returns nothing without ground truth.
   std::optional<scoring::RobotScore> finish();
 
+  /// Of the steps with a known normal force; a line of text, empty without any.
+  std::string load_text() const;
+
  private:
   void end_segment();
 
@@ -62,6 +67,7 @@ class LogScore {
   std::int64_t steps_ = 0;
   std::optional<scoring::ScoreStream> duration_;
   std::optional<scoring::RobotScore> total_;
+  scoring::LoadScore load_;
 };
 
 /// Counts an estimator's results on a log. It keeps only the first takeoffs and landings, so its

@@ -144,10 +144,12 @@ void pack_beliefs(LogPacker& packer, msgpack::sbuffer& buffer, const Belief& bel
     pack_float64(buffer, value);
   };
   const auto wheel = [&](std::string_view key, const WheelBelief& of_wheel) {
-    group(key, 2);
+    group(key, 4);
     number("p_contact", of_wheel.p_contact);
     pack_text(packer, "contact");
     of_wheel.contact ? packer.pack_true() : packer.pack_false();
+    number("load", of_wheel.load.force);
+    number("load_deviation", of_wheel.load.deviation);
   };
   const Evidence::Measurement& measurement = evidence.wheel[0];
   const Evidence::Transition& transition = evidence.transition;

@@ -52,6 +52,11 @@ std::vector<Panel> panels_of(const LogTrace& trace) {
     return std::any_of(trace.bins().begin(), trace.bins().end(),
                        [&](const LogTrace::Bin& bin) { return !std::isnan(bin.low[column]); });
   };
+  if (has_values(LogCurve::load_left) || has_values(LogCurve::load_right)) {
+    panels.push_back({"load (N)",
+                      {{LogCurve::load_left, "left", 1}, {LogCurve::load_right, "right", 2}},
+                      "[*:*]"});
+  }
   if (has_values(LogCurve::p_takeoff)) {
     panels.push_back({"P(switch)",
                       {{LogCurve::p_takeoff, "takeoff", 4}, {LogCurve::p_landing, "landing", 3}},
@@ -145,7 +150,8 @@ LogTraceStep log_trace_step(const Signals& signals, const Belief& belief,
   step.value = {
       signals.leg[0].knee.torque,  signals.leg[1].knee.torque,    signals.leg[0].wheel.torque,
       signals.leg[1].wheel.torque, signals.vertical_acceleration, belief.wheel[0].p_contact,
-      belief.wheel[1].p_contact,   evidence.transition.p_takeoff, evidence.transition.p_landing};
+      belief.wheel[1].p_contact,   evidence.transition.p_takeoff, evidence.transition.p_landing,
+      belief.wheel[0].load.force,  belief.wheel[1].load.force};
   std::size_t curve = static_cast<std::size_t>(LogCurve::contributions);
   for (const Evidence::Contributions& wheel : evidence.contributions) {
     for (const double nats : {wheel.load, wheel.ground_torque, wheel.axle_motion, wheel.torso,
@@ -206,7 +212,8 @@ void LogTrace::add(const LogTraceStep& step) {
 std::string LogTrace::table() const {
   std::string text =
       "# begin_s\tend_s\tlow and high of: left knee, right knee, left wheel, right wheel (N m), "
-      "vertical acceleration (m/s2), p_contact left, right, p_takeoff, p_landing, contributions to "
+      "vertical acceleration (m/s2), p_contact left, right, p_takeoff, p_landing, load left, right "
+      "(N), contributions to "
       "left and to right (nats)\tshare of steps "
       "decided as contact: left, right\ttrue contact: left, right\tsteps good, invalid, gap, "
       "frozen\n";

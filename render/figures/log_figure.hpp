@@ -24,6 +24,8 @@ enum class LogCurve : int {
   p_contact_right,
   p_takeoff,
   p_landing,
+  load_left,
+  load_right,
   /// `Evidence::Contributions` of the left wheel, in its order, then those of the right one.
   contributions,
 };
@@ -82,11 +84,11 @@ class LogTrace {
 };
 
 /// Draws a log with an estimator's output over time: torques, vertical acceleration, contact
-/// probability, decided contact and the signals' status; takeoff and landing probability where the
-/// estimator has them; contributions to each wheel's log-odds if the estimator is an additive
-/// model; true contact where it is known. Each curve fills the space between its lowest and highest
-/// value. Files as `draw_figure`. Errors: `InputError` for a trace without steps; `Error` as
-/// `draw_figure`.
+/// probability, decided contact and the signals' status; loads, takeoff and landing probability
+/// where the estimator has them; contributions to each wheel's log-odds if the estimator is an
+/// additive model; true contact where it is known. Each curve fills the space between its lowest
+/// and highest value. Files as `draw_figure`. Errors: `InputError` for a trace without steps;
+/// `Error` as `draw_figure`.
 Figure draw_log(const LogTrace& trace, const std::string& title, const std::filesystem::path& stem);
 
 }  // namespace touchdown::render

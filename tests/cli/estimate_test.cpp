@@ -38,12 +38,13 @@ Lines lines_of(const std::string& csv) {
   std::getline(stream, line);
   EXPECT_EQ(line,
             "time_s,p_contact_left,p_contact_right,contact_left,contact_right,p_any_wheel,"
-            "p_both_wheels,p_takeoff,p_landing,status");
+            "p_both_wheels,p_takeoff,p_landing,status,load_left_n,load_right_n,"
+            "load_deviation_left_n,load_deviation_right_n");
   while (std::getline(stream, line)) {
     std::istringstream cells(line);
     lines.emplace_back();
     for (std::string cell; std::getline(cells, cell, ',');) lines.back().push_back(cell);
-    EXPECT_EQ(lines.back().size(), 10U) << line;
+    EXPECT_EQ(lines.back().size(), 14U) << line;
   }
   return lines;
 }

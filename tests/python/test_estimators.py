@@ -135,6 +135,27 @@ class Run(InFolder):
             model.save("python.npz")
             self.assert_same_bytes("python.npz", "program.npz")
 
+    def test_has_loads_of_estimators_with_legs(self):
+        run = hop()
+        run.save("hop.mpack")
+        program("fit", "hop.mpack", "--estimator", "force_kinematics", "-o", "m.npz")
+        program("estimate", "hop.mpack", "--model", "m.npz", "-o", "hop.csv")
+        rows = np.genfromtxt("hop.csv", delimiter=",", names=True)
+        estimator = touchdown.Estimator(model="m.npz")
+        whole_run = estimator.run(run)
+        for name in ("load", "load_deviation"):
+            expected = np.column_stack([rows[f"{name}_left_n"], rows[f"{name}_right_n"]])
+            np.testing.assert_array_equal(whole_run[name], expected)
+        self.assertGreater(np.isfinite(whole_run["load"]).mean(), 0.9)
+        estimator.reset()
+        names = NAMES + ("target_position", "target_velocity", "target_torque", "target_kp", "target_kd")
+        for k in range(100):
+            belief = estimator.update({name: run[name][k] for name in names})
+            np.testing.assert_array_equal(belief.load, whole_run["load"][k])
+            np.testing.assert_array_equal(belief.load_deviation, whole_run["load_deviation"][k])
+        beliefs = touchdown.Estimator("free_fall").run(run)
+        self.assertTrue(np.isnan(beliefs["load"]).all())
+
     def test_equals_successive_updates(self):
         run = hop()
         estimator = touchdown.Estimator(model=touchdown.fit(run, "robust"))

@@ -23,7 +23,10 @@ struct Beliefs {
 
 Beliefs beliefs_of(int i) {
   const double x = 0.01 * i;
-  return {.belief = {{{{x + 13, true}, {x + 14, false}}}, x + 15, x + 16, SignalStatus::gap},
+  return {.belief = {{{{x + 13, true, {x + 17, x + 18}}, {x + 14, false, {x + 19, x + 20}}}},
+                     x + 15,
+                     x + 16,
+                     SignalStatus::gap},
           .evidence = {{{{x + 1, x + 2, x + 3}, {}}},
                        {x + 4, x + 5, x + 6, x + 7, x + 8, x + 10, x + 9}}};
 }
@@ -40,13 +43,16 @@ json expected(json record, int i) {
                                      {"p_landing", x + 8},
                                      {"p_landing_p_switch", x + 9},
                                      {"p_takeoff_p_switch", x + 10}};
-  observation["contact_filter"] = {{"p_contact", x + 13},
-                                   {"p_contact_smooth", nullptr},
-                                   {"left_wheel", {{"p_contact", x + 13}, {"contact", true}}},
-                                   {"right_wheel", {{"p_contact", x + 14}, {"contact", false}}},
-                                   {"p_any_wheel", x + 15},
-                                   {"p_both_wheels", x + 16},
-                                   {"status", "gap"}};
+  observation["contact_filter"] = {
+      {"p_contact", x + 13},
+      {"p_contact_smooth", nullptr},
+      {"left_wheel",
+       {{"p_contact", x + 13}, {"contact", true}, {"load", x + 17}, {"load_deviation", x + 18}}},
+      {"right_wheel",
+       {{"p_contact", x + 14}, {"contact", false}, {"load", x + 19}, {"load_deviation", x + 20}}},
+      {"p_any_wheel", x + 15},
+      {"p_both_wheels", x + 16},
+      {"status", "gap"}};
   return record;
 }
 
