@@ -35,7 +35,7 @@ class LoadEstimates {
   LoadEstimates(const LegGeometry& geometry, double sample_rate) noexcept;
 
   /// Forgets all earlier steps.
-  void reset() noexcept { sums_ = {}; }
+  void reset() noexcept { weighted_ = weight_ = {}; }
 
   /// The loads of a step. NaN for a leg without usable signals, which starts anew, and beyond the
   /// limit.
@@ -44,42 +44,46 @@ class LoadEstimates {
                                   const LoadNoise& noise) noexcept {
     const double of_torques = 1.0 / (white_ * square(noise.torque) + torque_variance_);
     const double common = white_ * square(leg_mass_ * noise.acceleration) + model_variance_;
-    std::array<WheelLoad, 2> loads;
+    std::array<double, 2> weights;
+    std::array<double, 2> weighted;
+    std::array<double, 2> determinant;
     for (std::size_t i = 0; i < 2; ++i) {
-      Sums& sums = sums_[i];
       if (!leg[i].is_usable) {
-        sums = {};
+        weight_[i] = weighted_[i] = weights[i] = weighted[i] = determinant[i] = 0.0;
         continue;
       }
       const ServoLoad& servos = leg[i].by_servos;
-      double weights = of_torques;
-      double weighted = of_torques * leg[i].by_torques;
+      weights[i] = of_torques;
+      weighted[i] = of_torques * leg[i].by_torques;
+      determinant[i] = foot[i].determinant();
       if (std::isfinite(servos.force_times_determinant)) {
-        if (servos.torque_noise != sums.servo_noise) {  // gains change rarely
-          sums.servo_noise = servos.torque_noise;
-          sums.of_servos = 1.0 / (square(servos.torque_noise) + servo_variance_);
+        if (servos.torque_noise != servo_noise_[i]) {  // gains change rarely
+          servo_noise_[i] = servos.torque_noise;
+          of_servos_[i] = 1.0 / (square(servos.torque_noise) + servo_variance_);
         }
-        weights += sums.of_servos;
-        weighted += sums.of_servos * servos.force_times_determinant;
+        weights[i] += of_servos_[i];
+        weighted[i] += of_servos_[i] * servos.force_times_determinant;
       }
-      const double scale = arms_ * foot[i].determinant();
-      sums.weight += scale * foot[i].determinant() * weights - gain_ * sums.weight;
-      sums.weighted += scale * weighted - gain_ * sums.weighted;
-      const double mean = 1.0 / sums.weight;
-      const double variance = mean + common;
-      if (variance <= largest_variance_) loads[i] = {sums.weighted * mean, std::sqrt(variance)};
+    }
+    // Without branches, so that a compiler divides for both wheels at once.
+    std::array<double, 2> force;
+    std::array<double, 2> variance;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double scale = arms_ * determinant[i];
+      weight_[i] += scale * determinant[i] * weights[i] - gain_ * weight_[i];
+      weighted_[i] += scale * weighted[i] - gain_ * weighted_[i];
+      const double mean = 1.0 / weight_[i];
+      force[i] = weighted_[i] * mean;
+      variance[i] = mean + common;
+    }
+    std::array<WheelLoad, 2> loads;
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (variance[i] <= largest_variance_) loads[i] = {force[i], std::sqrt(variance[i])};
     }
     return loads;
   }
 
  private:
-  struct Sums {
-    double weighted = 0.0;      ///< Σ w f
-    double weight = 0.0;        ///< Σ w
-    double servo_noise = -1.0;  ///< for which `of_servos` is 1/σ_τ² (1/(N²·m²))
-    double of_servos = 0.0;
-  };
-
   static double square(double x) noexcept { return x * x; }
 
   double gain_;
@@ -90,7 +94,10 @@ class LoadEstimates {
   double servo_variance_;   ///< likewise
   double model_variance_;   ///< N²
   double largest_variance_;
-  std::array<Sums, 2> sums_;
+  std::array<double, 2> weighted_ = {};               ///< Σ w f
+  std::array<double, 2> weight_ = {};                 ///< Σ w
+  std::array<double, 2> servo_noise_ = {-1.0, -1.0};  ///< for which `of_servos_` is 1/σ_τ²
+  std::array<double, 2> of_servos_ = {};              ///< 1/(N²·m²)
 };
 
 }  // namespace touchdown
