@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/program.hpp"
 #include "core/progress.hpp"
+#include "core/resources.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "logs/model_file.hpp"
 
@@ -28,6 +29,7 @@ struct FitFlags {
   std::string estimator;
   std::vector<std::string> hyperparameters;
   experiments::LogFitConfig config;
+  std::string prior;
   std::string robot;
   bool skips_accuracy = false;
   std::vector<int> grid;
@@ -151,6 +153,10 @@ void add_fit_flags(Verb& verb, FitFlags& flags) {
       .one_at_a_time();
   verb.flag("--no-accuracy", &flags.skips_accuracy,
             "Leave out the accuracy on left-out logs, which takes five more fits");
+  verb.option("--prior", &flags.prior,
+              "Model of evidence curves, such as models/evidence_curves.npz: the result is the "
+              "mean of\nboth. The more the logs hold of both classes, the more they weigh")
+      .value_name("FILE.npz");
   verb.flag("--servo-load", &flags.config.servo_load,
             "Give networks and evidence curves the load by the laws of the servos: for logs with "
             "the\ncommands of hips and knees (action.servo)");
@@ -238,6 +244,11 @@ void fit(const FitFlags& flags, const CliSession& session) {
   std::vector<InputFile> inputs;
   for (const experiments::FitLog& log : logs) inputs.push_back({log.path, "log"});
   for (const std::string& labels : flags.labels) inputs.push_back({labels, "file of labels"});
+  if (!flags.prior.empty()) {
+    const std::filesystem::path prior = find_resource(flags.prior);
+    inputs.push_back({prior, "model"});
+    config.prior = {flags.prior, load_model(prior)};
+  }
   check_outputs(inputs, {flags.output});
   require_extension(flags.output, {".npz"}, "a model");
   require_different(logs);
@@ -254,6 +265,10 @@ void fit(const FitFlags& flags, const CliSession& session) {
   print("{}: {}, {:.3f} s of {} {}\n", flags.output, entry.title, report.seconds, logs.size(),
         logs.size() == 1 ? "log" : "logs");
   show_samples(report, entry.fitting.torques.has_value());
+  if (config.prior) {
+    print("{:<12} {:.0f} % of the model, {} the rest\n", "these logs", 100.0 * report.weight,
+          flags.prior);
+  }
   if (!flags.skips_accuracy) show_accuracy(entry, logs, config, model);
   print("{:<12} touchdown estimate LOG --model {} --estimator {}\n", "next", flags.output,
         entry.name);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <tuple>
 
 #include <Eigen/Core>
@@ -36,6 +37,28 @@ Positions<count> positions_of(const std::array<float, count>& inputs) noexcept {
     at.share[i] = inside[i] - static_cast<float>(at.knot[i]);
   }
   return at;
+}
+
+/// Both have the same channels. A range contains those of both.
+EvidenceModel mean_of_models(EvidenceModel one, const EvidenceModel& other, float weight) {
+  const auto mix = [weight](auto& curves, const auto& others) {
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      for (std::size_t k = 0; k < evidence_knots; ++k) {
+        curves[i][k] = weight * curves[i][k] + (1.0F - weight) * others[i][k];
+      }
+    }
+  };
+  const auto unite = [](auto& ranges, const auto& others) {
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      ranges[i] = {std::min(ranges[i][0], others[i][0]), std::max(ranges[i][1], others[i][1])};
+    }
+  };
+  mix(one.curve, other.curve);
+  mix(one.servo_curve, other.servo_curve);
+  unite(one.seen, other.seen);
+  unite(one.servo_seen, other.servo_seen);
+  one.bias = weight * one.bias + (1.0F - weight) * other.bias;
+  return one;
 }
 
 bool all_finite(const auto& numbers) {
@@ -123,6 +146,24 @@ std::array<float, 2> PairedEvidence::logits(const DecisionInputs& left,
       bias_ + (of_left[0] + of_left[2]) + (of_right[1] + of_right[3]),
       bias_ + (of_left[1] + of_left[3]) + (of_right[0] + of_right[2]),
   };
+}
+
+EvidenceCurveSets mean_of(const EvidenceCurveSets& one, const EvidenceCurveSets& other,
+                          double weight) {
+  const auto share = static_cast<float>(weight);
+  const auto* const without = other.without_targets ? &*other.without_targets : nullptr;
+  const bool is_without = one.usual.servo_curve.empty() && !other.usual.servo_curve.empty();
+  const EvidenceModel* const same = is_without ? without : &other.usual;
+  if (same == nullptr || same->servo_curve.size() != one.usual.servo_curve.size() ||
+      (one.without_targets && without == nullptr)) {
+    throw InputError(std::string("evidence curves: expected curves ") + targets_of(one.usual) +
+                     " targets of the joints, found only curves " + targets_of(other.usual));
+  }
+  EvidenceCurveSets mean = mean_of_models(one.usual, *same, share);
+  if (one.without_targets) {
+    mean.without_targets = mean_of_models(*one.without_targets, *without, share);
+  }
+  return mean;
 }
 
 void check_evidence_model(const EvidenceModel& model) {

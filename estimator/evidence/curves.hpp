@@ -118,6 +118,12 @@ class PairedEvidence {
   float bias_;
 };
 
+/// The mean of two models, curve by curve: its logit is the mean of theirs. The first one has this
+/// weight, the second one the rest. If only the second has servo curves, its model for steps
+/// without targets counts. Throws InputError if it lacks a channel of the first.
+[[nodiscard]] EvidenceCurveSets mean_of(const EvidenceCurveSets& one,
+                                        const EvidenceCurveSets& other, double weight);
+
 /// Throw InputError for numbers that are not finite, for a wrong number of curves, …
 void check_evidence_model(const EvidenceModel& model);
 /// … and for servo curves in the model of steps without targets, or none beside it.

@@ -297,6 +297,7 @@ Model fit_model(const EstimatorEntry& entry, std::span<const FitLog> logs,
 Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
                   const LogFitConfig& config, LogFitReport& report) {
   check_names(config.hyperparameters, entry);
+  if (config.prior) check_prior(*config.prior, entry, config.servo_load);
   Model model =
       fit_model(with_hyperparameters(entry, config.hyperparameters), logs, config, report);
   const auto& [without, with] = report.declared_load;
@@ -311,6 +312,7 @@ Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
   if (config.robot.legs) report.fitted_to.legs = *config.robot.legs;
   report.fitted_to.servo_load = config.servo_load;
   model.metadata = new_metadata(entry.name, report.fitted_to);
+  if (config.prior) add_prior(*config.prior, report, model);
   put_into(*model.metadata, config.hyperparameters);
   return model;
 }

@@ -31,6 +31,15 @@ struct FitLog {
   std::shared_ptr<const logs::ContactIntervals> labels = {};
 };
 
+/// A model of evidence curves that a fit starts from: the result is the mean of both.
+struct FitPrior {
+  std::string name;  ///< of its file
+  Model model;
+};
+
+/// The seconds of the rarer class, both wheels' mean, at which a fit weighs as much as its prior.
+inline constexpr double prior_seconds = 10.0;
+
 struct LogFitConfig {
   scoring::LabelConfig labels;  ///< of logs with ground truth
   double skip = 0.3;            ///< not used at the beginning of each log (s)
@@ -39,6 +48,7 @@ struct LogFitConfig {
   LogRobot robot = {};
   HyperparameterValues hyperparameters = {};  ///< replace the estimator's defaults
   bool servo_load = false;                    ///< as in `FitRuns`
+  std::optional<FitPrior> prior = {};
   /// Stops with `Stopped` once true; may be null.
   const std::atomic<bool>* stop = nullptr;
 };
@@ -46,7 +56,9 @@ struct LogFitConfig {
 /// Throws `Stopped` once the configuration's flag is true.
 void stop_if_asked(const LogFitConfig& config);
 
-/// Adds the digests of logs to the model's provenance, if it has one.
+/// Adds a line "key: value" to the model's provenance, if it has one, …
+void add_to_provenance(const std::string& key, const std::string& value, Model& model);
+/// … and the digests of logs.
 void add_digests(const std::map<std::string, std::string>& digests, Model& model);
 
 /// The data of a fit; index 0 is no contact, 1 is contact.
@@ -63,8 +75,18 @@ struct LogFitReport {
     double count = 0.0;
   };
   std::array<DeclaredLoad, 2> declared_load = {};
+  double weight = 1.0;  ///< of these logs in the model, beside a prior
   std::vector<std::string> warnings;
 };
+
+/// Errors: `InputError` for an estimator, or a prior, that is none of evidence curves, and for a
+/// prior without the channels of the fit.
+void check_prior(const FitPrior& prior, const EstimatorEntry& entry, bool servo_load);
+
+/// Replaces fitted evidence curves by their mean with the prior's, which `prior_seconds` weighs,
+/// and notes this in the provenance. The thresholds are the same mean. Errors: `InputError` for a
+/// prior of another rate or without a channel of the model.
+void add_prior(const FitPrior& prior, LogFitReport& report, Model& model);
 
 /// Reads a log that a model is fitted to, step by step, and adds its source and its warnings to the
 /// report.

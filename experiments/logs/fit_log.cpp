@@ -33,12 +33,16 @@ bool names(const std::string& provenance, std::string_view key, const std::strin
 
 }  // namespace
 
+void add_to_provenance(const std::string& key, const std::string& value, Model& model) {
+  const auto found = model.arrays.find(std::string(provenance_array));
+  if (found == model.arrays.end()) return;
+  found->second = array_of_text(fmt::format("{}{}: {}\n", provenance_text(model), key, value));
+}
+
 void add_digests(const std::map<std::string, std::string>& digests, Model& model) {
-  if (!model.arrays.contains(std::string(provenance_array))) return;
   std::vector<std::string> texts;
   for (const auto& [digest, log] : digests) texts.push_back(digest);
-  model.arrays[std::string(provenance_array)] =
-      array_of_text(fmt::format("{}logs: {}\n", provenance_text(model), fmt::join(texts, ", ")));
+  add_to_provenance("logs", fmt::format("{}", fmt::join(texts, ", ")), model);
 }
 
 bool was_fitted_to(const Model& model, const LogSteps& log, const logs::RecordingInfo& info) {

@@ -214,5 +214,51 @@ TEST(EvidenceCurveSets, RefuseSetsOfTheSameSignals) {
   EXPECT_NO_THROW(EvidenceCurves(EvidenceCurveSets(with, without)));
 }
 
+/// The logits of random steps.
+std::vector<float> logits_of(const EvidenceModel& model) {
+  test::Normal normal(3);
+  std::vector<float> logits;
+  for (int step = 0; step < 100; ++step) {
+    DecisionInputs inputs{};
+    ServoLoadInputs servo{};
+    for (float& x : inputs) x = static_cast<float>(3.0 * normal());
+    for (float& x : servo) x = static_cast<float>(3.0 * normal());
+    logits.push_back(evidence_logit(model, inputs, servo));
+  }
+  return logits;
+}
+
+TEST(EvidenceCurveSets, HaveAMeanWithTheMeanLogits) {
+  const EvidenceCurveSets one = test::random_curve_sets(1);
+  const EvidenceCurveSets other = test::random_curve_sets(5);
+  for (const float weight : {0.0F, 0.3F, 1.0F}) {
+    const EvidenceCurveSets mean = mean_of(one, other, static_cast<double>(weight));
+    const auto expect_mean = [&](const EvidenceModel& of, const EvidenceModel& first,
+                                 const EvidenceModel& second) {
+      const std::vector<float> logits = logits_of(of);
+      const std::vector<float> a = logits_of(first);
+      const std::vector<float> b = logits_of(second);
+      for (std::size_t i = 0; i < logits.size(); ++i) {
+        ASSERT_NEAR(logits[i], weight * a[i] + (1.0F - weight) * b[i], 1e-4F) << weight;
+      }
+    };
+    expect_mean(mean.usual, one.usual, other.usual);
+    expect_mean(mean.without_targets.value(), *one.without_targets, *other.without_targets);
+  }
+  EXPECT_EQ(mean_of(one, other, 1.0).usual.curve, one.usual.curve);
+  EXPECT_EQ(mean_of(one, other, 0.0).without_targets->curve, other.without_targets->curve);
+}
+
+TEST(EvidenceCurveSets, HaveAMeanOfTheSameChannelsOnly) {
+  const EvidenceCurveSets both = test::random_curve_sets(1);
+  const EvidenceCurveSets without = test::random_curves(4);
+  const EvidenceCurveSets mean = mean_of(without, both, 0.0);
+  EXPECT_EQ(mean.usual.curve, both.without_targets->curve);
+  EXPECT_FALSE(mean.without_targets);
+  EXPECT_THROW((void)mean_of(both, without, 0.5), InputError);
+  EXPECT_THROW((void)mean_of(both, both.usual, 0.5), InputError);
+  EXPECT_THROW((void)mean_of(without, both.usual, 0.5), InputError);
+}
+
 }  // namespace
 }  // namespace touchdown
