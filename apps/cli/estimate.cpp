@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -9,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "apps/cli/estimate_outputs.hpp"
+#include "apps/cli/log_options.hpp"
 #include "apps/cli/verb.hpp"
 #include "core/error.hpp"
 #include "core/program.hpp"
@@ -19,8 +19,6 @@
 #include "experiments/logs/summary.hpp"
 #include "experiments/plan/rollouts.hpp"
 #include "logs/log/annotator.hpp"
-#include "logs/log/byte_source.hpp"
-#include "logs/mapping/conversion.hpp"
 #include "render/figures/log_figure.hpp"
 #include "scenarios/scenario.hpp"
 
@@ -37,13 +35,8 @@ struct DrawnPart {
 struct EstimateFlags {
   std::vector<std::string> logs;
   std::vector<std::string> labels;
-  std::string mapping;
-  std::string model;
-  std::string estimator;
-  std::string robot;
-  bool transfer = false;
+  LogOptions log;
   bool strict = false;
-  std::vector<std::string> hyperparameters;
   std::vector<std::string> outputs;
   std::string figure;
   DrawnPart drawn;
@@ -203,22 +196,12 @@ std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* 
     BeliefWriter writer(csv, mpack,
                         flags.figure.empty() ? std::nullopt : std::optional(flags.drawn));
     const bool live = path == "-";
-    const auto open = [&] {
-      if (!flags.mapping.empty()) {
-        return logs::LogReader(
-            logs::mapped_records(path, flags.mapping,
-                                 {.stop = session.stop, .with_bytes = mpack != nullptr}),
-            path);
-      }
-      // A reader of a live stream gets every line before the program waits for the next record.
-      return logs::LogReader(
-          [&, bytes = logs::file_source(path, session.stop)](std::span<char> buffer) {
-            if (outputs.prints_csv()) writer.flush();
-            return bytes(buffer);
-          },
-          live ? "standard input" : path);
+    // A reader of a live stream gets every line before the program waits for the next record.
+    const auto before_read = [&] {
+      if (outputs.prints_csv()) writer.flush();
     };
-    logs::LogReader reader = open();
+    logs::LogReader reader = open_log(path, flags.log, session,
+                                      {.with_bytes = mpack != nullptr, .before_read = before_read});
     const Evaluation evaluation = evaluate(reader, estimator, labels, writer, session);
     summary = evaluation.summary;
     findings = evaluation.findings.size();
@@ -247,15 +230,9 @@ std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* 
 }
 
 void estimate(const EstimateFlags& flags, const CliSession& session) {
-  const bool is_live = std::find(flags.logs.begin(), flags.logs.end(), "-") != flags.logs.end();
-  if (is_live && !flags.mapping.empty()) {
-    throw InputError("--mapping: expected a file or a bag, found standard input");
-  }
-  const experiments::LogEstimator estimator = experiments::log_estimator(
-      {flags.estimator, flags.model, experiments::robot_called(flags.robot), flags.transfer,
-       experiments::hyperparameters_of(flags.hyperparameters)});
+  const experiments::LogEstimator estimator = estimator_for(flags.log);
   const std::vector<EstimateOutputs> outputs =
-      estimate_outputs(flags.logs, flags.model, flags.labels, flags.outputs, flags.figure);
+      estimate_outputs(flags.logs, flags.log.model, flags.labels, flags.outputs, flags.figure);
   const std::vector<logs::ContactIntervals> labels =
       logs::read_contact_intervals(flags.labels, flags.logs.size());
   std::size_t findings = 0;
@@ -292,29 +269,7 @@ void add_estimate(CLI::App& program, const CliSession& session) {
               "Ground truth for intervals of each LOG, in the order of the logs: rows "
               "start,end,contact or start,end,left,right. Only these intervals are scored")
       .value_name("FILE.csv");
-  verb.option("--mapping", &flags->mapping,
-              "Maps the columns or topics of the logs to signals, as for `touchdown export`")
-      .value_name("FILE.yaml");
-  verb.option(
-          "--model", &flags->model,
-          "Model that `touchdown fit` wrote (default: the shipped one, models/evidence_curves.npz)")
-      .value_name("FILE.npz");
-  verb.option("--estimator", &flags->estimator,
-              "Estimator from `touchdown list` (default: the one that the model was fitted for)");
-  verb.option(
-          "--robot", &flags->robot,
-          "Robot that recorded the logs (default: that of a simulated log); it must be the\n"
-          "model's. Its file gives the leg geometry to estimators that compute loads (default:\n"
-          "that of a simulated log, else the model's)")
-      .value_name("NAME|FILE");
-  verb.option(
-          "--set", &flags->hyperparameters,
-          "Run the estimator with another value of a hyperparameter than its model's, for example\n"
-          "leave_below=0.25")
-      .value_name("NAME=NUMBER")
-      .one_at_a_time();
-  verb.flag("--transfer", &flags->transfer,
-            "Use a model at another rate or on another robot than it was fitted for");
+  add_log_options(verb, flags->log);
   verb.flag("--strict", &flags->strict,
             "Exit with code 1 if the signals of a log are not plausible");
   verb.option("-o,--output", &flags->outputs,

@@ -74,6 +74,7 @@ int run_command_line(int argc, char** argv) {
   add_watch(program, session);
   add_fit(program, session);
   add_estimate(program, session);
+  add_label(program, session);
   add_check(program, session);
   add_export(program, session);
   add_score(program, session);

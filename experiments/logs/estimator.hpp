@@ -6,7 +6,9 @@
 
 #include "estimator/contact_estimator.hpp"
 #include "experiments/estimators/entry.hpp"
+#include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
+#include "logs/log/contact_intervals.hpp"
 #include "logs/recording.hpp"
 
 namespace touchdown::experiments {
@@ -48,5 +50,17 @@ LogEstimator log_estimator(LogEstimatorRequest request);
 
 /// The estimator of a model that was fitted for it, at any rate and for any robot.
 LogEstimator log_estimator(const EstimatorEntry& entry, Model model, const LogRobot& robot);
+
+/// Contact of both wheels throughout a log, as labels to correct by hand: reads the log to its end
+/// and holds it in memory (0.5 MB/s at 1 kHz).
+///
+/// Evidence curves run over the log as it is, and over the same motion backwards: their low-passes
+/// then look ahead, and their delays have the other sign. The result is the most probable sequence
+/// of contact, given the mean of both logits, with a cost of each switch. An interval's `sure` is
+/// the lowest mean probability of a wheel's contact over 20 ms. Where neither pass has inputs for
+/// longer than a gap, no interval is. Errors: `InputError` for an estimator other than evidence
+/// curves; those of `LogEstimator::make`.
+logs::ContactIntervals smoothed_contact(LogSteps& log, const LogEstimator& chosen,
+                                        const logs::RecordingInfo& info);
 
 }  // namespace touchdown::experiments

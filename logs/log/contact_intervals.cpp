@@ -17,18 +17,20 @@ namespace touchdown::logs {
 namespace {
 
 constexpr const char* expected_columns =
-    "expected start, end and contact, or start, end, left and right";
+    "expected start, end and contact, or start, end, left and right; perhaps sure";
 
 /// Column of each number of an interval.
 struct IntervalColumns {
   std::size_t start = 0, end = 0;
   std::array<std::size_t, models::wheel_count> contact = {};
+  std::optional<std::size_t> sure = {};
 };
 
 IntervalColumns find_columns(const NumbersCsv& csv) {
-  static const std::vector<std::string> known = {"start", "end", "contact", "left", "right"};
+  static const std::vector<std::string> known = {"start", "end",   "contact",
+                                                 "left",  "right", "sure"};
   const std::vector<std::string>& names = csv.names();
-  std::array<std::optional<std::size_t>, 5> place;
+  std::array<std::optional<std::size_t>, 6> place;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto found = std::find(known.begin(), known.end(), names[i]);
     if (found == known.end()) {
@@ -44,7 +46,7 @@ IntervalColumns find_columns(const NumbersCsv& csv) {
   if (!place[0] || !place[1] || !(is_of_both || is_of_each)) {
     csv.complain(names.size(), expected_columns);
   }
-  return {*place[0], *place[1], {*place[is_of_both ? 2 : 3], *place[is_of_both ? 2 : 4]}};
+  return {*place[0], *place[1], {*place[is_of_both ? 2 : 3], *place[is_of_both ? 2 : 4]}, place[5]};
 }
 
 /// The interval of the present row.
@@ -65,6 +67,13 @@ ContactInterval interval_in(const NumbersCsv& csv, const IntervalColumns& column
                    fmt::format("{}: expected 1 for contact or 0 for none", value));
     }
     interval.contact[wheel] = value == 1.0;
+  }
+  if (columns.sure) {
+    const double sure = values[*columns.sure];
+    if (!(sure >= 0.0 && sure <= 1.0)) {
+      csv.complain(*columns.sure, fmt::format("sure: {}: expected a probability, 0 to 1", sure));
+    }
+    interval.sure = sure;
   }
   return interval;
 }
@@ -121,9 +130,13 @@ ContactIntervals read_contact_intervals(const std::filesystem::path& path) {
 
 std::string to_csv(const ContactIntervals& intervals) {
   TextTable table{{"start", "end", "left", "right"}, {}};
+  const bool has_sure = !intervals.intervals.empty() && intervals.intervals.front().sure;
+  if (has_sure) table.header.emplace_back("sure");
   for (const ContactInterval& one : intervals.intervals) {
-    table.rows.push_back(
-        {exact(one.start), exact(one.end), one.contact[0] ? "1" : "0", one.contact[1] ? "1" : "0"});
+    std::vector<std::string>& row = table.rows.emplace_back();
+    row = {exact(one.start), exact(one.end), one.contact[0] ? "1" : "0",
+           one.contact[1] ? "1" : "0"};
+    if (has_sure) row.push_back(fmt::format("{:.3f}", one.sure.value_or(1.0)));
   }
   return touchdown::to_csv(table);
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@ struct ContactInterval {
   double start = 0.0;  ///< s
   double end = 0.0;    ///< s
   std::array<bool, models::wheel_count> contact = {};
+  /// Of labels that a program proposed: the lowest probability of this contact in any part of the
+  /// interval.
+  std::optional<double> sure = {};
 };
 
 /// Contact labels of a log: intervals that do not overlap, in order of time. Contact between them
@@ -27,11 +31,13 @@ struct ContactIntervals {
 };
 
 /// Reads comma-separated values: a line of names, `start,end,contact` or `start,end,left,right` in
-/// any order, then a line per interval, 1 for contact and 0 for none. Errors: `InputError` with
-/// file:line:column for an invalid interval, and for one that overlaps with another.
+/// any order, perhaps with `sure`, then a line per interval, 1 for contact and 0 for none. Errors:
+/// `InputError` with file:line:column for an invalid interval, and for one that overlaps with
+/// another.
 ContactIntervals read_contact_intervals(const std::filesystem::path& path);
 
-/// Formats intervals as such a file, `start,end,left,right`. Reading it gives the same numbers.
+/// Formats intervals as such a file, `start,end,left,right`, and `sure` if the first one has it.
+/// Reading it gives the same numbers.
 std::string to_csv(const ContactIntervals& intervals);
 
 /// Reads the labels of several logs: one file per log, in order, or no files. Errors: `InputError`

@@ -38,6 +38,16 @@ TEST_F(Intervals, AreReadInAnyOrderOfColumnsAndRows) {
   EXPECT_EQ(each.intervals[0].contact, (std::array<bool, 2>{true, false}));
 }
 
+TEST_F(Intervals, KeepHowSureAProgramWasOfThem) {
+  const ContactIntervals proposed = read("start,end,left,right,sure\n1,2.5,1,0,0.625\n0,1,1,1,1\n");
+  EXPECT_EQ(proposed.intervals[0].sure, 1.0);
+  EXPECT_EQ(proposed.intervals[1].sure, 0.625);
+  EXPECT_EQ(to_csv(proposed), "start,end,left,right,sure\n0,1,1,1,1.000\n1,2.5,1,0,0.625\n");
+  const ContactIntervals by_hand = read("start,end,contact\n0,1,1\n");
+  EXPECT_FALSE(by_hand.intervals[0].sure);
+  EXPECT_EQ(to_csv(by_hand), "start,end,left,right\n0,1,1,1\n");
+}
+
 TEST_F(Intervals, HoldFromTheirStartUntilBeforeTheirEnd) {
   const ContactIntervals some = read("start,end,contact\n0,1,1\n1,2,0\n5,6,1\n");
   EXPECT_EQ(some.at(-0.001), nullptr);
@@ -65,6 +75,7 @@ TEST_F(Intervals, ThatAreWrongAreNamedByTheirPlace) {
   complaint("start,end,contact\n0,2,1\n1,3,0\n", "a.csv:3:1: 1 to 3 overlaps with 0 to 2");
   complaint("start,end,contact\n1,3,0\n0,2,1\n", "a.csv:3:1: 0 to 2 overlaps with 1 to 3");
   complaint("start,end,contact\n0,1\n", "a.csv:2:3: expected 3 values, found 2");
+  complaint("start,end,contact,sure\n0,1,1,1.5\n", "a.csv:2:7: sure: 1.5: expected a probability");
   complaint("start,end,contact\n0,soon,1\n", "a.csv:2:3: expected a number, found 'soon'");
 }
 

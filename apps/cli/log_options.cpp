@@ -1,0 +1,60 @@
+#include "apps/cli/log_options.hpp"
+
+#include <span>
+
+#include "core/error.hpp"
+#include "logs/log/byte_source.hpp"
+#include "logs/mapping/conversion.hpp"
+
+namespace touchdown::cli {
+
+void add_log_options(Verb& verb, LogOptions& options) {
+  verb.option("--mapping", &options.mapping,
+              "Maps the columns or topics of the logs to signals, as for `touchdown export`")
+      .value_name("FILE.yaml");
+  verb.option(
+          "--model", &options.model,
+          "Model that `touchdown fit` wrote (default: the shipped one, models/evidence_curves.npz)")
+      .value_name("FILE.npz");
+  verb.option("--estimator", &options.estimator,
+              "Estimator from `touchdown list` (default: the one that the model was fitted for)");
+  verb.option(
+          "--robot", &options.robot,
+          "Robot that recorded the logs (default: that of a simulated log); it must be the\n"
+          "model's. Its file gives the leg geometry to estimators that compute loads (default:\n"
+          "that of a simulated log, else the model's)")
+      .value_name("NAME|FILE");
+  verb.option(
+          "--set", &options.hyperparameters,
+          "Run the estimator with another value of a hyperparameter than its model's, for example\n"
+          "leave_below=0.25")
+      .value_name("NAME=NUMBER")
+      .one_at_a_time();
+  verb.flag("--transfer", &options.transfer,
+            "Use a model at another rate or on another robot than it was fitted for");
+}
+
+experiments::LogEstimator estimator_for(const LogOptions& options) {
+  return experiments::log_estimator({options.estimator, options.model,
+                                     experiments::robot_called(options.robot), options.transfer,
+                                     experiments::hyperparameters_of(options.hyperparameters)});
+}
+
+logs::LogReader open_log(const std::string& path, const LogOptions& options,
+                         const CliSession& session, const LogOpening& opening) {
+  const bool is_live = path == "-";
+  if (!options.mapping.empty()) {
+    if (is_live) throw InputError("--mapping: expected a file or a bag, found standard input");
+    return {logs::mapped_records(path, options.mapping,
+                                 {.stop = session.stop, .with_bytes = opening.with_bytes}),
+            path};
+  }
+  return {[before_read = opening.before_read,
+           bytes = logs::file_source(path, session.stop)](std::span<char> buffer) {
+            if (before_read) before_read();
+            return bytes(buffer);
+          },
+          is_live ? "standard input" : path};
+}
+
+}  // namespace touchdown::cli

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "apps/cli/verb.hpp"
+#include "experiments/logs/estimator.hpp"
+#include "logs/log/reader.hpp"
+
+namespace touchdown::cli {
+
+/// How a log is read, and the estimator that runs on it.
+struct LogOptions {
+  std::string mapping;
+  std::string model;
+  std::string estimator;
+  std::string robot;
+  bool transfer = false;
+  std::vector<std::string> hyperparameters;
+};
+
+/// The options must outlive the verb.
+void add_log_options(Verb& verb, LogOptions& options);
+
+/// Errors: those of `experiments::log_estimator`.
+experiments::LogEstimator estimator_for(const LogOptions& options);
+
+struct LogOpening {
+  bool with_bytes = false;  ///< whether a mapped log's records are read as bytes, too
+  std::function<void()> before_read = {};
+};
+
+/// "-" is standard input. Errors: those of the reader; `InputError` for a mapping of "-".
+logs::LogReader open_log(const std::string& path, const LogOptions& options,
+                         const CliSession& session, const LogOpening& opening = {});
+
+}  // namespace touchdown::cli

@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "logs/log/contact_intervals.hpp"
+#include "logs/log/recording_file.hpp"
+#include "program.hpp"
+#include "scoring/labels.hpp"
+#include "synthetic_log.hpp"
+
+namespace touchdown::cli {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Label : public InFolder {
+ protected:
+  logs::Recording simulated() const {
+    folder_.output_of("simulate scenarios/stairs.yaml --set end.duration=8 -o run.mpack");
+    return logs::read_recording(folder_ / "run.mpack");
+  }
+  logs::ContactIntervals labels_of(const std::string& log) const {
+    folder_.output_of("label " + log + " -o labels.csv");
+    return logs::read_contact_intervals(folder_ / "labels.csv");
+  }
+};
+
+double time_of(const logs::Recording& log, std::size_t step) {
+  return 1e-6 * static_cast<double>(log.info.control_period_us) * static_cast<double>(step);
+}
+
+/// Seconds from the takeoffs and landings of a wheel's flights, of 30 ms and more, to the nearest
+/// labelled ones; sorted.
+std::vector<double> edge_errors(const logs::Recording& log, const logs::ContactIntervals& labels) {
+  std::vector<double> errors;
+  const auto truth = scoring::contact_labels(log, {});
+  for (std::size_t wheel = 0; wheel < truth.size(); ++wheel) {
+    const auto add = [&](std::size_t step, bool contact) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 1; i < labels.intervals.size(); ++i) {
+        const logs::ContactInterval& one = labels.intervals[i];
+        const bool before = labels.intervals[i - 1].contact[wheel];
+        if (one.contact[wheel] != contact || before == contact) continue;
+        nearest = std::min(nearest, std::abs(one.start - time_of(log, step)));
+      }
+      errors.push_back(nearest);
+    };
+    for (const scoring::Flight& flight : scoring::flights(truth[wheel])) {
+      if (flight.landing - flight.takeoff < 30) continue;
+      add(flight.takeoff, false);
+      add(flight.landing, true);
+    }
+  }
+  std::sort(errors.begin(), errors.end());
+  return errors;
+}
+
+TEST_F(Label, EdgesAreWithinMillisecondsOfTheTruth) {
+  const logs::Recording run = simulated();
+  const logs::ContactIntervals labels = labels_of("run.mpack");
+  const std::vector<double> errors = edge_errors(run, labels);
+  ASSERT_GE(errors.size(), 4U);
+  EXPECT_LT(errors[errors.size() / 2], 0.0035);
+  EXPECT_LE(errors.back(), 0.02) << "no flight is missed";
+  EXPECT_NEAR(labels.intervals.front().start, time_of(run, 0), 1e-9);
+  EXPECT_NEAR(labels.intervals.back().end, time_of(run, run.steps()), 1e-6);
+  for (std::size_t i = 0; i < labels.intervals.size(); ++i) {
+    const logs::ContactInterval& one = labels.intervals[i];
+    EXPECT_TRUE(one.sure.has_value());
+    if (i == 0) continue;
+    EXPECT_EQ(one.start, labels.intervals[i - 1].end);
+    EXPECT_NE(one.contact, labels.intervals[i - 1].contact);
+  }
+}
+
+TEST_F(Label, ListsTheLeastSureIntervalsFirst) {
+  (void)simulated();
+  const std::string text = folder_.output_of("label run.mpack -o labels.csv");
+  const logs::ContactIntervals labels = logs::read_contact_intervals(folder_ / "labels.csv");
+  const auto least =
+      std::min_element(labels.intervals.begin(), labels.intervals.end(),
+                       [](const auto& one, const auto& other) { return one.sure < other.sure; });
+  const std::size_t rule = text.find("─\n");
+  ASSERT_NE(rule, std::string::npos);
+  EXPECT_THAT(text.substr(rule).substr(0, 60), HasSubstr(fmt::format("{:.3f}", *least->sure)));
+  EXPECT_THAT(text, HasSubstr("touchdown fit run.mpack --labels labels.csv --prior"));
+}
+
+/// A sensor of a robot's left leg fails for half a second.
+TEST_F(Label, NothingIsKnownWhereSignalsAreMissing) {
+  logs::Recording log = test::robot_log(4.0);
+  for (std::size_t k = 1000; k < 1500; ++k) log.observation[k].servo[0].torque = std::nan("");
+  logs::write_recording(log, folder_ / "robot.mpack");
+  const logs::ContactIntervals labels = labels_of("robot.mpack");
+  EXPECT_NE(labels.at(0.9), nullptr);
+  EXPECT_EQ(labels.at(1.25), nullptr);
+  EXPECT_NE(labels.at(1.6), nullptr);
+}
+
+TEST_F(Label, RefusesWhatItCannotLabel) {
+  logs::write_recording(test::robot_log(2.0), folder_ / "robot.mpack");
+  folder_.expect_refusals({{"label robot.mpack -o l.csv --estimator support_force",
+                            {"expected evidence curves", "found 'support_force'"}},
+                           {"label robot.mpack -o l.npz", {".csv"}},
+                           {"label robot.mpack -o robot.mpack", {"robot.mpack"}}});
+  EXPECT_FALSE(folder_.has("l.csv"));
+}
+
+}  // namespace
+}  // namespace touchdown::cli
