@@ -175,10 +175,8 @@ void LogSummary::WheelEvents::interrupt() {
   raw_.reset();
   labelled_.reset();
   constexpr double between = 0.5;  // of 0, no contact, and 1
-  stream_.emplace(
-      period_,
-      scoring::LabelConfig{.force_threshold = between, .debounce = shortest_},
-      [this](std::uint8_t contact) { label(contact != 0); });
+  stream_.emplace(period_, scoring::LabelConfig{.force_threshold = between, .debounce = shortest_},
+                  [this](std::uint8_t contact) { label(contact != 0); });
 }
 
 void LogSummary::WheelEvents::add(double time, bool contact) {

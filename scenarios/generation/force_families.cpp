@@ -66,7 +66,7 @@ Scenario draw_slow_lifts(const Draws& draws) {
 }
 
 Scenario draw_light_stands(const Draws& draws) {
-  Scenario scenario = lifted(draws, {{0.05, 2.0}, {1.0, 5.0}, {0.5, 0.97}});
+  Scenario scenario = lifted(draws, {{0.05, 2.0}, {1.0, 5.0}, {0.5, 0.9}});
   if (draws.happens("rope", 0.3)) {
     // Soft, so that its pull hardly depends on the height of the handle, some .55 m above ground.
     constexpr double handle_height = 0.55;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -21,7 +22,11 @@ TEST(Outline, CountsTheRunsAndPartsOfEveryShippedExperimentAndWritesNothing) {
     if (file.extension() != ".yaml") continue;
     const std::string name = file.stem().string();
     if (name.starts_with("nmn")) continue;  // how a network is trained
-    const Experiment experiment = experiment_from_yaml(YamlDocument::load(file));
+    Experiment experiment = experiment_from_yaml(YamlDocument::load(file));
+    constexpr std::size_t most = 22;  // of hundreds of drawn scenes, one of each family
+    for (RunsConfig* runs : {&experiment.fit, &experiment.test}) {
+      runs->scenarios.resize(std::min(runs->scenarios.size(), most));
+    }
     const RunOutline outline = experiments::outline(experiment, folder);
     const auto runs = [&](const RunsConfig& config) {
       return experiment.simulators.size() * config.scenarios.size() *

@@ -83,7 +83,7 @@ TEST(Generation, LeavesStanceAndGainsToTheRobot) {
 TEST(Generation, ObeysItsRulesAndBendsNoKneeBackwards) {
   for (const char* robot :
        {"models/upkie.xml", "models/upkie_straight.yaml", "models/upkie_straight_actuated.yaml"}) {
-    for (const GeneratedScenario& drawn : generate({.seed = 21, .count = 150})) {
+    for (const GeneratedScenario& drawn : generate({.seed = 21, .count = 66})) {
       const Scenario scenario = read(drawn, robot);
       EXPECT_EQ(scenario.name, drawn.name);
       EXPECT_FALSE(objection_to(scenario)) << drawn.text;
