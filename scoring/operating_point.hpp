@@ -25,7 +25,8 @@ struct OperatingScore {
   std::int64_t scored_us = 0;         ///< scored time, both wheels added
 
   OperatingScore& operator+=(const OperatingScore& other);
-  /// Rates; NaN if the denominator is zero.
+  /// NaN if the denominator is zero, as the rates below.
+  double balanced_accuracy() const { return points.balanced_accuracy(); }
   double extra_switches_per_flight() const { return ratio(extra_switches, flights); }
   double extra_switches_per_minute() const { return 60e6 * ratio(extra_switches, scored_us); }
   double false_takeoffs_per_minute() const { return 60e6 * ratio(false_takeoffs, scored_us); }

@@ -34,7 +34,7 @@ def table(program, folder, name, *settings):
 
 
 def point_of(row):
-    return float(row["leave_below"]), float(row["return_above"]), float(row["settle_at"] or 0.0)
+    return float(row["leave_below"]), float(row["return_above"]), float(row["settle_at"])
 
 
 def is_noisy(row):

@@ -27,20 +27,19 @@ namespace {
 constexpr const char* operating_points_name = "operating_points";
 
 /// The section `operating_points`: scores of every estimator with these thresholds instead of its
-/// own. Each `leave_below` is paired with each `return_above` that is not lower, without and with
-/// each rule in time (docs/reference/metrics.md).
+/// own. Each `leave_below` is paired with each `return_above` that is not lower, and with none and
+/// each `settle_at` (docs/reference/metrics.md).
 struct OperatingPointsConfig {
   std::vector<double> leave_below = {0.02, 0.05, 0.1, 0.15, 0.25, 0.4, 0.5, 0.6, 0.75, 0.85, 0.95};
   std::vector<double> return_above = {0.25, 0.5, 0.75, 0.9, 0.98};
-  std::vector<double> settle_at = {};
-  double settle_after = 0.02;  ///< s
+  std::vector<double> settle_at = {};  ///< for 20 ms
 };
 
 void describe(Fields& fields, OperatingPointsConfig& config, const Experiment& /*experiment*/) {
-  const auto describe_thresholds = [&](const char* key, std::vector<double>& thresholds,
-                                       bool is_optional = false) {
+  const auto describe_thresholds = [&](const char* key, std::vector<double>& thresholds) {
     const KeyNotes notes = fields.in_line(key, thresholds);
-    fields.check(is_optional || !thresholds.empty(), key, "expected at least one probability");
+    fields.check(!thresholds.empty() || &thresholds == &config.settle_at, key,
+                 "expected at least one probability");
     fields.check(thresholds.empty() ||
                      (thresholds.front() > 0.0 && thresholds.back() < 1.0 &&
                       std::is_sorted(thresholds.begin(), thresholds.end(), std::less_equal<>())),
@@ -53,9 +52,8 @@ void describe(Fields& fields, OperatingPointsConfig& config, const Experiment& /
       .doc("Thresholds of P(contact) above which contact begins.");
   fields.check(config.leave_below.front() <= config.return_above.back(), "return_above",
                "expected a threshold of at least the lowest leave_below");
-  describe_thresholds("settle_at", config.settle_at, true)
-      .doc("P(contact) on the other side of one of these changes a decision after `settle_after`.");
-  fields("settle_after", config.settle_after, 1e-3, 10.0).doc("s", "That time.");
+  describe_thresholds("settle_at", config.settle_at)
+      .doc("P(contact) beyond one of these for 20 ms changes a decision, too.");
 }
 
 /// The pairs of thresholds.
@@ -64,9 +62,9 @@ std::vector<OperatingPoint> points_of(const OperatingPointsConfig& config) {
   for (const double leave_below : config.leave_below) {
     for (const double return_above : config.return_above) {
       if (leave_below > return_above) continue;
-      points.push_back({leave_below, return_above});
-      for (const double settle_at : config.settle_at) {
-        points.push_back({leave_below, return_above, settle_at, config.settle_after});
+      points.push_back({leave_below, return_above, 0.0, 0.0});
+      for (const double at : config.settle_at) {
+        points.push_back({leave_below, return_above, at, 0.02});
       }
     }
   }
@@ -85,8 +83,7 @@ Measure operating_points_measure(const OperatingPointsConfig& config) {
         if (!made.condition.is_fitted_in_domain()) return scores;
         const RunSignals& run = made.run.signals;
         const scoring::Prediction& prediction = made.prediction;
-        using Decided = std::array<scoring::ContactSequence, models::wheel_count>;
-        const auto add = [&](const Decided& decided) {
+        const auto add = [&](const std::array<scoring::ContactSequence, 2>& decided) {
           scores.push_back(scoring::operating_score(run.contact, decided,
                                                     run.info.control_period_us, made.run.scoring));
         };
@@ -194,7 +191,7 @@ OperatingMean mean_of(const std::vector<OperatingRow>& rows) {
   return {rows.front().noise,
           rows.front().estimator,
           rows.front().thresholds,
-          mean_of_defined(rows, [](const Score& s) { return s.points.balanced_accuracy(); }),
+          mean_of_defined(rows, &Score::balanced_accuracy),
           mean_of_defined(rows, &Score::extra_switches_per_minute),
           mean_of_defined(rows, &Score::false_takeoffs_per_minute),
           mean_of_defined(rows, &Score::takeoff_error),
@@ -238,7 +235,6 @@ auto threshold(double OperatingPoint::*one) {
   };
 }
 
-/// The columns that both tables have: estimator, noise and thresholds.
 template <typename Row>
 Columns<Row> point_columns() {
   return Columns<Row>()
@@ -246,10 +242,7 @@ Columns<Row> point_columns() {
       .text("estimator", &Row::estimator)
       .text("leave_below", threshold<Row>(&OperatingPoint::leave_below))
       .text("return_above", threshold<Row>(&OperatingPoint::return_above))
-      .text("settle_at", [](const Row& row) {
-        const bool settles = row.thresholds && row.thresholds->settle_after > 0.0;
-        return settles ? exact(row.thresholds->settle_at) : std::string();
-      });
+      .text("settle_at", threshold<Row>(&OperatingPoint::settle_at));
 }
 
 Columns<OperatingRow> row_columns() {
@@ -261,8 +254,7 @@ Columns<OperatingRow> row_columns() {
       .part(std::identity(), point_columns<OperatingRow>())
       .part(&OperatingRow::score,
             Columns<Score>()
-                .metric("balanced_accuracy",
-                        [](const Score& s) { return s.points.balanced_accuracy(); })
+                .metric("balanced_accuracy", &Score::balanced_accuracy)
                 .metric("success", [](const Score& s) { return s.points.success(); })
                 .metric("extra_switches_per_minute", &Score::extra_switches_per_minute)
                 .metric("false_takeoffs_per_minute", &Score::false_takeoffs_per_minute)
@@ -287,8 +279,7 @@ std::string switches_text(double per_minute) {
   return fmt::format("{:.{}f}", per_minute, per_minute < 10.0 ? 1 : 0);
 }
 
-/// Limits on extra switches per minute.
-constexpr std::array limits = {30.0, 10.0, 3.0, 1.0};
+constexpr std::array limits = {30.0, 10.0, 3.0, 1.0};  // on extra switches per minute
 
 /// Balanced accuracy of an estimator's own decision, then of the best thresholds within each limit.
 std::vector<std::string> short_row(const OperatingMean& own,
@@ -309,7 +300,7 @@ std::vector<std::string> short_row(const OperatingMean& own,
   return cells;
 }
 
-/// For the terminal: the best balanced accuracy within limits on extra switches.
+/// For the terminal.
 std::string operating_points_text(const std::vector<OperatingMean>& means,
                                   const Experiment& experiment) {
   std::string text = fmt::format(
