@@ -77,8 +77,6 @@ std::vector<Hyperparameter> and_thresholds(std::vector<Hyperparameter> of_fit,
   // Above any usual first threshold.
   const double lowest = 0.5 * (point.leave_below + point.return_above);
   of_fit.push_back(between("return_above", point.return_above, lowest, 0.995));
-  of_fit.push_back(between("settle_at", point.settle_at, 0.5, 0.95));
-  of_fit.push_back(between("settle_after", point.settle_after, 0.0, 0.1));
   return of_fit;
 }
 

@@ -47,7 +47,7 @@ TEST(RobotLikeScenes, AreNotHarderForRobustThanForThePapersFilter) {
   for (const char* name : {"robust", "measurement_only"}) {
     EXPECT_GE(recall[name][0.0].mean(), recall["paper"][0.0].mean() - 0.01) << name;
     EXPECT_GT(recall[name][0.0].contact, 0.9) << name;  // with a fixed .1 N·m it is not
-    EXPECT_GT(recall[name][0.0].air, 0.98) << name;
+    EXPECT_GT(recall[name][0.0].air, 0.95) << name;     // offsets of torques cost .02 to .03
     // Densities of the fitted runs alone would take noise for contact.
     EXPECT_GT(recall[name][0.25].air, 0.9) << name;
     EXPECT_GT(recall[name][1.0].air, 0.7) << name;

@@ -41,7 +41,7 @@ TEST(OperatingPoints, ScoreOtherThresholdsThanTheEstimators) {
     const std::string key = cells[0] + cells[2] + cells[4];
     EXPECT_EQ(row.text("scenario"), "small_step");
     if (row.text("estimator") != "robust") continue;
-    const std::vector<std::string> numbers(cells.begin() + 7, cells.end());
+    const std::vector<std::string> numbers(cells.begin() + 8, cells.end());
     if (row.text("leave_below").empty()) own[key] = numbers;
     const bool is_its_own = row.text("leave_below") == "0.8" && row.text("return_above") == "0.8";
     if (is_its_own) at_its_own_threshold[key] = numbers;
