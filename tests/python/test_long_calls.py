@@ -43,7 +43,7 @@ INTERRUPTED_RUN = textwrap.dedent("""\
     except KeyboardInterrupt as interrupt:
         print(*getattr(interrupt, "__notes__", []))
     after = estimator.run(short)
-    print(all(np.array_equal(after[name], expected[name]) for name in expected))
+    print(all(np.array_equal(after[name], expected[name], equal_nan=True) for name in expected))
     """)
 
 
