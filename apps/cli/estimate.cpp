@@ -208,9 +208,7 @@ std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* 
     if (*session.stop && !live) throw Stopped("stopped; nothing was written");
     print_warnings(reader.warnings());
     require_valid_steps(reader, writer, evaluation.findings);
-    for (const std::string& finding : evaluation.findings) {
-      print_message(fmt::format("touchdown: {}: {}\n", reader.name(), finding));
-    }
+    print_findings(reader.name(), evaluation.findings);
     if (!outputs.figure.empty()) {
       if (writer.trace().bins().empty()) {
         throw InputError("--figure: there is no step between --from and --to");

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/cli/log_options.hpp"
 #include "apps/cli/verb.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -57,9 +58,7 @@ std::size_t report_findings(const ExportedLog& files, const CliSession& session)
   } catch (const InputError& error) {
     findings = {error.what()};  // no estimator can read the log
   }
-  for (const std::string& finding : findings) {
-    print_message(fmt::format("touchdown: {}: {}\n", files.log, finding));
-  }
+  print_findings(files.log, findings);
   return findings.size();
 }
 

@@ -59,9 +59,7 @@ void label(const LabelFlags& flags, const CliSession& session) {
       experiments::smoothed_contact(log, estimator, reader.info());
   if (*session.stop) throw Stopped("stopped; nothing was written");
   print_warnings(reader.warnings());
-  for (const std::string& finding : log.findings()) {
-    print_message(fmt::format("touchdown: {}: {}\n", reader.name(), finding));
-  }
+  print_findings(reader.name(), log.findings());
   if (labels.intervals.empty()) {
     throw Error(fmt::format("{}: none of its steps has usable signals", reader.name()));
   }

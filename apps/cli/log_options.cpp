@@ -2,7 +2,10 @@
 
 #include <span>
 
+#include <fmt/format.h>
+
 #include "core/error.hpp"
+#include "core/progress.hpp"
 #include "logs/log/byte_source.hpp"
 #include "logs/mapping/conversion.hpp"
 
@@ -55,6 +58,12 @@ logs::LogReader open_log(const std::string& path, const LogOptions& options,
             return bytes(buffer);
           },
           is_live ? "standard input" : path};
+}
+
+void print_findings(const std::string& log, const std::vector<std::string>& findings) {
+  for (const std::string& finding : findings) {
+    print_message(fmt::format("touchdown: {}: {}\n", log, finding));
+  }
 }
 
 }  // namespace touchdown::cli

@@ -35,4 +35,7 @@ struct LogOpening {
 logs::LogReader open_log(const std::string& path, const LogOptions& options,
                          const CliSession& session, const LogOpening& opening = {});
 
+/// What looks wrong in a log, a line each.
+void print_findings(const std::string& log, const std::vector<std::string>& findings);
+
 }  // namespace touchdown::cli

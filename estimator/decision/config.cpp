@@ -36,17 +36,6 @@ void check_decision_fit_config(const DecisionFitConfig& config) {
   check_augmentation_config(config.augmentation);
 }
 
-void check_operating_point(const OperatingPoint& point) {
-  if (!(point.leave_below > 0.0 && point.leave_below <= point.return_above &&
-        point.return_above < 1.0)) {
-    throw InputError("decision: leave_below and return_above must be probabilities in this order");
-  }
-  if (!(point.settle_at > 0.0 && point.settle_at < 1.0 && is_level(point.settle_after))) {
-    throw InputError(
-        "decision: settle_at must be a probability, and settle_after (s) must not be negative");
-  }
-}
-
 void check_decision_config(const DecisionConfig& config) {
   const LegGeometry& leg = config.geometry;
   if (!(std::isfinite(config.sample_rate) && config.sample_rate > 0.0 && leg.upper_length > 0.0 &&
@@ -65,7 +54,14 @@ void check_decision_config(const DecisionConfig& config) {
         "decision: wheel_inertia (kg·m²), difference (s) and smoothing (s per N·m) must "
         "not be negative");
   }
-  check_operating_point(point_of(config));
+  if (!(config.leave_below > 0.0 && config.leave_below <= config.return_above &&
+        config.return_above < 1.0)) {
+    throw InputError("decision: leave_below and return_above must be probabilities in this order");
+  }
+  if (!(config.settle_at > 0.0 && config.settle_at < 1.0 && is_level(config.settle_after))) {
+    throw InputError(
+        "decision: settle_at must be a probability, and settle_after (s) must not be negative");
+  }
 }
 
 }  // namespace touchdown

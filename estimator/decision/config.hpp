@@ -72,7 +72,6 @@ struct DecisionConfig {
 }
 
 /// Throw InputError for invalid values.
-void check_operating_point(const OperatingPoint& point);
 void check_decision_fit_config(const DecisionFitConfig& config);
 void check_decision_config(const DecisionConfig& config);
 

@@ -51,7 +51,6 @@ class LogitDecision {
 
  private:
   DecisionConfig config_;
-  OperatingPoint point_;
   FeatureExtractor features_;
   FeatureExtractor::Step step_;
   std::array<double, 2> logit_{};  ///< low-passed

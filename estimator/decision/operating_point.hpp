@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 
 namespace touchdown {
 
@@ -17,6 +18,10 @@ struct OperatingPoint {
 
   bool operator==(const OperatingPoint&) const = default;
 };
+
+/// The names of its numbers in configurations.
+inline constexpr std::array<const char*, 4> operating_point_keys = {"leave_below", "return_above",
+                                                                    "settle_at", "settle_after"};
 
 /// One wheel's decision by an operating point.
 class ContactDecision {

@@ -175,9 +175,7 @@ ConfigurationText configuration_for(const ModelMetadata& metadata, const std::st
     configuration = metadata.configuration;
   } else if (recipe(estimator).fit == curves_fit) {
     configuration = metadata.configuration;
-    for (const char* threshold : {"leave_below", "return_above", "settle_at", "settle_after"}) {
-      configuration.erase(threshold);
-    }
+    for (const char* key : operating_point_keys) configuration.erase(key);
   }
   if (replaced.empty()) return configuration;
   const ConfigurationText usual = recipe(estimator).configuration(metadata.sample_rate, {}, false);

@@ -77,9 +77,7 @@ std::unique_ptr<ContactEstimator> make_boosted_trees(const EstimatorEntry& entry
                      .legs = setup.legs.value_or(LegGeometry{}),
                      .servo_load = parameter(parameters, "servo_load") != 0.0},
           .point = {.leave_below = entry.chosen("leave_below"),
-                    .return_above = entry.chosen("return_above"),
-                    .settle_at = network_point.settle_at,
-                    .settle_after = network_point.settle_after}});
+                    .return_above = entry.chosen("return_above")}});
 }
 
 template <typename Inputs>

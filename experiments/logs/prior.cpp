@@ -32,7 +32,7 @@ auto naming(const FitPrior& prior, const auto& make) {
 
 /// The same mean of the thresholds, which the curves' scale goes with.
 void mix_thresholds(const ConfigurationText& prior, double weight, ConfigurationText& own) {
-  for (const char* const name : {"leave_below", "return_above", "settle_at", "settle_after"}) {
+  for (const char* const name : operating_point_keys) {
     const auto other = prior.find(name);
     const auto value = own.find(name);
     if (other == prior.end() || value == own.end()) continue;

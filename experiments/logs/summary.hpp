@@ -22,8 +22,8 @@ namespace touchdown::experiments {
 /// Writes beliefs as comma-separated values, one line per step: time (s), contact probability and
 /// decision (1 or 0) of each wheel, P(any wheel in contact), P(both wheels in contact), P(takeoff)
 /// and P(landing) of the transition model, status, normal force of each wheel and its standard
-/// deviation (N). Numbers are the shortest that read back to the
-/// same bits; `nan` stands for values that an estimator does not compute.
+/// deviation (N). Numbers are the shortest that read back to the same bits; `nan` stands for values
+/// that an estimator does not compute.
 class BeliefCsv {
  public:
   /// Writes the header. `stream` must outlive this.

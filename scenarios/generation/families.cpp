@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -142,22 +143,24 @@ Scenario draw_bending_hops(const Draws& draws) {
 
 // A scene of another family, with a difference.
 
-/// Draws a scene of one of the first `count` families.
-Scenario of_another_family(const Draws& draws, int count) {
-  const auto family = static_cast<std::size_t>(draws.whole("family", 0, count - 1));
-  return families()[family].draw(draws.of("scene", 0));
+/// Draws a scene of one of the families that are listed before this one.
+Scenario of_family_before(std::string_view name, const Draws& draws) {
+  const std::vector<Family>& all = families();
+  const auto end = std::ranges::find(all, name, &Family::name);
+  const int last = static_cast<int>(end - all.begin()) - 1;
+  return all[static_cast<std::size_t>(draws.whole("family", 0, last))].draw(draws.of("scene", 0));
 }
 
 /// A payload that estimators do not know of.
 Scenario draw_payloads(const Draws& draws) {
-  Scenario scenario = of_another_family(draws, static_cast<int>(families().size()) - 3);
+  Scenario scenario = of_family_before("payloads", draws);
   scenario.deviations.payload = draws.between("payload", 0.5, 3.5);
   scenario.deviations.com_z = draws.between("com_z", 0.0, 0.05);
   return scenario;
 }
 
 Scenario on_tyres(const Draws& draws, const models::Tyre& tyre) {
-  Scenario scenario = of_another_family(draws, static_cast<int>(families().size()) - 2);
+  Scenario scenario = of_family_before("soft_tyres", draws);
   scenario.tyre = tyre;
   scenario.forces_for_mass = written_mass;
   return scenario;
