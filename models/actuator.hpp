@@ -15,14 +15,21 @@ namespace touchdown::models {
 ///     τ_lag·dτ/dt = τ* − τ                        the torque that the servo estimates and reports
 ///     joint torque = (1 + torque_error)·τ + ripple·sin(ripple_cycles·q) − friction(q) − viscous·q̇
 ///
-/// friction(q) is Coulomb friction with stiction. Presliding is elastic and critically damped, with
-/// `presliding_stiffness`; the joint slides once it holds ± `friction`. A joint at rest does not
+/// With `backlash`, the rotor (`armature`) crosses the play under the motor's torque, and the joint
+/// has none meanwhile. Position and velocity of the servo's law, and those that it reports, are the
+/// rotor's. The rotor comes to rest at the flank.
+///
+/// friction(q) is Coulomb friction with stiction, of `friction` + `load_friction`·|τ|, because
+/// gears lose a share of what they transmit. Presliding is elastic and critically damped, with
+/// `presliding_stiffness`; the joint slides once it holds that much. A joint at rest does not
 /// creep under any smaller torque.
 struct Actuator {
   double friction = 0.0;              ///< Coulomb friction (N·m)
+  double load_friction = 0.0;         ///< of the torque, a share that gears lose
   double presliding_stiffness = 400;  ///< of the joint while it sticks (N·m/rad)
   double viscous = 0.0;               ///< viscous friction (N·m·s/rad)
   double armature = 0.0;       ///< rotor inertia seen at the joint, gear² × rotor (kg·m²)
+  double backlash = 0.0;       ///< play of the gears at the joint (rad)
   double torque_lag = 0.0;     ///< time constant of the torque (s)
   double command_delay = 0.0;  ///< from the policy to the servo, in whole control steps (s)
   double maximum_torque = std::numeric_limits<double>::infinity();  ///< saturation (N·m)
@@ -35,8 +42,8 @@ struct Actuator {
 
   /// Whether the torque of the servo's law acts on the joint unchanged.
   bool is_ideal() const {
-    return friction == 0.0 && viscous == 0.0 && torque_lag == 0.0 && command_delay == 0.0 &&
-           ripple == 0.0 && torque_error == 0.0;
+    return friction == 0.0 && load_friction == 0.0 && viscous == 0.0 && torque_lag == 0.0 &&
+           command_delay == 0.0 && ripple == 0.0 && torque_error == 0.0 && backlash == 0.0;
   }
 };
 

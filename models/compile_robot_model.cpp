@@ -49,10 +49,13 @@ namespace {
 
 /// Sets the actuators of the robot's file in the model. MuJoCo simulates the rotor inertia; the
 /// simulators add everything else (simulators/actuators.hpp).
-void set_actuators(RobotModel& robot, const RobotDescription& description) {
+void set_actuators(RobotModel& robot, const RobotDescription& description, const RobotKeys& keys) {
   for (std::size_t i = 0; i < servo_count; ++i) {
     if (const auto& given = description.actuator(static_cast<Servo>(i))) robot.actuator[i] = *given;
     if (robot.motor_joint[i] < 0) continue;
+    if (robot.actuator[i].backlash > 0.0 && robot.closed_leg[i / 3] && i % 3 != 2) {
+      keys.fail("actuators", "expected no backlash of hips and knees for legs with closed loops");
+    }
     const int dof = robot.mj->jnt_dofadr[robot.motor_joint[i]];
     robot.effort[i] = std::min(robot.effort[i], robot.actuator[i].maximum_torque);
     robot.mj->dof_armature[dof] = robot.actuator[i].armature;
@@ -180,7 +183,7 @@ RobotModel compile_robot_model(const std::filesystem::path& file, const Terrain&
                        source.findings.ignored.end());
   apply_conventions(robot, final_contract);
   find_closed_legs(robot, description, source.findings.effort, final_contract);
-  set_actuators(robot, description);
+  set_actuators(robot, description, keys);
   set_size(robot, description, keys);
   measure_closed_legs(robot, source.loops, final_contract);
   check_stance(robot, description, keys);

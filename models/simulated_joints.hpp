@@ -30,7 +30,7 @@ struct Presliding {
 };
 
 inline Presliding presliding(const Actuator& actuator, double inertia, double period) {
-  if (actuator.friction == 0.0) return {};
+  if (actuator.friction == 0.0 && actuator.load_friction == 0.0) return {};
   const double stiffness = stable_stiffness(actuator.presliding_stiffness, inertia, period);
   return {stiffness, 2.0 * std::sqrt(stiffness * inertia)};
 }

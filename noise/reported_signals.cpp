@@ -74,6 +74,7 @@ class ReportingSensors::Reporter {
   void turn_wheels(std::span<const models::Observation> next);
 
   RunKey run_;
+  double leg_skew_;
   bool is_aligned_;
   bool is_attitude_ideal_;
   bool changes_acceleration_;
@@ -118,6 +119,7 @@ void for_each_block(std::span<models::Observation> steps, const Part& part) {
 ReportingSensors::Reporter::Reporter(const SensorProfile& profile, const NoiseKey& key,
                                      double period)
     : run_{key, period},
+      leg_skew_(profile.leg_skew),
       is_aligned_(profile.misalignment == Misalignment()),
       is_attitude_ideal_(is_ideal(profile.orientation)),
       changes_acceleration_(!is_aligned_ || !is_attitude_ideal_ ||
@@ -138,7 +140,8 @@ void ReportingSensors::Reporter::add_joints(const JointChannels& channels,
                                             double models::ServoReading::*member,
                                             NoiseChannel (*number)(models::Servo)) {
   for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
-    const SensorChannel& channel = channels[servo % channels.size()];
+    SensorChannel channel = channels[servo % channels.size()];
+    if (servo >= channels.size()) channel.delay += leg_skew_;  // the right leg's
     if (is_ideal(channel)) continue;
     const NoiseChannel own = number(static_cast<models::Servo>(servo));
     signals_.push_back(signal_of(

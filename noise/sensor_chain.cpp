@@ -40,6 +40,31 @@ void add_vibration(std::span<double> values, double amplitude, const TurnsOfBoth
   }
 }
 
+/// The acceleration of a mass on a spring and a damper, with a base that has these accelerations:
+/// G(s) = (2ζωs + ω²)/(s² + 2ζωs + ω²) by the bilinear transform, which keeps its frequency.
+void ring(std::span<double> values, const Mount& mount, double period, ChannelState& state) {
+  const double turn = std::numbers::pi * mount.frequency * period;  // half a step
+  if (2.0 * turn >= std::numbers::pi) return;  // too fast for these steps: rigid
+  // In units of ω: s = (1 − z)/(t (1 + z)), z being the delay by a step.
+  const double t = std::tan(turn);
+  const double damped = 2.0 * mount.damping * t;
+  const double scale = 1.0 / (1.0 + damped + t * t);
+  const std::array<double, 3> base = {scale * (damped + t * t), scale * 2.0 * t * t,
+                                      scale * (t * t - damped)};
+  const std::array<double, 2> own = {scale * 2.0 * (t * t - 1.0), scale * (1.0 - damped + t * t)};
+  auto& [first, second] = state.ringing;
+  if (state.step == 0) {  // at rest in the first acceleration
+    first = (1.0 - base[0]) * values.front();
+    second = (base[2] - own[1]) * values.front();
+  }
+  for (double& value : values) {
+    const double mass = base[0] * value + first;
+    first = base[1] * value - own[0] * mass + second;
+    second = base[2] * value - own[1] * mass;
+    value = mass;
+  }
+}
+
 void add_coloured(std::span<double> values, const ColouredNoise& noise, double period,
                   std::span<const double> normal, ChannelState& state) {
   const double kept = std::exp(-period / noise.time_constant);
@@ -128,6 +153,7 @@ void disturb_values(std::span<double> values, const SensorChannel& channel, doub
                     ChannelDraws& draws, ChannelState& state, const TurnsOfBoth* turns) {
   if (values.empty()) return;
   const auto series = [&](DrawnFor what) { return draws.series(what, state.step, values.size()); };
+  if (channel.mount.frequency > 0.0) ring(values, channel.mount, period, state);
   if (!(channel.scale == Constant())) {
     const double gain = 1.0 + constant_of(channel.scale, DrawnFor::scale, draws);
     for (double& value : values) value *= gain;

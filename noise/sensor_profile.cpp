@@ -74,6 +74,8 @@ constexpr std::array disturbances = {
     VariedDisturbance{"vibration",
                       [](SensorChannel& c) -> double& { return c.vibration.amplitude; },
                       Affects::imu, false},
+    VariedDisturbance{"mount", [](SensorChannel& c) -> double& { return c.mount.frequency; },
+                      Affects::imu, false},
     VariedDisturbance{"coloured", [](SensorChannel& c) -> double& { return c.coloured.sd; },
                       Affects::all, false},
     VariedDisturbance{"low_pass", [](SensorChannel& c) -> double& { return c.low_pass; },
@@ -121,6 +123,7 @@ std::vector<double*> numbers_of(SensorProfile& profile, std::string_view key) {
   if (words.empty() || words.size() > 3) {
     throw InputError("expected a disturbance, of all sensors, one sensor or one channel");
   }
+  if (key == "leg_skew") return {&profile.leg_skew};
   std::vector<double*> numbers;
   if (words.size() == 1) {
     const VariedDisturbance& disturbance =
@@ -208,6 +211,15 @@ void describe_values(Fields& fields, SensorChannel& channel, const Sensor& senso
                       .doc("Frequency per turning frequency of the wheel.");
                 })
         .doc("A sine for each wheel, with its turning frequency.");
+    fields
+        .within("mount",
+                [&](Fields& mount) {
+                  mount("frequency", channel.mount.frequency, 0.0, 1e4)
+                      .doc("Hz", "Natural frequency; 0: rigid.");
+                  mount("damping", channel.mount.damping, 1e-3, 10.0)
+                      .doc("Share of the critical damping.");
+                })
+        .doc("A mount that is a spring and a damper, so that the IMU rings after impacts.");
   }
   fields
       .within("coloured",
@@ -304,14 +316,16 @@ void describe(Fields& fields, SensorProfile& profile) {
   };
   fields.within("misalignment", describe_misalignment)
       .doc("Rotation of the IMU from its nominal frame.");
+  fields("leg_skew", profile.leg_skew, 0.0, 1.0)
+      .doc("s", "The right leg's joints are reported this much later than the left leg's.");
 }
 
 bool is_ideal(const SensorChannel& channel) {
   return channel.scale == Constant() && channel.bias == Constant() && channel.walk == 0.0 &&
-         channel.vibration.amplitude == 0.0 && channel.coloured.sd == 0.0 &&
-         channel.low_pass == 0.0 && channel.white == 0.0 && std::isinf(channel.range) &&
-         channel.resolution == 0.0 && channel.rate == 0.0 && channel.delay == 0.0 &&
-         channel.dropout.rate == 0.0;
+         channel.vibration.amplitude == 0.0 && channel.mount.frequency == 0.0 &&
+         channel.coloured.sd == 0.0 && channel.low_pass == 0.0 && channel.white == 0.0 &&
+         std::isinf(channel.range) && channel.resolution == 0.0 && channel.rate == 0.0 &&
+         channel.delay == 0.0 && channel.dropout.rate == 0.0;
 }
 
 bool is_ideal(const AxisChannels& channels) {
@@ -322,7 +336,8 @@ bool is_ideal(const AxisChannels& channels) {
 bool is_ideal(const SensorProfile& profile) {
   return is_ideal(profile.torque) && is_ideal(profile.position) && is_ideal(profile.velocity) &&
          is_ideal(profile.accelerometer) && is_ideal(profile.gyroscope) &&
-         is_ideal(profile.orientation) && profile.misalignment == Misalignment();
+         is_ideal(profile.orientation) && profile.misalignment == Misalignment() &&
+         profile.leg_skew == 0.0;
 }
 
 SensorProfile find_sensor_profile(const std::filesystem::path& path) {

@@ -30,6 +30,14 @@ struct Vibration {
   bool operator==(const Vibration&) const = default;
 };
 
+/// The mount of an IMU as a mass on a spring and a damper, which rings after impacts.
+struct Mount {
+  double frequency = 0.0;  ///< Hz; 0: rigid
+  double damping = 0.05;   ///< share of the critical damping
+
+  bool operator==(const Mount&) const = default;
+};
+
 /// A first-order Gauss-Markov process.
 struct ColouredNoise {
   double sd = 0.0;
@@ -60,6 +68,7 @@ struct SensorChannel {
   Constant bias = {};   ///< the channel's unit
   double walk = 0.0;    ///< random walk of the bias: its standard deviation after one second
   Vibration vibration = {};
+  Mount mount = {};
   ColouredNoise coloured = {};
   double low_pass = 0.0;  ///< time constant (s); 0: none
   double white = 0.0;     ///< standard deviation of the white noise
@@ -99,6 +108,8 @@ struct SensorProfile {
   /// Errors of the IMU's own attitude, as a rotation about its axes (rad).
   AxisChannels orientation;
   Misalignment misalignment;
+  /// The joints of the right leg are reported this much later than those of the left one (s).
+  double leg_skew = 0.0;
 
   bool operator==(const SensorProfile&) const = default;
 };
@@ -119,12 +130,13 @@ std::string to_yaml(const SensorProfile& profile);
 /// Returns the profile with one disturbance set to `value`, for sensitivity studies. `key` names
 /// the disturbance of
 /// - all sensors that can have it (`dropout`, `delay`, `scale`, `low_pass`, `rate`),
+/// - the time between legs (`leg_skew`),
 /// - one sensor (`torque.white`),
 /// - or one channel (`torque.knee.white`).
-/// `value` sets the rate of a dropout, the amplitude of a vibration, the time constant of a
-/// low-pass (s), and the standard deviation of scale, bias and coloured noise. Any other
-/// disturbance has one number only. Errors: `InputError` for an unknown key, and for a value out of
-/// range.
+/// `value` sets the rate of a dropout, the amplitude of a vibration, the frequency of a mount (Hz),
+/// the time constant of a low-pass (s), and the standard deviation of scale, bias and coloured
+/// noise. Any other disturbance has one number only. Errors: `InputError` for an unknown key, and
+/// for a value out of range.
 SensorProfile with_value(SensorProfile profile, std::string_view key, double value);
 
 }  // namespace touchdown::noise

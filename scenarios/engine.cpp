@@ -22,6 +22,7 @@ void deviate(models::RobotModel& model, const Deviations& deviations) {
   for (std::size_t i = 0; i < models::servo_count; ++i) {
     models::Actuator& actuator = model.actuator[i];
     actuator.friction *= deviations.actuator_friction_scale;
+    actuator.load_friction *= deviations.actuator_friction_scale;
     actuator.viscous *= deviations.actuator_friction_scale;
     actuator.torque_error += deviations.torque_error[i];
   }

@@ -9,10 +9,11 @@ namespace touchdown::simulators {
 JointFriction::JointFriction(const models::Actuator& actuator, double inertia, double period)
     : limit_(actuator.friction), presliding_(models::presliding(actuator, inertia, period)) {}
 
-double JointFriction::torque(double position, double velocity) {
-  torque_ = std::clamp(torque_ + presliding_.stiffness * (position - position_), -limit_, limit_);
+double JointFriction::torque(double position, double velocity, double load) {
+  const double limit = limit_ + load;
+  torque_ = std::clamp(torque_ + presliding_.stiffness * (position - position_), -limit, limit);
   position_ = position;
-  return std::clamp(torque_ + presliding_.damping * velocity, -limit_, limit_);
+  return std::clamp(torque_ + presliding_.damping * velocity, -limit, limit);
 }
 
 double servo_torque(const models::ServoCommand& command, double position, double velocity,
@@ -28,8 +29,8 @@ double servo_torque(const models::ServoCommand& command, double position, double
 
 Actuators::Actuators(const models::RobotModel& model, const StepSizes& steps)
     : ideal_(std::all_of(model.actuator.begin(), model.actuator.end(),
-                         [](const models::Actuator& a) { return a.is_ideal(); })) {
-  const double physics_period = 1e-6 * static_cast<double>(steps.physics_us);
+                         [](const models::Actuator& a) { return a.is_ideal(); })),
+      period_(1e-6 * static_cast<double>(steps.physics_us)) {
   const double control_period = 1e-6 * static_cast<double>(steps.control_us);
   for (std::size_t i = 0; i < joint_.size(); ++i) {
     Joint& joint = joint_[i];
@@ -37,10 +38,9 @@ Actuators::Actuators(const models::RobotModel& model, const StepSizes& steps)
     joint.effort = model.effort[i];  // zero without a joint
     if (model.motor_joint[i] < 0) continue;
     const int dof = model.mj->jnt_dofadr[model.motor_joint[i]];
-    joint.friction =
-        JointFriction(joint.actuator, 1.0 / model.mj->dof_invweight0[dof], physics_period);
+    joint.friction = JointFriction(joint.actuator, 1.0 / model.mj->dof_invweight0[dof], period_);
     if (joint.actuator.torque_lag > 0.0) {
-      joint.lag_gain = -std::expm1(-physics_period / joint.actuator.torque_lag);
+      joint.lag_gain = -std::expm1(-period_ / joint.actuator.torque_lag);
     }
     joint.delay =
         static_cast<std::size_t>(std::lround(joint.actuator.command_delay / control_period));
@@ -52,7 +52,7 @@ void Actuators::reset() {
   started_ = false;
   commands_.clear();
   for (Joint& joint : joint_) {
-    joint.torque = 0.0;
+    joint.torque = joint.play = joint.play_rate = 0.0;
     joint.friction.reset();
   }
 }
@@ -81,14 +81,25 @@ void Actuators::share_among_motors(const LegMotors& motors, JointTorques& torque
   }
 }
 
+double Actuators::Joint::through_backlash(double motor_torque, double period) {
+  const double flank = 0.5 * actuator.backlash;
+  if (flank == 0.0 || motor_torque == 0.0) return motor_torque;
+  const double rate = play_rate + motor_torque / actuator.armature * period;
+  const double next = play + rate * period;
+  const bool crosses = std::abs(next) < flank;
+  play = std::clamp(next, -flank, flank);
+  play_rate = crosses ? rate : 0.0;
+  return crosses ? 0.0 : motor_torque;
+}
+
 Actuators::Torques Actuators::step(const models::Action& action, const JointTorques& position,
                                    const JointTorques& velocity, const LegMotors* motors) {
   Torques torques;
   for (std::size_t i = 0; i < joint_.size(); ++i) {
     const bool is_virtual = motors != nullptr && i % 3 != 2;
-    torques.reported[i] =
-        servo_torque(action.servo[i], position[i], velocity[i],
-                     is_virtual ? std::numeric_limits<double>::infinity() : joint_[i].effort);
+    torques.reported[i] = servo_torque(
+        action.servo[i], position[i] + joint_[i].play, velocity[i] + joint_[i].play_rate,
+        is_virtual ? std::numeric_limits<double>::infinity() : joint_[i].effort);
   }
   if (motors != nullptr) share_among_motors(*motors, torques.reported);
   if (ideal_) {
@@ -104,9 +115,14 @@ Actuators::Torques Actuators::step(const models::Action& action, const JointTorq
     joint.torque += joint.lag_gain * (torques.reported[i] - joint.torque);
     const models::Actuator& a = joint.actuator;
     torques.reported[i] = joint.torque;
-    torques.applied[i] = (1.0 + a.torque_error) * joint.torque +
-                         a.ripple * std::sin(a.ripple_cycles * angle) -
-                         joint.friction.torque(angle, rate) - a.viscous * rate;
+    const double motor =
+        (1.0 + a.torque_error) * joint.torque + a.ripple * std::sin(a.ripple_cycles * angle);
+    torques.applied[i] =
+        joint.through_backlash(motor, period_) -
+        joint.friction.torque(angle, rate, a.load_friction * std::abs(joint.torque)) -
+        a.viscous * rate;
+    torques.play[i] = joint.play;
+    torques.play_rate[i] = joint.play_rate;
   }
   started_ = true;
   return torques;

@@ -26,8 +26,9 @@ class JointFriction {
   void reset() { torque_ = 0.0; }
   /// The position at which the joint starts (rad).
   void start_at(double position) { position_ = position; }
-  /// The torque that opposes the joint at `position` (rad) with `velocity` (rad/s), in N·m.
-  double torque(double position, double velocity);
+  /// The torque that opposes the joint at `position` (rad) with `velocity` (rad/s), in N·m. `load`
+  /// (N·m) adds to the friction.
+  double torque(double position, double velocity, double load = 0.0);
 
  private:
   double limit_ = 0.0;  ///< N·m
@@ -69,8 +70,10 @@ class Actuators {
   const models::Action& delayed(const models::Action& action);
 
   struct Torques {
-    JointTorques reported = {};  ///< by the servos
-    JointTorques applied = {};   ///< to the joints, without forces from the ground
+    JointTorques reported = {};   ///< by the servos
+    JointTorques applied = {};    ///< to the joints, without forces from the ground
+    JointTorques play = {};       ///< of the rotor within the backlash, ahead of its joint (rad)
+    JointTorques play_rate = {};  ///< rad/s
   };
 
   /// Simulates one physics step, at these joint positions (rad) and velocities (rad/s). Servos of
@@ -88,9 +91,14 @@ class Actuators {
     models::Actuator actuator;
     double effort = 0.0;
     JointFriction friction;
-    double lag_gain = 1.0;  ///< per physics step
-    std::size_t delay = 0;  ///< control steps
-    double torque = 0.0;    ///< that the servo reports (N·m)
+    double lag_gain = 1.0;   ///< per physics step
+    std::size_t delay = 0;   ///< control steps
+    double torque = 0.0;     ///< that the servo reports (N·m)
+    double play = 0.0;       ///< of the rotor ahead of the joint (rad)
+    double play_rate = 0.0;  ///< rad/s
+
+    /// Moves the rotor within the backlash and returns what the joint gets of the motor's torque.
+    double through_backlash(double motor_torque, double period);
   };
 
   /// Turns torques of hips and knees of closed legs into those of their motors, within their
@@ -100,6 +108,7 @@ class Actuators {
   std::array<Joint, models::servo_count> joint_;
   bool ideal_;
   bool started_ = false;
+  double period_;  ///< physics step (s)
   std::size_t longest_delay_ = 0;
   std::deque<models::Action> commands_;  ///< the last ones, oldest first
   models::Action executed_;

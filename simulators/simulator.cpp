@@ -110,7 +110,7 @@ void Simulator::step(const models::Action& action, std::span<const ExternalWrenc
     body_touched = body_touched || forces_.body_touches_terrain;
   }
   ++step_count_;
-  observe(velocity_before, torques.reported);
+  observe(velocity_before, torques);
   for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
     truth_.wheel_normal_force[wheel] = force_sum[wheel] / static_cast<double>(substeps);
   }
@@ -124,8 +124,7 @@ Eigen::Vector3d Simulator::imu_velocity() const {
          state_.angular_velocity.cross(state_.orientation * imu_position_in_base_);
 }
 
-void Simulator::observe(const Eigen::Vector3d& velocity_before,
-                        const JointTorques& reported_torques) {
+void Simulator::observe(const Eigen::Vector3d& velocity_before, const Actuators::Torques& torques) {
   const Eigen::Vector3d velocity = imu_velocity();
   const Eigen::Vector3d imu_acceleration = (velocity - velocity_before) / control_period();
   const Eigen::Matrix3d base_to_world = state_.orientation.toRotationMatrix();
@@ -139,9 +138,10 @@ void Simulator::observe(const Eigen::Vector3d& velocity_before,
   observation_.imu.linear_acceleration = imu_to_world.transpose() * imu_acceleration;
   observation_.imu.raw_linear_acceleration =
       imu_to_world.transpose() * (imu_acceleration - gravity);
-  const JointTorques at_joints = at_virtual_legs(reported_torques);
+  const JointTorques at_joints = at_virtual_legs(torques.reported);
   for (std::size_t i = 0; i < models::servo_count; ++i) {
-    observation_.servo[i] = {state_.joint_position[i], state_.joint_velocity[i], at_joints[i]};
+    observation_.servo[i] = {state_.joint_position[i] + torques.play[i],
+                             state_.joint_velocity[i] + torques.play_rate[i], at_joints[i]};
   }
   observation_.pitch = std::asin(std::clamp(-base_to_world(2, 0), -1.0, 1.0));
   observation_.pitch_rate = base_to_world.col(1).dot(state_.angular_velocity);

@@ -120,7 +120,7 @@ class Simulator {
  private:
   Eigen::Vector3d imu_velocity() const;
   /// Updates observation and truth. `velocity_before`: of the IMU a control step ago (m/s, world).
-  void observe(const Eigen::Vector3d& velocity_before, const JointTorques& reported_torques);
+  void observe(const Eigen::Vector3d& velocity_before, const Actuators::Torques& torques);
   void observe_held_joints();
   /// Reads where the motors of closed legs are, and what they do to the virtual legs.
   void update_leg_motors();

@@ -41,6 +41,7 @@ TEST(SensorProfile, ThatIsWrittenReadsBackToTheSame) {
       "accelerometer: {range: 157, vibration: {amplitude: 0.1, order: 2}, rate: 333,\n"
       "                dropout: {kind: missing, rate: 1e-3}, x: {white: 0.1}}\n"
       "orientation: {coloured: {sd: 0.01, time_constant: 3}}\n"
+      "gyroscope: {mount: {frequency: 45, damping: 0.2}}\nleg_skew: 0.004\n"
       "misalignment: {pitch: 0.02, sd: 0.01}\n");
   EXPECT_EQ(read(to_yaml(profile)), profile);
   EXPECT_FALSE(is_ideal(profile));
@@ -52,8 +53,9 @@ TEST(SensorProfile, IsNotIdealOnceAnyOfItsDisturbancesChangesAnything) {
         "position: {bias: {walk: 0.1}}", "gyroscope: {vibration: {amplitude: 0.1}}",
         "velocity: {coloured: {sd: 0.1}}", "velocity: {hip: {low_pass: {time_constant: 0.1}}}",
         "velocity: {white: 0.1}", "accelerometer: {z: {range: 100}}", "position: {resolution: 0.1}",
-        "gyroscope: {rate: 100}", "orientation: {delay: 0.1}",
-        "torque: {wheel: {dropout: {rate: 0.1}}}", "misalignment: {yaw: 0.1}"}) {
+        "gyroscope: {rate: 100}", "orientation: {delay: 0.1}", "leg_skew: 0.002",
+        "accelerometer: {mount: {frequency: 30}}", "torque: {wheel: {dropout: {rate: 0.1}}}",
+        "misalignment: {yaw: 0.1}"}) {
     EXPECT_FALSE(is_ideal(read(text))) << text;
   }
   EXPECT_EQ(read("{}"), SensorProfile());
@@ -145,6 +147,7 @@ TEST(AVariedProfile, DiffersInTheNamedChannelAlone) {
   expected.accelerometer[2].bias.sd = 0.4;
   EXPECT_EQ(with_value({}, "accelerometer.z.bias", 0.4), expected);
   EXPECT_EQ(with_value({}, "gyroscope.vibration", 0.1).gyroscope[1].vibration.amplitude, 0.1);
+  EXPECT_EQ(with_value({}, "leg_skew", 0.01).leg_skew, 0.01);
 }
 
 TEST(SensorKeys, HaveTheDefaultsOfAFileThatGivesNone) {

@@ -76,6 +76,22 @@ TEST(Reported, IdealSensorsReportWhatIsRecordedToTheBit) {
               IsEmpty());
 }
 
+TEST(Reported, TheRightLegsJointsComeLaterByTheSkewThanTheLeftOnes) {
+  const Steps run = tumbling(100);
+  const Steps late = reported("leg_skew: 0.004\ntorque: {delay: 0.002}\n", run);
+  for (std::size_t k = 6; k < run.size(); ++k) {
+    for (std::size_t joint = 0; joint < 3; ++joint) {
+      const std::size_t right = joint + 3;
+      ASSERT_EQ(late[k].servo[joint].torque, run[k - 2].servo[joint].torque);
+      ASSERT_EQ(late[k].servo[right].torque, run[k - 6].servo[right].torque);
+      ASSERT_EQ(late[k].servo[joint].position, run[k].servo[joint].position);
+      ASSERT_EQ(late[k].servo[right].position, run[k - 4].servo[right].position);
+      ASSERT_EQ(late[k].servo[right].velocity, run[k - 4].servo[right].velocity);
+    }
+    ASSERT_EQ(late[k].imu.angular_velocity, run[k].imu.angular_velocity);
+  }
+}
+
 TEST(Reported, EverySensorOfTheProfileChangesItsOwnNumbersOnly) {
   const Steps run = tumbling(50);
   const auto changed = [&](const std::string& text) { return different(reported(text, run), run); };

@@ -42,6 +42,46 @@ TEST(SensorValues, AreScaledBiasedClippedAndRoundedInTurn) {
   }
 }
 
+TEST(SensorValues, OfAMountRingAtItsFrequencyAfterAnImpactAndDecayByItsDamping) {
+  constexpr double damping = 0.1;
+  for (const double frequency : {17.0, 30.0, 80.0}) {
+    std::vector<double> impact(2000);
+    impact[100] = 50.0;
+    const auto rings = through({.mount = {.frequency = frequency, .damping = damping}}, impact);
+    for (std::size_t k = 0; k < 100; ++k) ASSERT_EQ(rings[k], 0.0);
+    // Times and heights of the maxima, each by a parabola.
+    std::vector<std::array<double, 2>> maxima;
+    for (std::size_t k = 102; k + 1 < rings.size() && maxima.size() < 5; ++k) {
+      const double slope = 0.5 * (rings[k + 1] - rings[k - 1]);
+      const double bend = rings[k + 1] - 2.0 * rings[k] + rings[k - 1];
+      if (rings[k] < rings[k - 1] || rings[k] <= rings[k + 1]) continue;
+      maxima.push_back({(static_cast<double>(k) - slope / bend) * period,
+                        rings[k] - 0.5 * slope * slope / bend});
+    }
+    ASSERT_EQ(maxima.size(), 5U);
+    const double root = std::sqrt(1.0 - damping * damping);
+    EXPECT_NEAR((maxima[4][0] - maxima[0][0]) / 4.0, 1.0 / (frequency * root), 0.01 / frequency);
+    EXPECT_NEAR(std::log(maxima[0][1] / maxima[4][1]) / 4.0,
+                2.0 * std::numbers::pi * damping / root, 0.03);
+  }
+}
+
+TEST(SensorValues, OfAMountRestInAConstantAndResonateAtItsFrequency) {
+  const SensorChannel mounted = {.mount = {.frequency = 40.0, .damping = 0.05}};
+  for (const double value : through(mounted, std::vector<double>(500, 9.81))) {
+    ASSERT_NEAR(value, 9.81, 1e-9);
+  }
+  std::vector<double> sine(4000);
+  for (std::size_t k = 0; k < sine.size(); ++k) {
+    sine[k] = std::sin(2.0 * std::numbers::pi * 40.0 * period * static_cast<double>(k));
+  }
+  const auto resonant = through(mounted, sine);
+  const double gain = std::sqrt(1.0 + 4.0 * 0.05 * 0.05) / (2.0 * 0.05);
+  EXPECT_NEAR(*std::max_element(resonant.end() - 1000, resonant.end()), gain, 0.02 * gain);
+  // Beyond half the sample rate it is rigid.
+  EXPECT_EQ(through({.mount = {.frequency = 500.0}}, sine), sine);
+}
+
 TEST(SensorValues, ADrawnBiasAndADrawnScaleErrorAreConstantInARunAndDifferFromRunToRun) {
   constexpr std::size_t runs = 20'000;
   std::vector<double> biases;

@@ -113,6 +113,52 @@ TEST_P(Actuated, WheelIsSlowedDownEvenlyByCoulombFriction) {
   EXPECT_NEAR(before - spin(*simulator), 0.3 * 0.01 / inertia_, 1e-3 * 0.3 * 0.01 / inertia_);
 }
 
+TEST_P(Actuated, GearsLoseAShareOfTheirTorqueDrivingAndBraking) {
+  // The share opposes the motion, so that it takes from a driving torque and adds to a braking one.
+  for (const double torque : {0.2, -0.2}) {
+    const auto simulator = wheel_with({.load_friction = 0.15, .presliding_stiffness = 20.0}, 200.0);
+    push(*simulator, torque, 50);
+    const double before = spin(*simulator);
+    push(*simulator, torque, 50);
+    const double expected = 0.05 * (torque - 0.15 * 0.2) / inertia_;
+    EXPECT_NEAR(spin(*simulator) - before, expected, 2e-3 * std::abs(expected)) << torque;
+    EXPECT_EQ(simulator->observation().servo[left_wheel].torque, torque) << "as reported";
+  }
+}
+
+TEST_P(Actuated, RotorsCrossTheBacklashBeforeTheJointGetsTheirTorque) {
+  // The torque turns the rotor alone across the play, in √(2bJ/τ), and then the wheel with it.
+  constexpr double torque = 0.1, backlash = 0.01, armature = 0.002;
+  const auto simulator = wheel_with({.armature = armature, .backlash = backlash});
+  push(*simulator, -torque, 100);  // against the lower flank
+  const double before = spin(*simulator);
+  const double crossing = std::sqrt(2.0 * backlash * armature / torque);  // 20 ms
+  push(*simulator, torque, 10);
+  const auto& reported = simulator->observation().servo[left_wheel];
+  EXPECT_NEAR(spin(*simulator), before, 1e-6) << "the wheel coasts";
+  EXPECT_NEAR(reported.velocity - before, torque / armature * 0.01, 1e-9);
+  push(*simulator, torque, 90);
+  const double driven = 0.1 - crossing;  // s
+  const double expected = torque * driven / (inertia_ + armature);
+  EXPECT_NEAR(spin(*simulator) - before, expected, 0.03 * expected);
+  EXPECT_NEAR(reported.position - simulator->state().joint_position[left_wheel], 0.5 * backlash,
+              1e-9);
+  EXPECT_NEAR(reported.velocity, spin(*simulator), 1e-9);
+}
+
+TEST_P(Actuated, RotorsWithoutInertiaCrossTheBacklashAtOnce) {
+  const auto simulator = wheel_with({.backlash = 0.02}, 3.0);
+  for (const double torque : {0.05, -0.05, 0.05}) {
+    const double before = spin(*simulator);
+    push(*simulator, torque, 20);
+    const double expected = torque * 0.02 / inertia_;
+    EXPECT_NEAR(spin(*simulator) - before, expected, 1e-3 * std::abs(expected));
+    EXPECT_NEAR(simulator->observation().servo[left_wheel].position -
+                    simulator->state().joint_position[left_wheel],
+                std::copysign(0.01, torque), 1e-9);
+  }
+}
+
 TEST_P(Actuated, WheelDoesNotCreepUnderLessThanItsFriction) {
   const Actuator actuator{.friction = 0.01, .presliding_stiffness = 20.0, .viscous = 1e-3};
   const auto simulator = wheel_with(actuator);
