@@ -20,6 +20,9 @@ namespace touchdown::cli {
 
 namespace {
 
+constexpr const char* shipped_model = "models/evidence_curves.npz";
+constexpr const char* without_takeoffs = "force_kinematics";
+
 struct FitFlags {
   std::vector<std::string> logs;
   std::vector<std::string> contact;
@@ -143,16 +146,19 @@ void add_fit_flags(Verb& verb, FitFlags& flags) {
               "start,end,left,right")
       .value_name("FILE.csv");
   verb.option("-o,--output", &flags.output, "Model to write").value_name("FILE.npz").required();
-  verb.option("--estimator", &flags.estimator,
-              "Estimator: " + fitted_estimators() +
-                  " (default: evidence_curves; robust with flags for densities)");
+  verb.option(
+      "--estimator", &flags.estimator,
+      "Estimator: " + fitted_estimators() +
+          " (default: evidence_curves; force_kinematics without a takeoff in the logs; robust with "
+          "flags for densities)");
   verb.option("--set", &flags.hyperparameters,
               "Run and fit the estimator with another value of a hyperparameter, for example\n"
               "leave_below=0.25")
       .value_name("NAME=NUMBER")
       .one_at_a_time();
   verb.flag("--no-accuracy", &flags.skips_accuracy,
-            "Leave out the accuracy on left-out logs, which takes five more fits");
+            "Leave out the accuracy on left-out logs, which takes five more fits, and that of the\n"
+            "shipped model");
   verb.option("--prior", &flags.prior,
               "Model of evidence curves, such as models/evidence_curves.npz: the result is the "
               "mean of\nboth. The more the logs hold of both classes, the more they weigh")
@@ -205,7 +211,8 @@ void show_samples(const experiments::LogFitReport& report, bool with_bandwidth) 
   }
 }
 
-/// A model that agrees with wrong labels does so on its own logs: only the others count.
+/// What a model has on its own logs misleads: a model that agrees with wrong labels agrees with
+/// them there. So it stands beside what models have on steps that they were not fitted to.
 void show_accuracy(const experiments::EstimatorEntry& entry,
                    const std::vector<experiments::FitLog>& logs,
                    const experiments::LogFitConfig& config, const Model& model) {
@@ -214,16 +221,53 @@ void show_accuracy(const experiments::EstimatorEntry& entry,
     return std::filesystem::is_regular_file(log.path, ignored);
   };
   if (!std::all_of(logs.begin(), logs.end(), can_be_read_again)) return;
+  experiments::FitAccuracy accuracy;
   try {
-    const experiments::FitAccuracy accuracy =
-        experiments::accuracy_of_fit(entry, logs, config, model);
-    print("{:<12} {:.4f} on these logs, {}\n", "accuracy", accuracy.fitted,
-          accuracy.held_out
-              ? fmt::format("{:.4f} on each by a model of the others", *accuracy.held_out)
-              : "of which none can be left out to judge the model by it");
+    accuracy = experiments::accuracy_of_fit(entry, logs, config, model);
   } catch (const Stopped&) {
     throw Stopped("stopped; the model was written, and not judged");
   }
+  print("{:<12} balanced accuracy {:.4f} on these logs, {}\n", "accuracy", accuracy.fitted,
+        !accuracy.held_out ? "of which no part can be left out to judge the model by it"
+        : accuracy.by_parts
+            ? fmt::format("{:.4f} on every other {:g} s by a model of the rest", *accuracy.held_out,
+                          experiments::part_length)
+            : fmt::format("{:.4f} on each by a model of the others", *accuracy.held_out));
+  if (!accuracy.shipped) return;
+  print("{:<12} balanced accuracy {:.4f} of the shipped model on these logs\n", "",
+        *accuracy.shipped);
+  const double own = accuracy.held_out.value_or(accuracy.fitted);
+  if (own >= *accuracy.shipped) return;
+  print_message(
+      fmt::format("touchdown: the shipped model is better on these logs ({:.4f} against {:.4f}): "
+                  "use it, or fit "
+                  "evidence_curves with --prior {}\n",
+                  *accuracy.shipped, own, shipped_model));
+}
+
+/// Fits to logs. Without a name, and without a takeoff in the logs, estimators with a few physical
+/// parameters extrapolate best.
+Model fit_chosen(const FitFlags& flags, const std::vector<experiments::FitLog>& logs,
+                 const experiments::LogFitConfig& config, experiments::EstimatorEntry& entry,
+                 experiments::LogFitReport& report) {
+  Model model = experiments::fit_to_logs(entry, logs, config, report);
+  if (report.takeoffs.value_or(1) > 0 || entry.name == without_takeoffs) return model;
+  constexpr const char* missing = "touchdown: these logs hold no takeoff of a wheel, so that ";
+  if (flags.estimator.empty() && flags.prior.empty() && flags.hyperparameters.empty() &&
+      !flags.config.servo_load) {
+    print_message(
+        fmt::format("{}{} is fitted: {} would not know the moments of takeoffs and "
+                    "landings\n",
+                    missing, without_takeoffs, entry.name));
+    entry = experiments::estimator_entry(without_takeoffs);
+    report = {};
+    return experiments::fit_to_logs(entry, logs, config, report);
+  }
+  report.warnings.push_back(fmt::format(
+      "{} does not know the moments of takeoffs and landings: add a log with flights and labels, "
+      "or fit --estimator {}",
+      entry.name, without_takeoffs));
+  return model;
 }
 
 void fit(const FitFlags& flags, const CliSession& session) {
@@ -253,7 +297,7 @@ void fit(const FitFlags& flags, const CliSession& session) {
   require_extension(flags.output, {".npz"}, "a model");
   require_different(logs);
   experiments::LogFitReport report;
-  const Model model = experiments::fit_to_logs(entry, logs, config, report);
+  const Model model = fit_chosen(flags, logs, config, entry, report);
   logs::save_model(model, flags.output);
   print_warnings(report.warnings);
   if (report.unusable > 0) {

@@ -236,6 +236,17 @@ std::vector<RunSignals> signals_of_logs(std::span<const FitLog> logs, const LogF
   return runs;
 }
 
+/// How often a wheel leaves the ground in the used part of the run.
+std::size_t takeoffs_of_wheels(const RunSignals& run, std::size_t skipped) {
+  std::size_t takeoffs = 0;
+  for (const scoring::ContactSequence& contact : run.contact) {
+    for (const scoring::Flight& flight : scoring::flights(contact)) {
+      if (flight.takeoff > skipped) ++takeoffs;
+    }
+  }
+  return takeoffs;
+}
+
 /// Whether both wheels leave the ground together in the used part of the run.
 bool has_takeoff(const RunSignals& run, std::size_t skipped) {
   const scoring::ContactSequence any = scoring::any_wheel(run.contact);
@@ -273,6 +284,10 @@ std::vector<RunSignals> logs_of_both_classes(std::span<const FitLog> logs,
          double /*before*/) { reader.require_truth(); },
       report, skipped);
   require_both_classes(report.samples, skipped, config.skip);
+  report.takeoffs = 0;
+  for (const RunSignals& run : runs) {
+    *report.takeoffs += takeoffs_of_wheels(run, skipped_steps(run, config.skip));
+  }
   return runs;
 }
 

@@ -29,7 +29,10 @@ struct FitLog {
   std::shared_ptr<const logs::Recording> recording = {};
   /// Labels of segments of the log; steps between the segments are left out.
   std::shared_ptr<const logs::ContactIntervals> labels = {};
+  /// Every second part of the log alone, of `part_length`: the even (0) or the odd ones (1).
+  std::optional<int> part = {};
 };
+inline constexpr double part_length = 10.0;  // s
 
 /// A model of evidence curves that a fit starts from: the result is the mean of both.
 struct FitPrior {
@@ -76,6 +79,8 @@ struct LogFitReport {
   };
   std::array<DeclaredLoad, 2> declared_load = {};
   double weight = 1.0;  ///< of these logs in the model, beside a prior
+  /// Of a wheel, in what is fitted; nothing if an estimator needs none.
+  std::optional<std::size_t> takeoffs = {};
   std::vector<std::string> warnings;
 };
 
@@ -98,8 +103,8 @@ class FitLogSteps {
 
   /// The next step, valid until the next call; null at the end of the log.
   const LogStep* next();
-  /// Whether the step is one of a labelled segment, or the log is not labelled by segments.
-  bool is_covered() const { return !log_.labels || step_->normal_force; }
+  /// Whether the step is in the log's part, and in a labelled segment if it has labels.
+  bool is_covered() const;
   /// Errors: `InputError` for a step without ground truth or labels of contact.
   void require_truth() const;
 
@@ -153,16 +158,20 @@ Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
 /// run of the same scene.
 bool was_fitted_to(const Model& model, const LogSteps& log, const logs::RecordingInfo& info);
 
-/// The share of right decisions about both wheels, as `touchdown estimate` prints it.
+/// Balanced accuracy of both wheels, as `touchdown estimate` prints it.
 struct FitAccuracy {
   double fitted = 0.0;  ///< of the model on the logs that it was fitted to
-  /// On every log by a model of the others; of more than five logs some are left out together.
-  /// Nothing if a model needs them all.
+  /// On what a model is not fitted to: on every log by a model of the others, where of more than
+  /// five logs some are left out together. Where these lack a class, on every second part of all
+  /// logs by a model of the other parts. Nothing if neither suffices.
   std::optional<double> held_out = {};
+  bool by_parts = false;
+  /// Of the shipped model on the same steps; nothing at a rate that it does not serve.
+  std::optional<double> shipped = {};
 };
 
-/// Estimates the logs of a fit with its model, and with models that are fitted again. Errors: as
-/// above.
+/// Estimates the logs of a fit with its model, with models that are fitted again, and with the
+/// shipped one. Errors: as above.
 FitAccuracy accuracy_of_fit(const EstimatorEntry& entry, std::span<const FitLog> logs,
                             const LogFitConfig& config, const Model& model);
 

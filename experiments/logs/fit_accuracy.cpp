@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -13,12 +15,12 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// Adds the score of a model on a log with contact that is known by its truth, labels or class.
-void add_score(const EstimatorEntry& entry, const Model& model, const FitLog& log,
-               const LogFitConfig& config, scoring::RobotScore& total) {
+/// Adds the score of an estimator on the covered steps of a log, whose contact is known by its
+/// truth, labels or class.
+void add_score(const LogEstimator& chosen, const FitLog& log, const LogFitConfig& config,
+               scoring::RobotScore& total) {
   LogFitReport unused;
   FitLogSteps reader(log, config, unused);
-  const LogEstimator chosen = log_estimator(entry, model, config.robot);
   const auto estimator = chosen.make(reader.steps().sample_rate(), reader.info());
   LogScore score(reader.steps().period_us(), config.labels, {.skip = config.skip}, true);
   while (const LogStep* step = reader.next()) {
@@ -27,44 +29,95 @@ void add_score(const EstimatorEntry& entry, const Model& model, const FitLog& lo
       const double force = *log.contact ? std::numeric_limits<double>::infinity() : 0.0;
       known.normal_force = {force, force};
     }
+    if (!reader.is_covered()) known.normal_force.reset();
     score.add(known, estimator->update(step->signals));
   }
   stop_if_asked(config);
   if (const auto scored = score.finish()) total += *scored;
 }
 
+double balanced(const std::vector<scoring::RobotScore>& scores) {
+  scoring::RobotScore all;
+  for (const scoring::RobotScore& one : scores) all += one;
+  return all.wheels().points.balanced_accuracy();
+}
+
+/// What a model is fitted to, and what it is judged by.
+struct Fold {
+  std::vector<FitLog> fitted, tested;
+};
+
+std::vector<Fold> folds_of_logs(std::span<const FitLog> logs) {
+  constexpr std::size_t most_folds = 5;
+  if (logs.size() < 2) return {};
+  std::vector<Fold> folds(std::min(logs.size(), most_folds));
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    for (std::size_t fold = 0; fold < folds.size(); ++fold) {
+      Fold& one = folds[fold];
+      (i % folds.size() == fold ? one.tested : one.fitted).push_back(logs[i]);
+    }
+  }
+  return folds;
+}
+
+std::vector<Fold> folds_of_parts(std::span<const FitLog> logs) {
+  std::vector<Fold> folds(2);
+  for (FitLog log : logs) {
+    for (int part = 0; part < 2; ++part) {
+      log.part = part;
+      folds[static_cast<std::size_t>(part)].fitted.push_back(log);
+      folds[static_cast<std::size_t>(1 - part)].tested.push_back(log);
+    }
+  }
+  return folds;
+}
+
+/// Nothing without folds, or if a fold's logs lack a class or a takeoff.
+std::optional<double> held_out(const EstimatorEntry& entry, const std::vector<Fold>& folds,
+                               const LogFitConfig& config) {
+  std::vector<scoring::RobotScore> scores(folds.size());
+  std::atomic<bool> is_judged = !folds.empty();
+  tbb::parallel_for(std::size_t{0}, folds.size(), [&](std::size_t fold) {
+    LogFitReport unused;
+    Model other;
+    try {
+      other = fit_to_logs(entry, folds[fold].fitted, config, unused);
+    } catch (const InputError&) {
+      is_judged = false;
+      return;
+    }
+    const LogEstimator estimator = log_estimator(entry, std::move(other), config.robot);
+    for (const FitLog& log : folds[fold].tested) add_score(estimator, log, config, scores[fold]);
+  });
+  if (!is_judged) return {};
+  const double accuracy = balanced(scores);
+  return std::isnan(accuracy) ? std::nullopt : std::optional(accuracy);
+}
+
+double score_on(std::span<const FitLog> logs, const LogEstimator& estimator,
+                const LogFitConfig& config) {
+  std::vector<scoring::RobotScore> scores(logs.size());
+  tbb::parallel_for(std::size_t{0}, logs.size(),
+                    [&](std::size_t i) { add_score(estimator, logs[i], config, scores[i]); });
+  return balanced(scores);
+}
+
 }  // namespace
 
 FitAccuracy accuracy_of_fit(const EstimatorEntry& entry, std::span<const FitLog> logs,
                             const LogFitConfig& config, const Model& model) {
-  constexpr std::size_t most_folds = 5;
-  const std::size_t folds = logs.size() < 2 ? 0 : std::min(logs.size(), most_folds);
-  std::vector<scoring::RobotScore> held_out(folds);
-  std::atomic<bool> is_judged = folds > 0;
-  tbb::parallel_for(std::size_t{0}, folds, [&](std::size_t fold) {
-    std::vector<FitLog> others;
-    for (std::size_t i = 0; i < logs.size(); ++i) {
-      if (i % folds != fold) others.push_back(logs[i]);
-    }
-    LogFitReport unused;
-    Model other;
-    try {
-      other = fit_to_logs(entry, others, config, unused);
-    } catch (const InputError&) {
-      is_judged = false;  // the others lack a class or a takeoff
-      return;
-    }
-    for (std::size_t i = fold; i < logs.size(); i += folds) {
-      add_score(entry, other, logs[i], config, held_out[fold]);
-    }
-  });
-  scoring::RobotScore fitted;
-  for (const FitLog& log : logs) add_score(entry, model, log, config, fitted);
-  FitAccuracy accuracy{fitted.wheels().points.success()};
-  if (!is_judged) return accuracy;
-  scoring::RobotScore all;
-  for (const scoring::RobotScore& one : held_out) all += one;
-  accuracy.held_out = all.wheels().points.success();
+  FitAccuracy accuracy;
+  accuracy.held_out = held_out(entry, folds_of_logs(logs), config);
+  if (!accuracy.held_out) {
+    accuracy.held_out = held_out(entry, folds_of_parts(logs), config);
+    accuracy.by_parts = accuracy.held_out.has_value();
+  }
+  accuracy.fitted = score_on(logs, log_estimator(entry, model, config.robot), config);
+  try {
+    accuracy.shipped =
+        score_on(logs, log_estimator({.robot = config.robot, .transfer = true}), config);
+  } catch (const InputError&) {  // a rate that it does not serve
+  }
   return accuracy;
 }
 

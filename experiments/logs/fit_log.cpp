@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -85,6 +87,11 @@ const LogStep* FitLogSteps::next() {
   last_time_ = step_->signals.time;
   compare_with_declared_class();
   return step_;
+}
+
+bool FitLogSteps::is_covered() const {
+  const auto part = static_cast<std::int64_t>(std::floor(step_->signals.time / part_length));
+  return (!log_.labels || step_->normal_force) && (!log_.part || (part & 1) == *log_.part);
 }
 
 void FitLogSteps::require_truth() const {

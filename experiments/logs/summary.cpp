@@ -37,14 +37,21 @@ std::string found(const scoring::TransitionCounts& counts, std::int64_t listed,
   return text;
 }
 
+/// "none": of the steps that count, none has the class.
+std::string share(double value) {
+  return std::isnan(value) ? "none" : fmt::format("{:.4f}", value);
+}
+
 std::string score_text(const scoring::Score& score, std::int64_t takeoffs, std::int64_t landings) {
+  const scoring::Classification& points = score.points;
   return fmt::format(
-      "{:<12} accuracy {:.4f}, precision and recall of contact {:.4f} {:.4f}, of no contact {:.4f} "
-      "{:.4f}, Brier {:.4f}\n{:<12} {}; {}\n",
-      "truth", score.points.success(), score.points.contact_precision(),
-      score.points.contact_recall(), score.points.no_contact_precision(),
-      score.points.no_contact_recall(), score.calibration.brier(), "",
-      found(score.takeoff, takeoffs, "takeoffs"), found(score.landing, landings, "landings"));
+      "{:<12} accuracy {}, balanced {}, precision and recall of contact {} {}, of no contact {} "
+      "{}, Brier {}\n{:<12} {}; {}\n",
+      "truth", share(points.success()), share(points.balanced_accuracy()),
+      share(points.contact_precision()), share(points.contact_recall()),
+      share(points.no_contact_precision()), share(points.no_contact_recall()),
+      share(score.calibration.brier()), "", found(score.takeoff, takeoffs, "takeoffs"),
+      found(score.landing, landings, "landings"));
 }
 
 }  // namespace
@@ -266,7 +273,7 @@ std::string LogSummary::signals_text(std::size_t findings) const {
     parts.push_back(fmt::format("not plausible: {} finding{}, printed above", findings,
                                 findings == 1 ? "" : "s"));
   }
-  if (parts.empty()) parts.emplace_back("all good");
+  if (parts.empty()) parts.emplace_back(counted_ > 0 ? "all good" : "too few to judge");
   const std::int64_t degraded = status_[static_cast<std::size_t>(SignalStatus::degraded)];
   if (degraded > 0 && degraded == steps_) {
     parts.emplace_back("no targets of joints");
@@ -294,7 +301,11 @@ std::string LogSummary::text(const std::optional<scoring::RobotScore>& score, do
       fmt::format("{:<12} {}\n{:<12} {}\n{:<12} {}\n{:<12} {}\n{:<12} {}\n", "time",
                   clock_.text(start), "contact", contact_text(), "left wheel", events_text(0),
                   "right wheel", events_text(1), "signals", signals_text(findings));
-  if (score) {
+  if (score && score->wheels().points.points() == 0) {
+    text += fmt::format(
+        "{:<12} not scored: beliefs of the first {:g} s depend on the prior, and nothing follows\n",
+        "truth", static_cast<double>(skipped_) * clock_.period);
+  } else if (score) {
     text += score_text(score->wheels(), wheels_[0]->takeoffs.count + wheels_[1]->takeoffs.count,
                        wheels_[0]->landings.count + wheels_[1]->landings.count);
   }
