@@ -118,7 +118,9 @@ void FitRunCheck::add(const Rollout& run) {
                                  failures_text(runs.failures)));
   }
   require(all.rolling, phase_estimators_, "rolling on both wheels", simulator, runs);
-  require(all.flight, phase_estimators_, "flight", simulator, runs);
+  require(all.flight, phase_estimators_,
+          all.no_contact ? "flight of both wheels at once, only of one" : "flight", simulator,
+          runs);
   require(all.contact, measurement_estimators_, "contact", simulator, runs);
   require(all.no_contact, measurement_estimators_, "step without contact", simulator, runs);
 }

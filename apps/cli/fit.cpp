@@ -211,8 +211,8 @@ void show_samples(const experiments::LogFitReport& report, bool with_bandwidth) 
   }
 }
 
-/// What a model has on its own logs misleads: a model that agrees with wrong labels agrees with
-/// them there. So it stands beside what models have on steps that they were not fitted to.
+/// A model that agrees with wrong labels does so on its own logs, so that the accuracy there stands
+/// beside that of models on steps that they were not fitted to.
 void show_accuracy(const experiments::EstimatorEntry& entry,
                    const std::vector<experiments::FitLog>& logs,
                    const experiments::LogFitConfig& config, const Model& model) {

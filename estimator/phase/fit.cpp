@@ -251,13 +251,14 @@ PhaseModel fit_phase_model(std::span<const PhaseFitRun> runs, double sample_rate
   }
   Collector collector(sample_rate, config.labels);
   for (const PhaseFitRun& run : runs) collector.add(run);
-  for (const Phase needed : {Phase::rolling, Phase::flight}) {
-    if (!(collector.seconds()[index(needed)] > 0.0)) {
-      throw InputError("phase fit: the runs contain no " + std::string(phase_names[index(needed)]));
-    }
-  }
   const double single_wheel =
       collector.seconds()[index(Phase::left_only)] + collector.seconds()[index(Phase::right_only)];
+  for (const Phase needed : {Phase::rolling, Phase::flight}) {
+    if (!(collector.seconds()[index(needed)] > 0.0)) {
+      throw InputError("phase fit: the runs contain no " + std::string(phase_names[index(needed)]) +
+                       " of both wheels" + (single_wheel > 0.0 ? ", only of one" : ""));
+    }
+  }
   if (single_wheel < config.least_single_wheel) collector.drop_single_wheel_samples();
   PhaseModel model;
   model.sample_rate = sample_rate;

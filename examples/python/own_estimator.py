@@ -31,7 +31,8 @@ for name, beliefs in (("robust", robust.run(run)),
 # %% In an experiment: more runs, optionally both engines, with noise and confidence intervals.
 result = touchdown.run({
     "name": "own_estimator", "simulators": ["mujoco"], "estimators": ["robust", FallsOrPushes],
-    "fit": {"scenarios": ["scenarios/stairs.yaml"]}, "test": {"scenarios": ["scenarios/stairs.yaml"], "runs": 4},
+    "fit": {"scenarios": ["scenarios/stairs.yaml", "scenarios/push_off.yaml"]},
+    "test": {"scenarios": ["scenarios/stairs.yaml"], "runs": 4},
     "noise": {"torque": [0, 1], "accelerometer": [0, 5], "seeds": 2}, "recordings": "none", "video": {"enabled": False}})
 table = result.tables["success"]
 for row in range(len(table["estimator"])):

@@ -270,7 +270,21 @@ std::vector<RunSignals> logs_with_takeoffs(std::span<const FitLog> logs, const L
     return has_takeoff(run, skipped_steps(run, config.skip));
   });
   if (!takeoff) {
-    throw InputError("fit: phase and hmm learn from takeoffs, and the logs hold none");
+    std::size_t of_one_wheel = 0;
+    for (const RunSignals& run : runs) {
+      of_one_wheel += takeoffs_of_wheels(run, skipped_steps(run, config.skip));
+    }
+    const bool has_gaps = std::ranges::any_of(logs, [](const FitLog& log) {
+      if (!log.labels) return false;
+      const auto& all = log.labels->intervals;
+      return std::ranges::adjacent_find(all, [](const auto& one, const auto& next) {
+               return one.end < next.start;
+             }) != all.end();
+    });
+    throw InputError(fmt::format(
+        "fit: phase and hmm learn from takeoffs of both wheels, and the logs hold none{}{}",
+        of_one_wheel > 0 ? fmt::format(", only {} of one wheel", of_one_wheel) : "",
+        has_gaps ? "; a takeoff in a gap between labels does not count" : ""));
   }
   return runs;
 }

@@ -15,7 +15,7 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// Adds the score of an estimator on the covered steps of a log, whose contact is known by its
+/// Adds the score of an estimator on the covered steps of a log with contact that is known by its
 /// truth, labels or class.
 void add_score(const LogEstimator& chosen, const FitLog& log, const LogFitConfig& config,
                scoring::RobotScore& total) {

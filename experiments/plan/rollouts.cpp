@@ -77,14 +77,21 @@ Rollout rollout(const PlannedRun& run, logs::Recording recording, const Plan& pl
   }
   const auto shortest = static_cast<std::size_t>(
       std::llround(experiment.scoring.minimum_flight / recording.period()));
-  std::vector<scoring::Flight> flights = scoring::flights(scoring::any_wheel(signals.contact));
-  std::erase_if(flights, [&](const scoring::Flight& flight) {
-    return flight.landing - flight.takeoff < shortest;
-  });
+  const auto flights = [&](const scoring::ContactSequence& contact) {
+    return static_cast<int>(
+        std::ranges::count_if(scoring::flights(contact), [&](const scoring::Flight& flight) {
+          return flight.landing - flight.takeoff >= shortest;
+        }));
+  };
+  const auto& [left, right] = signals.contact;
+  scoring::ContactSequence is_alike(left.size());  // both wheels in contact, or none
+  std::ranges::transform(left, right, is_alike.begin(),
+                         [](auto one, auto other) { return one == other ? 1 : 0; });
   return {run,
           {recording.info.outcome.value_or(logs::Outcome::finished),
            static_cast<double>(recording.steps()) * recording.period(),
-           static_cast<int>(flights.size()),
+           flights(scoring::any_wheel(signals.contact)),
+           flights(is_alike),
            {},
            scenarios::ending_text(recording, run.scenario.end)},
           std::move(signals)};

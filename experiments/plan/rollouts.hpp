@@ -17,6 +17,7 @@ struct RunReport {
   logs::Outcome outcome = logs::Outcome::finished;
   double duration = 0.0;    ///< s
   int flights = 0;          ///< with both wheels off the ground for the scoring's minimum time
+  int wheel_flights = 0;    ///< with one wheel off the ground, as long
   std::string error = {};   ///< why there is no recording; the outcome is then `diverged`
   std::string ending = {};  ///< outcome, time and reason (scenarios/scenario.hpp)
 };

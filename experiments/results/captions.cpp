@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "experiments/estimators/registry.hpp"
 #include "experiments/results/result.hpp"
+#include "experiments/results/summary_file.hpp"
 
 namespace touchdown::experiments {
 
@@ -96,6 +98,35 @@ std::string false_takeoffs_text(const std::vector<ScoreSummary>& scores,
   if (score == scores.end()) return "–";
   const double per_minute = (*score)["false_takeoffs_per_minute"].estimate;
   return std::isnan(per_minute) ? "–" : fmt::format("{:.1f}", per_minute);
+}
+
+std::string silence_note(const Experiment& experiment, const Summary& summary) {
+  std::vector<std::string> silent;
+  for (const std::string& name : experiment.estimators) {
+    const bool is_silent = std::ranges::any_of(summary.cells, [&](const CellSummary& cell) {
+      return cell.condition.estimator == name && cell.is_silent() &&
+             std::ranges::find(experiment.highlights, cell.cell) != experiment.highlights.end();
+    });
+    const EstimatorEntry& entry = estimator_entry(experiment, name);
+    if (is_silent && entry.fits()) silent.push_back(entry.title);
+  }
+  if (silent.empty()) return {};
+  const auto flights_of_a_wheel = [&](RunRole role) {
+    int sum = 0;
+    for (const RunSummary& run : summary.runs) sum += run.role == role ? run.wheel_flights : 0;
+    return sum;
+  };
+  const bool is_one = silent.size() == 1;
+  std::string text = fmt::format("{} hardly ever {} flight, so that {} as always contact does.",
+                                 fmt::join(silent, ", "), is_one ? "reports" : "report",
+                                 is_one ? "it decides" : "they decide");
+  if (flights_of_a_wheel(RunRole::fit) == 0 && flights_of_a_wheel(RunRole::test) > 0) {
+    text += fmt::format(
+        " {} has no flight of one wheel alone, as the test has: add scenarios/push_off.yaml to "
+        "fit.scenarios.",
+        is_one ? "Its fit" : "Their fit");
+  }
+  return text;
 }
 
 TestRuns test_runs(const ExperimentResult& result, const std::string& simulator) {

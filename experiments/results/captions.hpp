@@ -13,6 +13,7 @@
 namespace touchdown::experiments {
 
 struct ExperimentResult;
+struct Summary;
 
 /// "1 run", "2 runs".
 std::string plural(std::size_t count, const std::string& thing);
@@ -39,6 +40,9 @@ std::string estimator_title_in(const Experiment& experiment, const std::string& 
 /// False takeoffs per minute for the summary's condition and cell: "0.6"; a dash if not counted.
 std::string false_takeoffs_text(const std::vector<ScoreSummary>& scores,
                                 const CellSummary& summary);
+/// The fitted estimators that report hardly any flight in a highlighted cell, with the likely
+/// cause; empty without any.
+std::string silence_note(const Experiment& experiment, const Summary& summary);
 /// The test runs of one engine.
 struct TestRuns {
   std::size_t scored = 0;  ///< that did not fail

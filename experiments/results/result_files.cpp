@@ -158,6 +158,7 @@ Columns<Rollout> run_columns() {
               return run.report.error.empty() ? logs::to_text(run.report.outcome) : "error";
             })
       .count("flights", [](const Rollout& run) { return run.report.flights; })
+      .count("wheel_flights", [](const Rollout& run) { return run.report.wheel_flights; })
       .metric("duration_s", [](const Rollout& run) { return run.report.duration; });
 }
 

@@ -32,6 +32,8 @@ struct CellSummary {
 
   /// Whether "always contact" is at least as accurate.
   bool loses() const { return success.estimate <= always_contact; }
+  /// Whether it reports hardly any of the flight.
+  bool is_silent() const { return no_contact_recall.estimate < 0.02; }
 };
 
 /// A metric of a `CellSummary`, by name.

@@ -61,7 +61,8 @@ void from_json(const Json& json, Outcome& outcome) {
 namespace experiments {
 
 NLOHMANN_JSON_SERIALIZE_ENUM(RunRole, {{RunRole::fit, "fit"}, {RunRole::test, "test"}})
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunSummary, role, simulator, run, recording, outcome, flights)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(RunSummary, role, simulator, run, recording,
+                                                outcome, flights, wheel_flights)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Condition, fit_simulator, test_simulator, estimator)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ScoreSummary, condition, cell, view, metric)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Difference, simulator, cell, first, second, metric)
@@ -94,7 +95,7 @@ Summary summary_of(const ExperimentResult& result) {
   Summary summary{{}, result.summaries, result.scores, result.differences};
   for (const Rollout& run : result.runs) {
     summary.runs.push_back({run.plan.role, run.plan.simulator, run.plan.run, run.plan.file,
-                            run.report.outcome, run.report.flights});
+                            run.report.outcome, run.report.flights, run.report.wheel_flights});
   }
   return summary;
 }

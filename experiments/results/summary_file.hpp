@@ -22,7 +22,8 @@ struct RunSummary {
   std::int64_t run = 0;   ///< its index, unique within one engine
   std::string recording;  ///< its file's name
   logs::Outcome outcome = logs::Outcome::finished;
-  int flights = 0;
+  int flights = 0;        ///< of both wheels at once
+  int wheel_flights = 0;  ///< of one wheel alone
 };
 
 /// An experiment's result for other programs: `tables/summary.json` of its run directory. Numbers

@@ -10,6 +10,7 @@
 #include "core/rows.hpp"
 #include "experiments/plan/rollouts.hpp"
 #include "experiments/results/captions.hpp"
+#include "experiments/results/summary_file.hpp"
 
 namespace touchdown::experiments {
 
@@ -202,6 +203,9 @@ TextTable accuracy_table(const Experiment& experiment, const std::vector<CellSum
       });
       const bool is_scored = cell != cells.end();
       row.push_back(is_scored ? with_interval(cell->success) : "–");
+      if (is_scored && cell->is_silent() && estimator != always_contact_name) {
+        row.back() += ", never air";
+      }
       row.push_back(is_scored ? false_takeoffs_text(scores, *cell) : "–");
     }
   }
@@ -236,6 +240,8 @@ std::string summary_text(const ExperimentResult& result) {
     for (const CaptionedTable& table : paper_tables(result)) text += '\n' + to_text(table);
   }
   for (const std::string& study : result.studies) text += '\n' + study;
+  const std::string silence = silence_note(experiment, summary_of(result));
+  if (!silence.empty()) text += fmt::format("\n{}\n", silence);
   text += fmt::format("\n{}\n", conditions_text(experiment));
   return text + unused_runs_text(result.runs);
 }

@@ -42,8 +42,18 @@ Cells ranked(const Cells& all, const std::string& simulator, const noise::NoiseC
   return cells;
 }
 
-std::string title_of(const experiments::CellSummary& cell) {
-  return experiments::estimator_title(cell.condition.estimator);
+/// An estimator that is fitted to the scenes of the test has an advantage, which is named.
+std::string best_title(const experiments::Experiment& experiment,
+                       const experiments::CellSummary& cell) {
+  const experiments::EstimatorEntry* const entry =
+      experiments::find_estimator(cell.condition.estimator);
+  const auto is_fitted_to = [&](const std::string& scene) {
+    return std::ranges::find(experiment.fit.scenarios, scene) != experiment.fit.scenarios.end();
+  };
+  const bool is_own = entry != nullptr && entry->fits() &&
+                      std::ranges::any_of(experiment.test.scenarios, is_fitted_to);
+  return experiments::estimator_title(cell.condition.estimator) +
+         (is_own ? ", fitted to these scenes," : "");
 }
 
 /// The error rate; a line cannot break before its percent sign.
@@ -51,21 +61,22 @@ std::string error_of(double accuracy) { return error_text(error_percent(accuracy
 
 /// "Without noise, Phase filter has the lowest error rate, 0.94 % [0.80, 1.10], ahead of Free fall
 /// (1.59 %) and NMN (2.87 %). …"
-std::string finding(const Cells& cells) {
+std::string finding(const experiments::Experiment& experiment, const Cells& cells) {
   const experiments::CellSummary& best = cells.front();
   const bool is_noiseless = best.cell.torque == 0.0 && best.cell.accelerometer == 0.0;
   std::vector<std::string> next, losers;
   for (const experiments::CellSummary& cell : cells) {
     if (&cell != &best && next.size() < 2) {
-      next.push_back(fmt::format("{} ({})", title_of(cell), error_of(cell.success.estimate)));
+      next.push_back(fmt::format("{} ({})", experiments::estimator_title(cell.condition.estimator),
+                                 error_of(cell.success.estimate)));
     }
-    if (cell.loses()) losers.push_back(title_of(cell));
+    if (cell.loses()) losers.push_back(experiments::estimator_title(cell.condition.estimator));
   }
   std::string text = fmt::format(
       "{}, {} has the lowest error rate, {} [{}, {}]{}. ",
-      is_noiseless ? "Without noise" : "With " + experiments::noise_text(best.cell), title_of(best),
-      error_of(best.success.estimate), error_text(error_percent(best.success.high)),
-      error_text(error_percent(best.success.low)),
+      is_noiseless ? "Without noise" : "With " + experiments::noise_text(best.cell),
+      best_title(experiment, best), error_of(best.success.estimate),
+      error_text(error_percent(best.success.high)), error_text(error_percent(best.success.low)),
       next.empty() ? "" : ", ahead of " + in_words(next));
   if (!std::isfinite(best.always_contact)) return text;
   return text + fmt::format("Always contact has an error rate of {}{}. ",
@@ -108,7 +119,7 @@ std::string findings_html(const ReportSubject& subject) {
     std::string text;
     for (const noise::NoiseCell& noise : settings) {
       const Cells cells = ranked(all, simulator, noise);
-      if (!cells.empty()) text += finding(cells);
+      if (!cells.empty()) text += finding(subject.experiment, cells);
     }
     if (text.empty()) continue;
     text.pop_back();
@@ -155,7 +166,7 @@ std::string header_html(const ReportSubject& subject) {
       escaped(in_words(engines_of(experiment))));
   html += fact_html("physics engines", std::to_string(experiment.simulators.size()));
   html += fact_html("test runs scored", std::to_string(test_runs));
-  html += fact_html("flights in these runs", std::to_string(flights));
+  html += fact_html("flights of both wheels in these runs", std::to_string(flights));
   html += fact_html("noise settings", std::to_string(settings.size()));
   html += fact_html("noise seeds per run", std::to_string(experiment.noise.seeds));
   html += "</dl>\n";
@@ -172,6 +183,8 @@ ReportSection results_section(const ReportSubject& subject) {
   const std::vector<experiments::CellSummary>& scores = subject.summary.cells;
   if (scores.empty()) return section;
   section.html = findings_html(subject);
+  const std::string silence = experiments::silence_note(subject.experiment, subject.summary);
+  if (!silence.empty()) section.html += fmt::format("<p>{}</p>\n", escaped(silence));
   const experiments::Experiment& experiment = subject.experiment;
   std::vector<noise::NoiseCell> cells = experiment.highlights;
   if (cells.empty()) cells.push_back(scores.front().cell);

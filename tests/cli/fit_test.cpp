@@ -104,7 +104,7 @@ TEST_F(Fit, LeavesOutUnlabelledSteps) {
   folder_.write("late.csv", test::synthetic_labels(7, 8));
   folder_.write("behind.csv", "start,end,contact\n4.1,4.9,1\n");
   expect_refusals({{"robot.mpack --labels gap.csv -o m.npz --estimator phase",
-                    {"learn from takeoffs, and the logs hold none"}},
+                    {"hold none", "a takeoff in a gap between labels does not count"}},
                    {"robot.mpack --labels late.csv -o m.npz",
                     {"late.csv: its last interval ends at 8.000 s, and robot.mpack at 3.999 s"}},
                    {"robot.mpack --labels behind.csv -o m.npz",
@@ -224,7 +224,7 @@ TEST_F(Fit, IsJudgedOnEveryOtherPartWhereTheOtherLogsLackAClass) {
   EXPECT_THAT(ended.output, HasSubstr("of the shipped model on these logs"));
 }
 
-TEST_F(Fit, WithoutATakeoffOfAWheelIsOfPhysicalParametersAndSaysWhatCurvesMiss) {
+TEST_F(Fit, WithoutATakeoffOfAWheelIsOfPhysicalParametersAndNamesWhatCurvesMiss) {
   log("rolling.mpack", test::one_class_log(3.0, true));
   log("hanging.mpack", test::one_class_log(3.0, false));
   log("robot.mpack", test::robot_log(4.0));
@@ -391,7 +391,7 @@ TEST_F(Fit, AnswersWrongRequestsInOneLine) {
        {"robot.mpack -o m.npz", {"robot.mpack: at 0.000 s: no ground truth", "--contact"}},
        {"--contact rolling.mpack -o m.npz", {"no step of the logs is without contact"}},
        {"--no-contact rolling.mpack -o m.npz", {"no step of the logs is in contact"}},
-       {"short.mpack -o m.npz --estimator phase", {"learn from takeoffs"}},
+       {"short.mpack -o m.npz --estimator phase", {"learn from takeoffs of both wheels"}},
        {"--contact rolling.mpack -o m.npz --estimator phase", {"ground truth"}}});
   for (const std::string estimator : {"phase", "hmm", "evidence_curves", "boosted_channels"}) {
     EXPECT_THAT(folder_.refusal_of("fit a.mpack -o m.npz --grid 9 9 --estimator " + estimator),

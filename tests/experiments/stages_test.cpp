@@ -54,7 +54,7 @@ TEST(FitRunCheck, NamesWhatTheRunsOfAFitLackTheEstimatorsAndTheScenes) {
         check({{"free_fall", "phase", "hmm", "evidence_curves"}, rolls, lifts_left});
       },
       ThrowsMessage<InputError>("fit on bullet: phase, hmm: fit.scenarios contain no "
-                                "flight: scene_0, scene_1"));
+                                "flight of both wheels at once, only of one: scene_0, scene_1"));
   EXPECT_THAT(
       [] {
         check({{"phase"}, hangs, hangs});

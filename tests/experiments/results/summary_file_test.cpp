@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
+#include "experiments/results/captions.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {
@@ -46,6 +47,38 @@ TEST(SummaryFile, ReadsBackAsWrittenAndRoundedAsTheTables) {
   EXPECT_EQ(read.scores.at(0)["success"].estimate, 1.0);
   EXPECT_TRUE(std::isnan(read.scores.at(0)["success"].high));
   EXPECT_EQ(read.differences.at(0).second, "phase");
+}
+
+TEST(Summary, NamesEstimatorsThatNeverReportFlightAndTheFlightsThatTheirFitLacks) {
+  Experiment experiment;
+  experiment.estimators = {"hmm", "phase", "support_force"};
+  experiment.highlights = {{0.0, 0.0}};
+  const auto cell = [](const std::string& estimator, double recall) {
+    CellSummary one;
+    one.condition = {"mujoco", "mujoco", estimator};
+    one.cell = {0.0, 0.0};
+    one.no_contact_recall = {recall, recall, recall};
+    return one;
+  };
+  const auto note = [&](std::vector<CellSummary> cells, int of_fit, int of_test) {
+    std::vector<RunSummary> runs(2);
+    runs[0].role = RunRole::fit;
+    runs[0].flights = 3;
+    runs[0].wheel_flights = of_fit;
+    runs[1].wheel_flights = of_test;
+    return silence_note(experiment, {runs, std::move(cells), {}, {}});
+  };
+  EXPECT_EQ(note({cell("hmm", 0.6), cell("phase", NAN)}, 0, 2), "") << "found, or no flight at all";
+  EXPECT_EQ(note({cell("support_force", 0.0)}, 0, 2), "") << "is not fitted";
+  EXPECT_EQ(note({cell("hmm", 0.0), cell("phase", 0.01)}, 0, 2),
+            "Two-state HMM, Phase filter hardly ever report flight, so that they decide as always "
+            "contact does. Their fit has no flight of one wheel alone, as the test has: add "
+            "scenarios/push_off.yaml to fit.scenarios.");
+  const std::string one =
+      "Phase filter hardly ever reports flight, so that it decides as always "
+      "contact does.";
+  EXPECT_EQ(note({cell("phase", 0.0)}, 1, 2), one) << "the fit has them";
+  EXPECT_EQ(note({cell("phase", 0.0)}, 0, 0), one) << "the test has none";
 }
 
 }  // namespace

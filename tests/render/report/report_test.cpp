@@ -164,7 +164,8 @@ TEST_F(Report, ListsEstimatorsResultsAndCommit) {
       html,
       HasSubstr(
           "<p><b>MuJoCo.</b> With torque noise 1 N·m, accelerometer noise 5 m/s², "
-          "Bayes filter (robust) has the lowest error rate, 14.0\u00a0% [12.5, 15.0], "
+          "Bayes filter (robust), fitted to these scenes, has the lowest error rate, 14.0\u00a0% "
+          "[12.5, 15.0], "
           "ahead of &lt;script&gt;alert(1)&lt;/script&gt; (50.0\u00a0%). Always contact has an "
           "error rate of 13.0\u00a0%; Bayes filter (robust) and "
           "&lt;script&gt;alert(1)&lt;/script&gt; do not beat it.</p>"));
