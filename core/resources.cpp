@@ -1,6 +1,7 @@
 #include "core/resources.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <set>
 #include <string_view>
 
@@ -14,10 +15,15 @@ namespace touchdown {
 
 namespace {
 
-std::vector<std::filesystem::path> roots() {
+bool has_program_files(const std::filesystem::path& folder) {
   std::error_code ignored;
-  const std::filesystem::path own = std::filesystem::weakly_canonical(own_binary(), ignored);
-  return {".", TOUCHDOWN_SOURCE_DIR, TOUCHDOWN_SHARE_DIR, own.parent_path() / "share/touchdown"};
+  return std::filesystem::is_regular_file(folder / "models/upkie.xml", ignored);
+}
+
+std::vector<std::filesystem::path> roots() {
+  const std::filesystem::path own = program_files().folder;
+  return own.empty() ? std::vector<std::filesystem::path>{"."}
+                     : std::vector<std::filesystem::path>{".", own};
 }
 
 /// The names of the files in the same folder with the same extension.
@@ -59,6 +65,31 @@ void require_missing(const std::filesystem::path& path) {
 
 }  // namespace
 
+ProgramFiles program_files() {
+  const std::filesystem::path installed = "share/touchdown";
+  std::error_code ignored;
+  std::filesystem::path folder =
+      std::filesystem::weakly_canonical(own_binary(), ignored).parent_path();
+  for (; !folder.empty(); folder = folder.parent_path()) {
+    for (const std::filesystem::path& place : {folder, folder / installed}) {
+      if (has_program_files(place)) return {place, "beside the program"};
+    }
+    if (folder == folder.root_path()) break;
+  }
+  if (const char* const named = std::getenv("TOUCHDOWN"); named != nullptr && *named != '\0') {
+    if (has_program_files(named)) return {named, "named by TOUCHDOWN"};
+    throw InputError(
+        fmt::format("TOUCHDOWN={}: has no models/upkie.xml: expected a checkout or a folder "
+                    "share/touchdown",
+                    named));
+  }
+  if (has_program_files(TOUCHDOWN_SHARE_DIR)) return {TOUCHDOWN_SHARE_DIR, "installed"};
+  if (has_program_files(TOUCHDOWN_SOURCE_DIR)) {
+    return {TOUCHDOWN_SOURCE_DIR, "from which the program was built"};
+  }
+  return {};
+}
+
 std::vector<std::filesystem::path> resources_in(const std::filesystem::path& folder,
                                                 const std::string& extension) {
   std::set<std::filesystem::path> files;
@@ -71,13 +102,6 @@ std::vector<std::filesystem::path> resources_in(const std::filesystem::path& fol
     }
   }
   return {files.begin(), files.end()};
-}
-
-std::optional<std::filesystem::path> source_folder() {
-  const std::filesystem::path folder = TOUCHDOWN_SOURCE_DIR;
-  std::error_code ignored;
-  if (!std::filesystem::is_directory(folder, ignored)) return std::nullopt;
-  return folder;
 }
 
 std::filesystem::path find_resource(const std::filesystem::path& path) {

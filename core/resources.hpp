@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,9 +9,21 @@
 
 namespace touchdown {
 
+/// The folder with the program's own models, scenarios and experiments.
+struct ProgramFiles {
+  std::filesystem::path folder;  ///< empty if there is none
+  std::string why;               ///< it is this one: "beside the program"
+};
+
+/// The first of: the nearest folder above the running program or library that has these files,
+/// itself (a checkout) or in `share/touchdown` (an installation, a Python package); the one that
+/// the environment variable TOUCHDOWN names; the installation prefix and the sources that were
+/// compiled in. A moved or copied checkout therefore reads its own files. Errors: `InputError` if
+/// TOUCHDOWN is needed and names another folder.
+ProgramFiles program_files();
+
 /// Finds a file that an experiment, a scenario or a command names. Returns `path` itself if it
-/// exists. Otherwise looks for the same path in the project's sources, in its installation, and in
-/// `share/touchdown` beside the running program or library.
+/// exists, else the same path among the program's files.
 /// Errors: `InputError` that suggests the nearest existing file, or if the path is a folder.
 std::filesystem::path find_resource(const std::filesystem::path& path);
 
@@ -20,9 +31,6 @@ std::filesystem::path find_resource(const std::filesystem::path& path);
 /// models. A file of this name in the working directory does not replace the program's; it is used
 /// only where the program has none.
 std::filesystem::path find_program_file(const std::filesystem::path& path);
-
-/// The folder of the sources that this program was built from, if it is still there.
-std::optional<std::filesystem::path> source_folder();
 
 /// Errors: `InputError` when the file does not exist, with the nearest name in its folder, or when
 /// it is no regular file.

@@ -62,6 +62,9 @@ std::string families_text(const std::vector<scenarios::Family>& families) {
 }
 
 void list() {
+  const ProgramFiles files = program_files();
+  print("files of the program\n  {} ({})\n\n",
+        files.folder.empty() ? "none" : files.folder.string(), files.why);
   print_files("experiments", "experiments");
   print_files("scenarios", "scenarios");
   print("families of drawn scenarios (touchdown generate)\n{}\n",

@@ -9,7 +9,8 @@
 namespace touchdown::experiments {
 
 std::filesystem::path test_seed_log() {
-  return source_folder().value_or(".") / "runs" / "reserved_seeds.csv";
+  const std::filesystem::path files = program_files().folder;
+  return (is_there(files / "CMakeLists.txt") ? files : ".") / "runs" / "reserved_seeds.csv";
 }
 
 int log_evaluation(const std::filesystem::path& log, const TestSeedUse& use) {

@@ -2,7 +2,7 @@
 # scripts/slurm/submit.sh EXPERIMENT SHARDS [SBATCH OPTION...]
 # Runs an experiment on a Slurm cluster: an array job of SHARDS tasks, and a job that merges their
 # results when all are done. Call it in the folder for the results, on a file system that all nodes
-# share. TOUCHDOWN names the program if it is not this checkout's. See docs/guides/shards.md.
+# share. TOUCHDOWN_PROGRAM names the program if it is not this checkout's. See docs/guides/shards.md.
 set -euo pipefail
 
 complain() {
@@ -21,8 +21,8 @@ shift 2
 [[ "$shards" =~ ^[1-9][0-9]{0,4}$ ]] || complain "'$shards' is no number of shards: expected 1 to 99999"
 command -v sbatch >/dev/null || complain "no sbatch here: call this where Slurm's commands are installed" 1
 
-if [[ -n "${TOUCHDOWN:-}" ]]; then
-  program="$TOUCHDOWN"
+if [[ -n "${TOUCHDOWN_PROGRAM:-}" ]]; then
+  program="$TOUCHDOWN_PROGRAM"
 elif [[ -x "$checkout/build/release/touchdown" ]]; then
   program="$checkout/build/release/touchdown"
 else

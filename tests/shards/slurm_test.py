@@ -107,7 +107,7 @@ def check_errors(slurm, folder):
     for name in ('bash', 'dirname'):
         (elsewhere / name).symlink_to(shutil.which(name))
     check('no sbatch here' in complaint('tiny.yaml', '2', PATH=str(elsewhere)), 'no sbatch')
-    check('build it first' in complaint('tiny.yaml', '2', TOUCHDOWN='/nowhere/x'), 'no program')
+    check('build it first' in complaint('tiny.yaml', '2', TOUCHDOWN_PROGRAM='/nowhere/x'), 'no program')
     check(not slurm.run('squeue', '-h').stdout, 'a wrong request was submitted')
 
 
@@ -118,7 +118,7 @@ def test(slurm, touchdown):
     program = slurm.folder / 'touchdown'
     program.write_text(PROGRAM.format(program=touchdown))
     program.chmod(0o755)
-    slurm.environment['TOUCHDOWN'] = str(program)
+    slurm.environment['TOUCHDOWN_PROGRAM'] = str(program)
     check_errors(slurm, folder)
 
     array = Array(slurm, folder)
