@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <iterator>
 #include <set>
-#include <thread>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/machine.hpp"
 #include "experiments/needs.hpp"
 #include "experiments/plan/plan.hpp"
 #include "experiments/run_directory/directory.hpp"
@@ -66,7 +66,7 @@ void require_own(const ExperimentContext& context, const Task& task) {
 
 int threads_of(const Experiment& experiment) {
   if (experiment.workers > 0) return experiment.workers;
-  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  return machine_share().processors;
 }
 
 Plan whole_plan(const RunRequest& request) {

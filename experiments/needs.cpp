@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sys/sysinfo.h>
 #include <vector>
 
 #include <fmt/format.h>
@@ -86,12 +85,6 @@ KeptSignals kept_signals(const Experiment& experiment) {
   return kept;
 }
 
-double memory_of_machine() {
-  struct sysinfo machine = {};
-  if (::sysinfo(&machine) != 0) return HUGE_VAL;
-  return static_cast<double>(machine.totalram + machine.totalswap) * machine.mem_unit;
-}
-
 double least_memory(const RunRequest& request, double share_of_runs) {
   const Needs needs = needs_of(request);
   return planned_memory(needs) + share_of_runs * held_memory(request, needs);
@@ -106,7 +99,7 @@ void require_memory(const RunRequest& request, double share_of_runs, double memo
   const bool too_long = held > planned;
   throw Error(fmt::format(
       "{}: {:.0f} runs of {:.0f} s together and {:.0f} parts (test.runs={}, fit.runs={}, "
-      "noise.seeds={}) need at least {:.1f} GB of memory, and this machine has {:.1f} GB: {}",
+      "noise.seeds={}) need at least {:.1f} GB of memory, and this process may use {:.1f} GB: {}",
       experiment.name, needs.runs, needs.seconds, needs.parts, experiment.test.runs,
       experiment.fit.runs, experiment.noise.seeds, 1e-9 * (planned + held), 1e-9 * memory,
       too_long ? "lower test.runs or fit.runs, or compute it in shards (--shard)"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/machine.hpp"
 #include "experiments/plan/plan.hpp"
 
 namespace touchdown::experiments {
@@ -11,16 +12,13 @@ Needs needs_of(const RunRequest& request);
 /// experiment without studies.
 KeptSignals kept_signals(const Experiment& experiment);
 
-/// Memory and swap of this machine (bytes).
-double memory_of_machine();
-
 /// Memory that the plan and this share of the runs' signals need at least (bytes).
 double least_memory(const RunRequest& request, double share_of_runs);
 
 /// Checks that the plan and this share of the runs' signals fit into `memory` (bytes). Errors:
 /// `Error` that names the settings to lower.
 void require_memory(const RunRequest& request, double share_of_runs,
-                    double memory = memory_of_machine());
+                    double memory = machine_share().memory);
 
 /// An upper bound of what a run writes (bytes).
 struct DiskNeeds {

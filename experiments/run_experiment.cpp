@@ -5,8 +5,10 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "core/progress.hpp"
 #include "experiments/needs.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/stages.hpp"
@@ -139,6 +141,13 @@ ExperimentResult merge_run(const std::filesystem::path& path, const RunOptions& 
   directory.keep(*lock);
   ExperimentContext context = start(std::move(request), std::move(directory), options);
   require_all_shards(context);
+  const std::set<std::string> processors = shard_processors(context.directory.path());
+  if (processors.size() > 1) {
+    print_message(fmt::format(
+        "touchdown: {}: its shards ran on different processors ({}), so that last digits, and runs "
+        "that these decide, differ from those of one machine\n",
+        context.directory.path().string(), fmt::join(processors, "; ")));
+  }
   return whole(context, MissingRun::refuse);
 }
 

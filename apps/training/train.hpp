@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <thread>
 
 #include "apps/training/config/training.hpp"
 #include "apps/training/history.hpp"
 #include "apps/training/rollout.hpp"
+#include "core/machine.hpp"
 #include "estimator/neural/network.hpp"
 
 namespace touchdown::training {
@@ -26,7 +26,7 @@ struct TrainingRequest {
   /// The requested number of threads.
   int thread_count() const {
     if (threads > 0) return threads;
-    return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    return machine_share().processors;
   }
 };
 

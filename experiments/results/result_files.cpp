@@ -15,6 +15,8 @@
 
 #include "core/files.hpp"
 #include "core/fingerprint.hpp"
+#include "core/machine.hpp"
+#include "core/resources.hpp"
 #include "estimator/evidence/channels.hpp"
 #include "experiments/estimators/entries.hpp"
 #include "experiments/plan/condition.hpp"
@@ -225,8 +227,11 @@ void write_manifest(const ExperimentResult& result) {
   json["finished_at"] = fmt::format("{:%FT%TZ}", fmt::gmtime(std::chrono::system_clock::now()));
   json["host"] = {{"name", host_name()},
                   {"cores", std::thread::hardware_concurrency()},
+                  {"usable_cores", machine_share().processors},
+                  {"processor", processor_class()},
                   {"threads", result.provenance.threads}};
   json["versions"] = versions();
+  json["files"] = program_files().folder.string();
   json["seeds"] = {{"experiment", experiment.seed},
                    {"noise_seeds", experiment.noise.seeds},
                    {"bootstrap", experiment.intervals.bootstrap.seed}};

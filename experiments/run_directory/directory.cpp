@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/fingerprint.hpp"
+#include "core/progress.hpp"
 #include "experiments/run_directory/own_files.hpp"
 
 namespace touchdown::experiments {
@@ -60,9 +61,15 @@ RunDirectory::RunDirectory(const std::string& experiment, const std::string& id,
       store_(path_ / "state", key_of(id, build_fingerprint())) {
   try {
     fs::create_directories(path_);
-    if (out.empty()) point(path_.parent_path() / "latest", id);
   } catch (const fs::filesystem_error& error) {
     throw Error(fmt::format("{}: cannot be created: {}", path_.string(), error.code().message()));
+  }
+  if (!out.empty()) return;
+  try {
+    point(path_.parent_path() / "latest", id);
+  } catch (const fs::filesystem_error& error) {  // exFAT, SMB
+    print_message(fmt::format("touchdown: {} does not lead to this run: {}\n",
+                              (path_.parent_path() / "latest").string(), error.code().message()));
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/machine.hpp"
 
 namespace touchdown::experiments {
 
@@ -53,7 +54,7 @@ std::string to_text(const Shard& shard) { return fmt::format("{}/{}", shard.inde
 
 void mark_shard_started(const fs::path& run_directory, const Shard& shard) {
   write_atomically(mark_folder(run_directory) / fmt::format("{}_of_{}", shard.index, shard.count),
-                   to_text(shard) + "\n");
+                   processor_class() + "\n");
 }
 
 int started_shards(const fs::path& run_directory) {
@@ -67,6 +68,16 @@ int started_shards(const fs::path& run_directory) {
     newest = written;
   }
   return count;
+}
+
+std::set<std::string> shard_processors(const fs::path& run_directory) {
+  std::set<std::string> classes;
+  for (const auto& [path, shard] : marks_in(run_directory)) {
+    std::string name = read_file(path);
+    name.erase(name.find_last_not_of('\n') + 1);
+    classes.insert(std::move(name));
+  }
+  return classes;
 }
 
 void remove_shard_marks(const fs::path& run_directory) {

@@ -11,7 +11,6 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
-#include <thread>
 #include <unistd.h>
 #include <vector>
 
@@ -19,6 +18,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/error.hpp"
+#include "core/machine.hpp"
 #include "render/film/painter.hpp"
 
 namespace touchdown::render {
@@ -167,7 +167,7 @@ void paint_in_order(int frames, std::size_t frame_bytes, int workers,
                     const std::function<void(int, const std::uint8_t*)>& consume,
                     const std::function<void()>& begin) {
   if (frames <= 0) return;
-  if (workers <= 0) workers = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  if (workers <= 0) workers = machine_share().processors;
   const auto wanted = static_cast<std::size_t>(std::min(workers, frames));
   SharedFrames shared(wanted, frame_bytes);
 

@@ -146,7 +146,7 @@ TEST_F(RunDirectory, IsNotMadeOfARunThatExceedsTheMemory) {
   for (const char* more : {"", " --dry-run", " --shard 1/3"}) {
     folder_.expect_refusals(
         {{run + "a --set test.runs=100000 --set noise.seeds=100000" + more,
-          {"test.runs=100000", "noise.seeds=100000", " GB of memory, and this machine has "}}},
+          {"test.runs=100000", "noise.seeds=100000", " GB of memory, and this process may use "}}},
         1);
   }
   EXPECT_FALSE(folder_.has("a"));

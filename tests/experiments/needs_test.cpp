@@ -40,7 +40,7 @@ TEST(Needs, NameTheSettingsToLowerIfMemoryIsTooSmall) {
   const RunRequest many = request_of(experiment_with("noise.seeds=100000"));
   EXPECT_THAT([&] { require_memory(many, 0.0, 1e8); },
               ThrowsMessage<Error>(AllOf(HasSubstr("noise.seeds=100000"),
-                                         HasSubstr("this machine has 0.1 GB"),
+                                         HasSubstr("this process may use 0.1 GB"),
                                          HasSubstr("lower test.runs or noise.seeds"))));
   const RunRequest longer = request_of(experiment_with("test.runs=100000"));
   EXPECT_THAT([&] { require_memory(longer, 1.0, 4e9); },
