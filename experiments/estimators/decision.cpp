@@ -103,9 +103,9 @@ void require_shipped_serves(const EstimatorEntry& entry, const EstimatorSetup& s
   (void)shipped_model_for(entry, setup);
 }
 
-EstimatorEntry shipped_entry(const char* name, EstimatorEntry entry) {
+EstimatorEntry shipped_entry(const char* name, const char* title, EstimatorEntry entry) {
   entry.name = name;
-  entry.title += ", shipped";
+  entry.title = title;
   entry.summary = fmt::format(
       "Runs the shipped model {}, fitted to Upkie on bent and straight legs", shipped_file(name));
   entry.reason += ", without labels";
@@ -145,7 +145,7 @@ EstimatorEntry decision_network_entry() {
 EstimatorEntry evidence_curves_entry() {
   EstimatorEntry entry = decision_network_entry();
   entry.name = "evidence_curves";
-  entry.title = "Evidence curves";
+  entry.title = "Evidence curves, own fit";
   entry.summary = "Adds up one curve of evidence for each of the wheel's loads and motions";
   entry.reason = "accuracy and transparency";
   entry.fitting.fit = fit_evidence;
@@ -155,10 +155,13 @@ EstimatorEntry evidence_curves_entry() {
 
 EstimatorEntry quiet_evidence_curves_entry() { return at_quiet_point(evidence_curves_entry()); }
 
-EstimatorEntry shipped_curves_entry() { return shipped_entry("shipped", evidence_curves_entry()); }
+EstimatorEntry shipped_curves_entry() {
+  return shipped_entry("shipped", "Evidence curves, shipped", evidence_curves_entry());
+}
 
 EstimatorEntry quiet_shipped_curves_entry() {
-  return shipped_entry("shipped_quiet", quiet_evidence_curves_entry());
+  return shipped_entry("shipped_quiet", "Evidence curves, shipped, quiet",
+                       quiet_evidence_curves_entry());
 }
 
 std::optional<EvidenceCurveSets> evidence_in(const Model& model) {
