@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/table.hpp"
 #include "core/yaml.hpp"
 #include "logs/log/numbers_csv.hpp"
@@ -78,13 +79,6 @@ ContactInterval interval_in(const NumbersCsv& csv, const IntervalColumns& column
   return interval;
 }
 
-/// The first interval that starts after a time.
-template <typename Intervals>
-auto first_after(Intervals& intervals, double time) {
-  return std::upper_bound(intervals.begin(), intervals.end(), time,
-                          [](double t, const ContactInterval& one) { return t < one.start; });
-}
-
 struct StartsBefore {
   bool operator()(const ContactInterval& one, const ContactInterval& other) const {
     return one.start < other.start;
@@ -93,16 +87,7 @@ struct StartsBefore {
 /// In order of time, with rows of the file in any order.
 using OrderedIntervals = std::set<ContactInterval, StartsBefore>;
 
-}  // namespace
-
-const ContactInterval* ContactIntervals::at(double time) const {
-  const auto after = first_after(intervals, time);
-  if (after == intervals.begin()) return nullptr;
-  const ContactInterval& before = *std::prev(after);
-  return time < before.end ? &before : nullptr;
-}
-
-ContactIntervals read_contact_intervals(const std::filesystem::path& path) {
+ContactIntervals read_rows(const std::filesystem::path& path) {
   ContactIntervals read{path.string(), {}};
   NumbersCsv csv(path);
   const IntervalColumns columns = find_columns(csv);
@@ -122,20 +107,46 @@ ContactIntervals read_contact_intervals(const std::filesystem::path& path) {
     intervals.insert(next, interval);
   }
   read.intervals.assign(intervals.begin(), intervals.end());
+  return read;
+}
+
+}  // namespace
+
+double to_microsecond(double time) { return std::round(1e6 * time) / 1e6; }
+
+const ContactInterval* ContactIntervals::at(double time) const {
+  const double here = to_microsecond(time);
+  const auto after = std::upper_bound(
+      intervals.begin(), intervals.end(), here,
+      [](double t, const ContactInterval& one) { return t < to_microsecond(one.start); });
+  if (after == intervals.begin()) return nullptr;
+  const ContactInterval& before = *std::prev(after);
+  const double end = to_microsecond(before.end);
+  return here < end || (here == end && after == intervals.end()) ? &before : nullptr;
+}
+
+ContactIntervals read_contact_intervals(const std::filesystem::path& path) {
+  ContactIntervals read = read_rows(path);
   if (read.intervals.empty()) {
     throw InputError(fmt::format("{}:1:1: contains no contact interval", path.string()));
   }
   return read;
 }
 
+ContactIntervals read_begun_intervals(const std::filesystem::path& path) {
+  return is_there(path) ? read_rows(path) : ContactIntervals{path.string(), {}};
+}
+
 std::string to_csv(const ContactIntervals& intervals) {
   TextTable table{{"start", "end", "left", "right"}, {}};
-  const bool has_sure = !intervals.intervals.empty() && intervals.intervals.front().sure;
+  const bool has_sure =
+      std::any_of(intervals.intervals.begin(), intervals.intervals.end(),
+                  [](const ContactInterval& one) { return one.sure.has_value(); });
   if (has_sure) table.header.emplace_back("sure");
   for (const ContactInterval& one : intervals.intervals) {
     std::vector<std::string>& row = table.rows.emplace_back();
-    row = {exact(one.start), exact(one.end), one.contact[0] ? "1" : "0",
-           one.contact[1] ? "1" : "0"};
+    row = {exact(to_microsecond(one.start)), exact(to_microsecond(one.end)),
+           one.contact[0] ? "1" : "0", one.contact[1] ? "1" : "0"};
     if (has_sure) row.push_back(fmt::format("{:.3f}", one.sure.value_or(1.0)));
   }
   return touchdown::to_csv(table);

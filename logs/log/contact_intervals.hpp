@@ -20,13 +20,18 @@ struct ContactInterval {
   std::optional<double> sure = {};
 };
 
+/// The time rounded to the microsecond (s): labels are compared and written so, because a log's
+/// times are sums and products whose last digits differ.
+double to_microsecond(double time);
+
 /// Contact labels of a log: intervals that do not overlap, in order of time. Contact between them
-/// is unknown. Times are those that `touchdown estimate` prints.
+/// is unknown, for both wheels at once. Times are those that `touchdown estimate` prints.
 struct ContactIntervals {
   std::string file;
   std::vector<ContactInterval> intervals;
 
-  /// The interval that contains a time, or null.
+  /// The interval that contains a time, to the microsecond, or null. The last one contains its end,
+  /// too: it is often the time of the log's last step.
   const ContactInterval* at(double time) const;
 };
 
@@ -35,9 +40,11 @@ struct ContactIntervals {
 /// `InputError` with file:line:column for an invalid interval, and for one that overlaps with
 /// another.
 ContactIntervals read_contact_intervals(const std::filesystem::path& path);
+/// The same for labels that a person has begun: none if the file is not there or has no interval.
+ContactIntervals read_begun_intervals(const std::filesystem::path& path);
 
-/// Formats intervals as such a file, `start,end,left,right`, and `sure` if the first one has it.
-/// Reading it gives the same numbers.
+/// Formats intervals as such a file, `start,end,left,right` to the microsecond, and `sure` if one
+/// has it. Reading it gives the same contact at every step.
 std::string to_csv(const ContactIntervals& intervals);
 
 /// Reads the labels of several logs: one file per log, in order, or no files. Errors: `InputError`

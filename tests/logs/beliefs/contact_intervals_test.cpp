@@ -55,8 +55,35 @@ TEST_F(Intervals, HoldFromTheirStartUntilBeforeTheirEnd) {
   EXPECT_TRUE(some.at(0.999)->contact[1]);
   EXPECT_FALSE(some.at(1.0)->contact[0]);
   EXPECT_EQ(some.at(2.0), nullptr);
-  EXPECT_EQ(some.at(6.0), nullptr);
+  EXPECT_NE(some.at(6.0), nullptr) << "the last one also at its end";
+  EXPECT_EQ(some.at(6.001), nullptr);
   EXPECT_EQ(some.at(std::numeric_limits<double>::quiet_NaN()), nullptr);
+}
+
+/// Times of a log at 1 kHz, as sums, as products and as they are printed.
+TEST_F(Intervals, AreWrittenToTheMicrosecondAndReadBackToTheSameSteps) {
+  ContactIntervals written;
+  double sum = 0.0;
+  for (int k = 0; k < 30'000; ++k, sum += 0.001) {
+    if (k % 3 == 0) written.intervals.push_back({sum, sum + 0.003, {k % 2 == 0, k % 4 == 0}});
+  }
+  const std::string text = to_csv(written);
+  EXPECT_THAT(text, HasSubstr("\n26.838,26.841,1,0\n"));
+  const ContactIntervals read_back = read(text);
+  for (int k = 0; k < 30'000; ++k) {
+    const std::array<bool, 2> expected = {k / 3 * 3 % 2 == 0, k / 3 * 3 % 4 == 0};
+    const ContactInterval* const one = read_back.at(0.001 * k);
+    ASSERT_NE(one, nullptr) << k;
+    ASSERT_EQ(one->contact, expected) << k;
+  }
+  EXPECT_EQ(to_csv(read_back), text);
+}
+
+TEST_F(Intervals, ThatAreBegunMayBeNone) {
+  EXPECT_TRUE(read_begun_intervals(folder_ / "none.csv").intervals.empty());
+  const auto file = folder_.write("begun.csv", to_csv({}));
+  EXPECT_TRUE(read_begun_intervals(file).intervals.empty());
+  EXPECT_THROW((void)read_begun_intervals(folder_.write("b.csv", "start,end\n")), InputError);
 }
 
 TEST_F(Intervals, ThatAreWrongAreNamedByTheirPlace) {
