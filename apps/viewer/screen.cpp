@@ -21,9 +21,12 @@ namespace {
 /// 0 for a key without a meaning here.
 int key_of(int glfw_key) {
   static const std::map<int, int> named = {
-      {GLFW_KEY_LEFT, key_left},     {GLFW_KEY_RIGHT, key_right},        {GLFW_KEY_UP, key_up},
-      {GLFW_KEY_DOWN, key_down},     {GLFW_KEY_HOME, key_home},          {GLFW_KEY_END, key_end},
-      {GLFW_KEY_ESCAPE, key_escape}, {GLFW_KEY_BACKSPACE, key_backspace}};
+      {GLFW_KEY_LEFT, key_left},     {GLFW_KEY_RIGHT, key_right},
+      {GLFW_KEY_UP, key_up},         {GLFW_KEY_DOWN, key_down},
+      {GLFW_KEY_HOME, key_home},     {GLFW_KEY_END, key_end},
+      {GLFW_KEY_ESCAPE, key_escape}, {GLFW_KEY_BACKSPACE, key_backspace},
+      {GLFW_KEY_ENTER, key_enter},   {GLFW_KEY_KP_ENTER, key_enter},
+      {GLFW_KEY_DELETE, key_delete}};
   if (const auto found = named.find(glfw_key); found != named.end()) return found->second;
   // GLFW numbers printable keys by the upper-case characters of a US keyboard.
   return glfw_key >= GLFW_KEY_SPACE && glfw_key <= GLFW_KEY_GRAVE_ACCENT ? std::tolower(glfw_key)
@@ -57,7 +60,8 @@ const std::array<render::SceneCamera, 4>& cameras() {
 constexpr double degrees_per_pixel = 0.3;
 constexpr double zoom_per_step = 0.9;
 constexpr double nearest = 0.4, farthest = 20.0;  // m
-constexpr double highest = 89.0;                  // degrees
+constexpr double lowest = 10.0;                   // degrees, looking up
+constexpr double highest = -89.0;                 // degrees, looking down
 constexpr double follow_time = 0.25;              // s
 
 }  // namespace
@@ -184,7 +188,7 @@ void CameraControl::next_mode() {
 
 void CameraControl::turn(double right, double down) {
   camera_.azimuth = std::remainder(camera_.azimuth - degrees_per_pixel * right, 360.0);
-  camera_.elevation = std::clamp(camera_.elevation - degrees_per_pixel * down, -highest, highest);
+  camera_.elevation = std::clamp(camera_.elevation - degrees_per_pixel * down, highest, lowest);
 }
 
 void CameraControl::approach(double steps) {
@@ -199,12 +203,18 @@ void CameraControl::follow(const Eigen::Vector3d& base, double seconds) {
   follows_ = true;
 }
 
-Layout layout_of(int width, int height) {
-  const int plots = std::clamp(height * 36 / 100, 160, 420);
+Layout layout_of(int width, int height, const Extras& extras) {
+  const int plots = std::clamp(height * 36 / 100, 160, 420) + extras.above_plots;
   const int panel = std::clamp(width * 24 / 100, 220, 420);
   const int above = std::max(1, height - plots);
-  const int scene = std::max(1, width - panel);
-  return {{0, 0, scene, above}, {scene, 0, panel, above}, {0, above, width, plots}};
+  const int left = std::max(2, width - panel);
+  // At most half for the film, as far as its height fills it.
+  const int film = std::min(left / 2, static_cast<int>(std::lround(extras.film_aspect * above)));
+  const int scene = left - film;
+  return {{0, 0, scene, above},
+          {scene, 0, film, above},
+          {left, 0, panel, above},
+          {0, above, width, plots}};
 }
 
 Chip contact_chip(int wheels) {
@@ -236,8 +246,9 @@ void Screen::draw(const cv::Mat& picture, int left, int top) {
 void Screen::draw_keys(const std::vector<std::pair<std::string, std::string>>& mouse) {
   if (!shows_keys_) return;
   const Area scene = layout().scene;
-  const cv::Mat picture = key_list(pen_, bindings_, mouse, scene.width, scene.height);
-  draw(picture, scene.left + std::max(0, scene.width - picture.cols),
+  const int right = scene.left + scene.width + layout().film.width;
+  const cv::Mat picture = key_list(pen_, bindings_, mouse, right, scene.height);
+  draw(picture, std::max(0, right - picture.cols),
        scene.top + std::max(0, (scene.height - picture.rows) / 2));
 }
 

@@ -35,7 +35,9 @@ enum Key : int {
   key_home,
   key_end,
   key_escape,
-  key_backspace
+  key_backspace,
+  key_enter,
+  key_delete
 };
 
 /// The mouse, in pixels from the window's upper left corner.
@@ -119,11 +121,17 @@ struct Area {
   }
 };
 
-/// The areas of a window: the scene, a panel to its right, plots along the lower edge.
+/// The areas of a window: the scene, perhaps a film beside it, a panel to their right, plots along
+/// the lower edge.
 struct Layout {
-  Area scene, panel, plots;
+  Area scene, film, panel, plots;
 };
-Layout layout_of(int width, int height);
+/// What a window shows besides scene, panel and plots.
+struct Extras {
+  double film_aspect = 0.0;  ///< width over height of the film; 0: none
+  int above_plots = 0;       ///< height of what is added to the plots (pixels)
+};
+Layout layout_of(int width, int height, const Extras& extras = {});
 
 /// A label over the scene.
 struct Chip {
@@ -147,12 +155,12 @@ inline constexpr std::chrono::milliseconds shortest_frame{16};
 /// Draws the robot and pictures into a window.
 class Screen {
  public:
-  explicit Screen(Window& window) : window_(window) {}
+  explicit Screen(Window& window, const Extras& extras = {}) : window_(window), extras_(extras) {}
 
   /// Shows this robot on its terrain from now on. Keeps the reference.
   void set_robot(const models::RobotModel& robot) { view_.emplace(robot); }
 
-  Layout layout() const { return layout_of(window_.width(), window_.height()); }
+  Layout layout() const { return layout_of(window_.width(), window_.height(), extras_); }
   CameraControl& camera() { return camera_; }
   const render::TextPen& pen() const { return pen_; }
   /// The robot's state: write its positions with `models::write_pose`, or with `Poses`.
@@ -182,6 +190,7 @@ class Screen {
   mjrRect viewport() const;
 
   Window& window_;
+  Extras extras_;
   render::TextPen pen_;
   CameraControl camera_;
   std::optional<render::SceneView> view_;

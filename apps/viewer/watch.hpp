@@ -3,11 +3,13 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/viewer/live_controls.hpp"
+#include "logs/log/label_edits.hpp"
 #include "logs/recording.hpp"
 #include "models/robot_model.hpp"
 #include "render/film/request.hpp"
@@ -39,9 +41,21 @@ struct LoggedRun {
   models::RobotModel robot;
   logs::Recording recording;
   std::vector<render::BeliefTrack> beliefs;
-  /// True contact by row, from ground truth or labels; empty without them.
-  std::array<std::vector<std::uint8_t>, models::wheel_count> contact;
+  /// True contact by row, from ground truth or labels; empty without them. Time without labels is
+  /// unknown.
+  std::array<std::vector<logs::LabelState>, models::wheel_count> contact;
 };
+
+/// The contact that labels give each row of the recording.
+std::array<std::vector<logs::LabelState>, models::wheel_count> labelled_contact(
+    const logs::Recording& recording, const logs::ContactIntervals& labels);
+
+/// The contact of the recording's ground truth, which it must have.
+std::array<std::vector<logs::LabelState>, models::wheel_count> true_contact(
+    const logs::Recording& recording, const scoring::LabelConfig& definition);
+
+/// Whether the true contact of a row is known.
+bool is_known(const LoggedRun& run, std::size_t row);
 
 /// A segment of a run: steps [begin, end).
 struct StepRange {
@@ -53,16 +67,26 @@ struct StepRange {
 /// The steps at which `values` is true, as maximal ranges.
 std::vector<StepRange> ranges_of(const std::vector<std::uint8_t>& values);
 
-/// The flights of the run: no wheel in true contact; without true contact, none by the first
-/// estimator's beliefs.
+/// The flights of the run: both wheels known to be in the air; if the contact of no row is known,
+/// by the first estimator's beliefs.
 std::vector<StepRange> flights_of(const LoggedRun& run);
 
-/// Where the decision of estimator `index` differs from the true contact of a wheel for at least
-/// 5 ms. Empty without true contact.
+/// Where the decision of estimator `index` differs from the known contact of a wheel for at least
+/// 5 ms.
 std::vector<StepRange> errors_of(const LoggedRun& run, std::size_t index);
 
-/// Plays the run in a window until the window is closed or `stop` is true. Errors: `Error` without
-/// a display.
-void watch_log(const LoggedRun& run, int width, int height, const std::atomic<bool>& stop);
+/// How a run is played.
+struct LogSession {
+  /// To be edited; their file is written after each edit.
+  std::optional<logs::ContactIntervals> labels = {};
+  std::filesystem::path film = {};  ///< of a person; empty: none
+  double film_offset = 0.0;         ///< the film's time when the log's is zero (s)
+  int width = 1280, height = 720;   ///< of the window
+};
+
+/// Plays the run in a window until the window is closed or `stop` is true. Returns the lines to
+/// print: what was changed and saved, and the film's offset. Errors: `Error` without a display, or
+/// if labels cannot be saved; `InputError` for a file that is no film.
+std::string watch_log(LoggedRun run, const LogSession& session, const std::atomic<bool>& stop);
 
 }  // namespace touchdown::viewer

@@ -171,7 +171,7 @@ double move_edge(ContactIntervals& labels, std::size_t wheel, double edge, doubl
 
 void accept(ContactIntervals& labels, const TimeRange& range) {
   for (ContactInterval& one : labels.intervals) {
-    if (one.start < range.end && one.end > range.begin) one.sure.reset();
+    if (one.start >= range.begin && one.end <= range.end) one.sure.reset();
   }
 }
 

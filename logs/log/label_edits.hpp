@@ -47,7 +47,7 @@ double move_edge(ContactIntervals& labels, std::size_t wheel, double edge, doubl
 /// Makes two intervals of the one that contains `time`, of equal contact.
 void split(ContactIntervals& labels, double time);
 
-/// A person has looked at all intervals in the range and leaves them.
+/// A person has looked at the intervals within the range and leaves them.
 void accept(ContactIntervals& labels, const TimeRange& range);
 
 /// The intervals that a person should look at, the least sure first: their numbers.

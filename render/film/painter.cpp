@@ -175,11 +175,9 @@ void FrameComposer::write_labels(std::size_t i, double time) {
 struct FramePainter::Show {
   explicit Show(const VideoSource& source)
       : recording(source.recording), poses(source.robot, source.recording), view(source.robot) {
-    const bool simulated = recording.truth.size() >= recording.steps();
-    const Eigen::Vector3d above(0.0, 0.0, simulated ? 0.0 : 0.5);
     std::vector<Eigen::Vector3d> base;
     for (std::size_t row = 0; row < poses.count(); ++row) {
-      base.push_back(poses.base_position(row) + above);
+      base.push_back(poses.base_position(row));
     }
     camera = smoothed(std::move(base), recording.period(), camera_time_constant);
   }

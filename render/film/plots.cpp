@@ -19,6 +19,7 @@ constexpr double span_margin = 0.1;  // s: the end of a line must not be visible
 
 const Colour one_wheel = rgb(0xe6f2e8);
 const Colour two_wheels = rgb(0xcfe8d2);
+const Colour unknown = rgb(0xe3e4e8);
 const Colour grid = rgb(0xdfe3e6);
 
 cv::Point fixed(double x, double y) {
@@ -40,7 +41,12 @@ struct TimeSpan {
   }
 };
 
-/// Tints the time of true contact green.
+Colour band(std::uint8_t wheels_in_contact) {
+  if (wheels_in_contact == unknown_contact) return unknown;
+  return wheels_in_contact > 1 ? two_wheels : one_wheel;
+}
+
+/// Tints the time of true contact green, and unknown time grey.
 void draw_contact(const TimeSpan& span, const StripRow& row, const PlotArea& area) {
   const auto& contact = row.wheels_in_contact;
   for (std::size_t k = TimeSpan::row_at(row, span.begin, contact.size());
@@ -49,8 +55,8 @@ void draw_contact(const TimeSpan& span, const StripRow& row, const PlotArea& are
     while (end < contact.size() && contact[end] == contact[k]) ++end;
     if (contact[k] > 0) {
       cv::rectangle(span.image, fixed(span.x(row, k), area.top),
-                    fixed(span.x(row, end), area.bottom - 1),
-                    contact[k] > 1 ? two_wheels : one_wheel, cv::FILLED, cv::LINE_8, subpixel_bits);
+                    fixed(span.x(row, end), area.bottom - 1), band(contact[k]), cv::FILLED,
+                    cv::LINE_8, subpixel_bits);
     }
     k = end;
   }

@@ -49,12 +49,16 @@ struct StripCurve {
   bool emphasis = true;       ///< false: thin and without a dot
 };
 
+/// Stands for a number of wheels in contact that is not known.
+inline constexpr std::uint8_t unknown_contact = 255;
+
 /// One plot: curves over bands of true contact.
 struct StripRow {
   std::string title;
   float low = 0.0f, high = 1.0f;
   std::vector<StripCurve> curves;
-  /// The number of wheels in true contact, per row of the recording; may be empty.
+  /// The number of wheels in true contact, or `unknown_contact`, per row of the recording; may be
+  /// empty.
   std::vector<std::uint8_t> wheels_in_contact;
   double period = 1e-3;  ///< between rows (s)
 };

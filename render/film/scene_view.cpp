@@ -51,6 +51,17 @@ Poses::Poses(const models::RobotModel& robot, const logs::Recording& recording)
   if (recording.steps() == 0) throw InputError("the recording is empty: there is nothing to draw");
   if (recording.truth.size() < recording.steps()) {
     base_ = odometry(robot, recording);
+    const models::MjDataPtr data(mj_makeData(robot.mj.get()));
+    if (!data) throw Error("MuJoCo has no memory for another model");
+    for (std::size_t row = 0; row < base_.size(); ++row) {
+      write(row, *data);
+      mj_kinematics(robot.mj.get(), data.get());
+      double lowest = data->geom_xpos[3 * robot.tyre_geom[0] + 2];
+      for (const int geom : robot.tyre_geom) {
+        lowest = std::min(lowest, data->geom_xpos[3 * geom + 2]);
+      }
+      base_[row].z() += robot.wheel_radius - lowest;
+    }
     return;
   }
   Eigen::Vector3d last = Eigen::Vector3d::Zero();
@@ -64,7 +75,11 @@ Poses::Poses(const models::RobotModel& robot, const logs::Recording& recording)
 }
 
 void Poses::apply(std::size_t row, mjData& data) const {
-  const mjModel& model = *robot_.mj;
+  write(row, data);
+  update_geoms(*robot_.mj, data);
+}
+
+void Poses::write(std::size_t row, mjData& data) const {
   const models::Observation& observation = recording_.observation[row];
   const bool simulated = recording_.truth.size() >= recording_.steps();
   const Eigen::Quaterniond orientation = finite_or_upright(
@@ -80,15 +95,29 @@ void Poses::apply(std::size_t row, mjData& data) const {
   const std::vector<double> held =
       simulated ? held_positions(recording_.truth[row]) : std::vector<double>();
   models::write_held(robot_, held, data.qpos);
-  if (!simulated) {
-    mj_kinematics(&model, &data);
-    double lowest = data.geom_xpos[3 * robot_.tyre_geom[0] + 2];
-    for (const int geom : robot_.tyre_geom) {
-      lowest = std::min(lowest, data.geom_xpos[3 * geom + 2]);
-    }
-    data.qpos[robot_.base_qpos() + 2] += robot_.wheel_radius - lowest;
+}
+
+double elevation_above_ground(const models::RobotModel& robot, const mjData& data,
+                              const SceneCamera& camera, const Eigen::Vector3d& target) {
+  constexpr double clearance = 0.1;  // m
+  constexpr double steepest = -89.0;
+  constexpr double step = 0.5;    // degrees
+  constexpr double above = 50.0;  // m: where a ray to the ground starts
+  double elevation = camera.elevation;
+  for (; elevation > steepest; elevation -= step) {
+    const double flat = camera.distance * std::cos(elevation * degree);
+    const Eigen::Vector3d eye = target + camera.look_at -
+                                Eigen::Vector3d(flat * std::cos(camera.azimuth * degree),
+                                                flat * std::sin(camera.azimuth * degree),
+                                                camera.distance * std::sin(elevation * degree));
+    const Eigen::Vector3d start = eye + Eigen::Vector3d(0.0, 0.0, above);
+    const Eigen::Vector3d down = -Eigen::Vector3d::UnitZ();
+    int geom = -1;
+    const double depth = mj_ray(robot.mj.get(), &data, start.data(), down.data(), nullptr, 1,
+                                robot.base_body, &geom);
+    if (depth < 0.0 || robot.mj->geom_bodyid[geom] != 0 || depth > above + clearance) break;
   }
-  update_geoms(model, data);
+  return elevation;
 }
 
 void update_geoms(const mjModel& model, mjData& data) {
@@ -141,8 +170,8 @@ void SceneView::draw(const mjrRect& viewport, const Eigen::Vector3d& target,
   const Eigen::Vector3d look_at = target + camera.look_at;
   std::copy_n(look_at.data(), 3, camera_.lookat);
   camera_.azimuth = camera.azimuth;
-  camera_.elevation = camera.elevation;
   camera_.distance = camera.distance;
+  camera_.elevation = elevation_above_ground(robot_, *data_, camera, target);
   mjv_updateScene(robot_.mj.get(), data_.get(), &visibility_, nullptr, &camera_, mjCAT_ALL,
                   &scene_);
   place_sun(target);

@@ -30,6 +30,8 @@ class Poses {
   void apply(std::size_t row, mjData& data) const;
 
  private:
+  void write(std::size_t row, mjData& data) const;
+
   const models::RobotModel& robot_;
   const logs::Recording& recording_;
   std::vector<Eigen::Vector3d> base_;
@@ -51,6 +53,11 @@ struct SceneCamera {
   Eigen::Vector3d look_at = {0.12, 0.0, -0.28};  ///< from the target, in the world (m)
 };
 
+/// The elevation of a camera that looks at `target` (degrees), or the next steeper one from which
+/// it stands above the ground.
+double elevation_above_ground(const models::RobotModel& robot, const mjData& data,
+                              const SceneCamera& camera, const Eigen::Vector3d& target);
+
 /// A vector that is drawn from one point to another, in the world (m).
 struct SceneVector {
   Eigen::Vector3d from, to;
@@ -69,7 +76,8 @@ class SceneView {
   /// The robot's state; fill it with `Poses::apply`.
   mjData& data() { return *data_; }
 
-  /// Draws `data()` into `viewport`. The camera looks at the surroundings of `target` (m, world).
+  /// Draws `data()` into `viewport`. The camera looks at the surroundings of `target` (m, world),
+  /// and rises where it would be below the ground.
   void draw(const mjrRect& viewport, const Eigen::Vector3d& target, const SceneCamera& camera = {},
             std::span<const SceneVector> vectors = {});
 

@@ -276,6 +276,7 @@ void SignalStrip::draw(cv::Mat image, double time) {
   }
   const int now = plots.cols - fog_.cols;
   for (const PlotArea& area : areas_) {
+    if (!window_.fades) break;
     cv::Mat future = plots(cv::Rect(now, area.top, fog_.cols, area.bottom - area.top));
     cv::addWeighted(future, 0.4, fog_.rowRange(area.top, area.bottom), 0.6, 0.0, future);
   }

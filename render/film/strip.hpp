@@ -20,6 +20,7 @@ struct StripWindow {
   double seconds = 4.0;
   double present = 0.75;  ///< position of the present in the window
   int tiles = 1;          ///< images per window; rows that grow draw only the last ones again
+  bool fades = true;      ///< whether the future is faded
 };
 
 /// Moving plots below the view: a window of time with the present at its place and the future
@@ -32,6 +33,9 @@ class SignalStrip {
   SignalStrip(std::vector<StripRow> rows, int width, int height, const StripWindow& window = {});
 
   const std::vector<StripRow>& rows() const { return rows_; }
+  /// The edges of the plots, between names and margin (px).
+  int left() const { return left_; }
+  int right() const { return right_; }
   /// The row, to add values that are later than `time` (s).
   StripRow& growing_row(std::size_t i, double time);
 

@@ -6,6 +6,7 @@
 namespace touchdown::viewer {
 namespace {
 
+using logs::LabelState;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using Steps = std::vector<std::uint8_t>;
@@ -17,10 +18,22 @@ TEST(StepRanges, AreMaximal) {
   EXPECT_THAT(ranges_of({1, 0, 1, 1}), ElementsAre(StepRange{0, 1}, StepRange{2, 4}));
 }
 
+constexpr std::uint8_t gap = 2;  ///< unknown; beside 0, air, and 1, contact
+
+std::vector<LabelState> states(const Steps& steps) {
+  std::vector<LabelState> states;
+  for (const std::uint8_t step : steps) {
+    states.push_back(step == gap ? LabelState::unknown
+                     : step == 1 ? LabelState::contact
+                                 : LabelState::air);
+  }
+  return states;
+}
+
 LoggedRun run_of(const Steps& left, const Steps& right) {
   LoggedRun run;
   run.recording.info.control_period_us = 1000;
-  run.contact = {left, right};
+  run.contact = {states(left), states(right)};
   run.recording.observation.resize(left.size());
   return run;
 }
@@ -34,6 +47,39 @@ TEST(Flights, HaveNoWheelInContactOrTheFirstEstimatorsWithoutTrueContact) {
   belief.contact = {Steps{1, 0, 0}, Steps{1, 0, 1}};
   run.beliefs = {belief};
   EXPECT_THAT(flights_of(run), ElementsAre(StepRange{1, 2}));
+}
+
+TEST(UnknownContact, IsNeitherAFlightNorAnErrorNorDoesItHideOthers) {
+  const Steps labels = {0, 0, 0, 0, 0, 0, gap, gap, gap, gap, gap, gap, 1, 1, 1, 1, 1, 1, gap};
+  LoggedRun run = run_of(labels, labels);
+  EXPECT_THAT(flights_of(run), ElementsAre(StepRange{0, 6}));
+  render::BeliefTrack belief;
+  belief.contact = {Steps(19, 0), Steps(19, 0)};
+  run.beliefs = {belief};
+  EXPECT_THAT(errors_of(run, 0), ElementsAre(StepRange{12, 18}));
+  EXPECT_TRUE(is_known(run, 5));
+  EXPECT_FALSE(is_known(run, 6));
+  EXPECT_FALSE(is_known(run, 18));
+  EXPECT_FALSE(is_known(run, 19)) << "beyond the end";
+}
+
+TEST(UnknownContact, OfAWholeRunLeavesTheFlightsToTheFirstEstimator) {
+  LoggedRun run = run_of(Steps(3, gap), Steps(3, gap));
+  render::BeliefTrack belief;
+  belief.contact = {Steps{1, 0, 0}, Steps{1, 0, 1}};
+  run.beliefs = {belief};
+  EXPECT_THAT(flights_of(run), ElementsAre(StepRange{1, 2}));
+}
+
+TEST(LabelledContact, IsThatOfEachRowsOwnTime) {
+  logs::Recording recording;
+  for (const double time : {0.0, 0.001, 0.005, 0.006, 0.007}) {  // 4 ms are missing
+    recording.observation.emplace_back().time = time;
+  }
+  const auto contact = labelled_contact(
+      recording, {"", {{0.0, 0.005, {true, false}}, {0.006, 0.007, {false, true}}}});
+  EXPECT_EQ(contact[0], states({1, 1, gap, 0, 0}));
+  EXPECT_EQ(contact[1], states({0, 0, gap, 1, 1}));
 }
 
 TEST(Errors, LastAtLeastFiveMilliseconds) {

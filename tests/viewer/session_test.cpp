@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <sys/wait.h>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,9 +31,10 @@ std::string text(const ScratchFolder& folder, const std::string& name) {
 bool has_display_tools() { return std::system("command -v Xvfb xdotool >/dev/null 2>&1") == 0; }
 
 /// Runs the viewer on a display of its own while `script` uses keys and mouse.
-int watch(const ScratchFolder& folder, const std::string& script, const std::string& arguments) {
+int watch(const ScratchFolder& folder, const std::string& script, const std::string& arguments,
+          const std::string& size = "--width 900 --height 640") {
   return shell(folder, "tests/viewer/on_display.sh '" + script + "' " TOUCHDOWN_WATCH " " +
-                           arguments + " --width 900 --height 640");
+                           arguments + " " + size);
 }
 
 std::string quoted(const std::filesystem::path& path) { return "'" + path.string() + "'"; }
@@ -105,6 +107,84 @@ TEST(WatchSession, PlaysARecordingToAnErrorAndBack) {
   EXPECT_EQ(text(folder, "err"), "");
 }
 
+/// A robot's log of two seconds.
+std::filesystem::path robot_log(const ScratchFolder& folder) {
+  const auto path = folder / "robot.mpack";
+  EXPECT_EQ(
+      shell(folder, TOUCHDOWN_PROGRAM " simulate scenarios/flat.yaml --set end.duration=2 -o " +
+                        quoted(path)),
+      0)
+      << text(folder, "err");
+  logs::Recording log = logs::read_recording(path);
+  log.truth.clear();
+  log.info = {};  // its steps are of a millisecond
+  logs::write_recording(log, path);
+  return path;
+}
+
+TEST(WatchSession, EditsLabelsByKeysAndSavesEachEdit) {
+  if (!has_display_tools()) GTEST_SKIP() << "needs the packages xvfb and xdotool";
+  const ScratchFolder folder;
+  const auto labels = folder.write("labels.csv",
+                                   "start,end,left,right,sure\n"
+                                   "0,1,1,1,0.9\n1,1.5,0,0,0.6\n1.5,2,1,1,0.8\n");
+  const std::string script =
+      "sleep 2; xdotool key n k equal equal shift+equal Return; "  // 12 steps later, accepted
+      "sleep 0.5; cp " +
+      labels.string() + " " + (folder / "half.csv").string() +
+      "; "
+      "xdotool key shift+a u x u; "           // both undone
+      "xdotool key Home b Right a k minus; "  // 0 to 0.1 s, then one step less
+      "xdotool key w k k i shift+u; sleep 0.5; xdotool key q";
+  ASSERT_EQ(watch(folder, script, quoted(robot_log(folder)) + " --labels " + quoted(labels)), 0)
+      << text(folder, "err");
+  EXPECT_EQ(text(folder, "half.csv"),
+            "start,end,left,right,sure\n0,1,1,1,0.900\n1,1.5,0,0,1.000\n1.5,1.512,0,1,1.000\n"
+            "1.512,2,1,1,0.800\n");
+  EXPECT_EQ(read_file(labels),
+            "start,end,left,right,sure\n0,0.099,0,1,1.000\n0.099,1,1,1,0.900\n"
+            "1,1.5,0,0,1.000\n1.5,1.512,0,1,1.000\n1.512,2,1,1,0.800\n");
+  EXPECT_THAT(text(folder, "out"), HasSubstr("6 edits saved; 5 intervals, 2.000 s, 2 to look at"));
+}
+
+TEST(WatchSession, BeginsAFileOfLabelsAndDragsAnEdge) {
+  if (!has_display_tools()) GTEST_SKIP() << "needs the packages xvfb and xdotool";
+  const ScratchFolder folder;
+  const auto labels = folder / "new.csv";
+  // 1 s marked from the start; its end is in the middle of the plots, 108 px are 0.4 s.
+  const std::string script =
+      "sleep 2; xdotool key space Home b shift+Right c; sleep 0.3; "
+      "xdotool mousemove 716 438 mousedown 1; sleep 0.3; xdotool mousemove 770 438; sleep 0.3; "
+      "xdotool mousemove 824 438; sleep 0.3; xdotool mouseup 1; sleep 0.5; xdotool key q";
+  ASSERT_EQ(watch(folder, script, quoted(robot_log(folder)) + " --labels " + quoted(labels), ""), 0)
+      << text(folder, "err");
+  EXPECT_EQ(read_file(labels), "start,end,left,right\n0,1.4,1,1\n");
+  EXPECT_THAT(text(folder, "out"), HasSubstr("2 edits saved; 1 intervals"));
+}
+
+TEST(WatchSession, ShowsAFilmWithAnOffsetToTypeNextTime) {
+  if (!has_display_tools()) GTEST_SKIP() << "needs the packages xvfb and xdotool";
+  const ScratchFolder folder;
+  const auto log = folder / "run.mpack";
+  const auto film = folder / "film.mp4";
+  ASSERT_EQ(
+      shell(folder, TOUCHDOWN_PROGRAM " simulate scenarios/flat.yaml --set end.duration=2 -o " +
+                        quoted(log)),
+      0);
+  ASSERT_EQ(shell(folder, TOUCHDOWN_PROGRAM " render " + quoted(log) + " --to 1 -o " +
+                              quoted(film) + " --width 320 --height 240"),
+            0)
+      << text(folder, "err");
+  const std::string script =
+      "sleep 2; xdotool key bracketright bracketright shift+bracketleft; sleep 0.5; "
+      "xdotool key End Home t; sleep 0.5; xdotool key q";
+  ASSERT_EQ(watch(folder, script, quoted(log) + " --film " + quoted(film) + " --film-offset 0.5"),
+            0)
+      << text(folder, "err");
+  EXPECT_EQ(text(folder, "out"), fmt::format("--film-offset {:.4f}\n", 0.5 - 8.0 / 30.0));
+  EXPECT_EQ(text(folder, "err"), "");
+}
+
 TEST(WatchSession, PointsToRenderWithoutADisplay) {
   const ScratchFolder folder;
   EXPECT_EQ(shell(folder, "env -u DISPLAY -u WAYLAND_DISPLAY " TOUCHDOWN_PROGRAM
@@ -122,6 +202,8 @@ TEST(WatchSession, RefusesWhatCannotBeWatched) {
   };
   folder.write("notes.txt", "hello");
   folder.write("empty.mpack", "");
+  const std::string log = quoted(robot_log(folder));
+  const auto bad_labels = folder.write("labels.csv", "start,end,contact\n0,soon,1\n");
   for (const Case& one :
        std::vector<Case>{{quoted(folder / "notes.txt"), "expected a scenario"},
                          {"scenarios/stairz.yaml", "stairs.yaml"},
@@ -134,12 +216,20 @@ TEST(WatchSession, RefusesWhatCannotBeWatched) {
                          {"scenarios/flat.yaml --simulator bulet", "bulet"},
                          {"scenarios/flat.yaml --set end.durations=3", "duration"},
                          {"scenarios/flat.yaml --record run.txt", ".mpack"},
-                         {quoted(folder.path()), "config.yaml"}}) {
+                         {quoted(folder.path()), "config.yaml"},
+                         {"scenarios/flat.yaml --labels l.csv", "expected a log"},
+                         {"scenarios/flat.yaml --film notes.mp4", "expected a log"},
+                         {log + " --labels l.txt", ".csv"},
+                         {log + " --labels " + quoted(bad_labels), "labels.csv:2:"},
+                         {log + " --film " + quoted(folder / "notes.txt"), "expected a film"},
+                         {log + " --film none.mp4", "there is no file 'none.mp4'"}}) {
     EXPECT_EQ(
         shell(folder, "env -u DISPLAY -u WAYLAND_DISPLAY " TOUCHDOWN_WATCH " " + one.arguments), 2)
         << one.arguments << "\n"
         << text(folder, "err");
     EXPECT_THAT(text(folder, "err"), HasSubstr(one.message)) << one.arguments;
+    const std::string message = text(folder, "err");
+    EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 1) << message;
   }
 }
 

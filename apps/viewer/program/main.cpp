@@ -20,6 +20,7 @@
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
 #include "logs/log/recording_file.hpp"
+#include "logs/mapping/conversion.hpp"
 #include "render/report/filmed_run.hpp"
 #include "render/report/subject.hpp"
 #include "scenarios/generation/generate.hpp"
@@ -44,6 +45,7 @@ struct WatchRequest {
   std::int64_t run = -1;
   std::vector<std::string> overrides;  ///< KEY=VALUE, of the scenario
   std::string robot;                   ///< of a log
+  std::string mapping;                 ///< of a log in another layout
   std::string labels;                  ///< of a log
 };
 
@@ -103,15 +105,19 @@ models::RobotModel robot_of(const logs::Recording& recording, const std::string&
   return render::recorded_robot(recording);
 }
 
-/// Runs all estimators over the log, and reads true contact from it or from its labels.
-void evaluate(const WatchRequest& request, LoggedRun& run) {
-  std::optional<logs::ContactIntervals> labels;
-  if (!request.labels.empty()) labels = logs::read_contact_intervals(request.labels);
+logs::LogReader open_log(const WatchRequest& request) {
+  if (request.mapping.empty()) return logs::LogReader(request.subject);
+  return {logs::mapped_records(request.subject, request.mapping, {}), request.subject};
+}
+
+/// Runs all estimators over the log. True contact is that of the labels, or the log's own.
+void evaluate(const WatchRequest& request, const logs::ContactIntervals* labels, LoggedRun& run) {
   experiments::LogRobot robot;
   if (!request.robot.empty()) robot = experiments::robot_called(request.robot);
   const std::vector<experiments::LogEstimator> requested = estimators_of(request.estimators, robot);
-  logs::LogReader reader(request.subject);
-  experiments::LogSteps log(reader, labels ? &*labels : nullptr,
+  logs::LogReader reader = open_log(request);
+  const bool has_labels = labels != nullptr && !labels->intervals.empty();
+  experiments::LogSteps log(reader, has_labels ? labels : nullptr,
                             experiments::checked_robot(robot, reader.info()));
   std::vector<std::unique_ptr<ContactEstimator>> estimators;
   for (std::size_t i = 0; i < requested.size(); ++i) {
@@ -120,26 +126,15 @@ void evaluate(const WatchRequest& request, LoggedRun& run) {
     track.name = requested[i].entry.title;
     track.colour = estimator_colour(i);
   }
-  const scoring::LabelConfig definition;
-  const auto shortest =
-      static_cast<std::size_t>(std::lround(definition.debounce * log.sample_rate()));
   while (const experiments::LogStep* step = log.next()) {
     for (std::size_t i = 0; i < estimators.size(); ++i) {
       render::add_belief(run.beliefs[i], *estimators[i], estimators[i]->update(step->signals));
     }
-    if (!step->normal_force) continue;
-    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-      run.contact[wheel].push_back((*step->normal_force)[wheel] > definition.force_threshold ? 1
-                                                                                             : 0);
-    }
   }
-  // Labels of segments leave steps between them without a true contact.
-  for (auto& contact : run.contact) {
-    if (contact.size() != run.recording.steps()) {
-      contact.clear();
-    } else {
-      contact = scoring::debounced(std::move(contact), shortest);
-    }
+  if (labels != nullptr) {
+    run.contact = labelled_contact(run.recording, *labels);
+  } else if (!run.recording.truth.empty()) {
+    run.contact = true_contact(run.recording, {});
   }
   print_warnings(log.findings());
 }
@@ -158,8 +153,8 @@ SubjectKind kind_of(const std::string& subject) {
     return is_robot ? SubjectKind::robot : SubjectKind::scenario;
   }
   throw InputError(fmt::format(
-      "watch: '{}': expected a scenario (.yaml), a robot (.xml, .urdf, .yaml), a log (.mpack) or a "
-      "run directory. `touchdown export` converts other logs",
+      "watch: '{}': expected a scenario (.yaml), a robot (.xml, .urdf, .yaml), a log (.mpack, or "
+      "another one with --mapping) or a run directory",
       subject));
 }
 
@@ -173,7 +168,8 @@ LiveRequest live_request(const WatchRequest& request, SubjectKind kind) {
   return live;
 }
 
-LoggedRun logged_run(const WatchRequest& request, SubjectKind kind) {
+LoggedRun logged_run(const WatchRequest& request, const logs::ContactIntervals* labels,
+                     SubjectKind kind) {
   if (kind == SubjectKind::run) {
     std::vector<render::FilmedRun> filmed =
         render::filmed_runs(render::read_subject(request.subject));
@@ -182,15 +178,16 @@ LoggedRun logged_run(const WatchRequest& request, SubjectKind kind) {
           fmt::format("{}: has no recording of the run that it films", request.subject));
     }
     render::FilmedRun& first = filmed.front();
-    const auto contact = scoring::contact_labels(first.recording, first.labels);
+    const auto contact = true_contact(first.recording, first.labels);
     return {.name = first.recording.info.scenario,
             .robot = std::move(first.robot),
             .recording = std::move(first.recording),
             .beliefs = std::move(first.beliefs),
-            .contact = {contact[0], contact[1]}};
+            .contact = contact};
   }
   std::vector<std::string> warnings;
-  logs::Recording recording = logs::read_recording(request.subject, &warnings);
+  logs::LogReader reader = open_log(request);
+  logs::Recording recording = logs::read_recording(reader, &warnings);
   print_warnings(warnings);
   models::RobotModel robot = robot_of(recording, request.robot);
   LoggedRun run{.name = fs::path(request.subject).filename().string(),
@@ -198,13 +195,15 @@ LoggedRun logged_run(const WatchRequest& request, SubjectKind kind) {
                 .recording = std::move(recording),
                 .beliefs = {},
                 .contact = {}};
-  evaluate(request, run);
+  evaluate(request, labels, run);
   return run;
 }
 
 struct Flags {
   WatchRequest request;
   std::filesystem::path record;
+  std::filesystem::path film;
+  double film_offset = 0.0;
   int width = 1280;
   int height = 720;
   bool statistics = false;
@@ -219,25 +218,42 @@ void print_statistics(const LiveSession& session) {
         each * session.times->scene, each * session.times->overlay, each * session.times->display);
 }
 
+int play(const Flags& flags, SubjectKind kind, const std::atomic<bool>& stop) {
+  LogSession session{.film = flags.film,
+                     .film_offset = flags.film_offset,
+                     .width = flags.width,
+                     .height = flags.height};
+  const std::string& labels = flags.request.labels;
+  if (!labels.empty()) session.labels = logs::read_begun_intervals(labels);
+  const logs::ContactIntervals* const shown = session.labels ? &*session.labels : nullptr;
+  print("{}", watch_log(logged_run(flags.request, shown, kind), session, stop));
+  return good;
+}
+
 int watch(Flags& flags, const std::atomic<bool>& stop) {
   if (!flags.record.empty()) {
     require_extension(flags.record, {".mpack"}, "a recording");
     check_outputs({{flags.request.subject, "subject"}}, {flags.record});
   }
-  const SubjectKind kind = kind_of(flags.request.subject);
+  const WatchRequest& request = flags.request;
+  const SubjectKind kind = request.mapping.empty() ? kind_of(request.subject) : SubjectKind::log;
+  if (!request.labels.empty()) {
+    require_extension(request.labels, {".csv"}, "a file of labels");
+    if (kind != SubjectKind::log) throw InputError("--labels: expected a log to label");
+  }
   if (kind == SubjectKind::log || kind == SubjectKind::run) {
     if (!flags.record.empty()) {
       throw InputError("--record: a log cannot be driven: name a scenario or a robot");
     }
-    watch_log(logged_run(flags.request, kind), flags.width, flags.height, stop);
-    return good;
+    return play(flags, kind, stop);
   }
-  LiveRequest request = live_request(flags.request, kind);
-  request.record = flags.record;
-  request.width = flags.width;
-  request.height = flags.height;
-  request.measures = flags.statistics;
-  const LiveSession session = watch_live(std::move(request), stop);
+  if (!flags.film.empty()) throw InputError("--film: expected a log or a run directory to play");
+  LiveRequest live = live_request(request, kind);
+  live.record = flags.record;
+  live.width = flags.width;
+  live.height = flags.height;
+  live.measures = flags.statistics;
+  const LiveSession session = watch_live(std::move(live), stop);
   for (const std::string& line : session.recorded) print("{}\n", line);
   print_statistics(session);
   return good;
@@ -247,7 +263,8 @@ int run_program(int argc, char** argv) {
   CLI::App program(
       "touchdown watch scenarios/stairs.yaml\n"
       "touchdown watch my_robot.xml --estimator shipped --estimator support_force\n"
-      "touchdown watch run.mpack\n\n"
+      "touchdown watch run.mpack\n"
+      "touchdown watch robot.mpack --labels labels.csv --film robot.mp4 --film-offset 2.5\n\n"
       "Shows a robot in a window while estimators run on it. A scenario or a robot is simulated "
       "in\n"
       "real time and can be driven; a log, or an experiment's run directory, is played. `h` lists\n"
@@ -278,8 +295,22 @@ int run_program(int argc, char** argv) {
       ->allow_extra_args(false);
   program.add_option("--robot", request.robot,
                      "Robot of a log that does not contain it (default: models/upkie.xml)");
-  program.add_option("--labels", request.labels, "Labels of contact of a log")
+  program
+      .add_option("--mapping", request.mapping,
+                  "Maps the columns or topics of a log to signals, as for `touchdown export`")
+      ->type_name("FILE.yaml");
+  program
+      .add_option(
+          "--labels", request.labels,
+          "Contact labels of a log, to be edited; begun if the file is not there. Each edit "
+          "is saved")
       ->type_name("FILE.csv");
+  program.add_option("--film", flags.film, "Film of a log, shown beside the robot")
+      ->type_name("FILE.mp4");
+  program
+      .add_option("--film-offset", flags.film_offset,
+                  "Time of the film when that of the log is 0 (s; default: 0)")
+      ->check(CLI::Range(-1e6, 1e6));
   program.add_option("--record", flags.record, "Recording to write of what was driven")
       ->type_name("FILE.mpack");
   program.add_flag("--statistics", flags.statistics,

@@ -1,0 +1,94 @@
+#include <algorithm>
+
+#include "apps/viewer/watch.hpp"
+
+namespace touchdown::viewer {
+
+using logs::LabelState;
+
+std::vector<StepRange> ranges_of(const std::vector<std::uint8_t>& values) {
+  std::vector<StepRange> ranges;
+  for (std::size_t k = 0; k < values.size();) {
+    std::size_t end = k + 1;
+    while (end < values.size() && (values[end] != 0) == (values[k] != 0)) ++end;
+    if (values[k] != 0) ranges.push_back({k, end});
+    k = end;
+  }
+  return ranges;
+}
+
+std::array<std::vector<logs::LabelState>, models::wheel_count> labelled_contact(
+    const logs::Recording& recording, const logs::ContactIntervals& labels) {
+  std::array<std::vector<logs::LabelState>, models::wheel_count> contact;
+  for (const models::Observation& row : recording.observation) {
+    const logs::ContactInterval* const label = labels.at(row.time);
+    for (std::size_t wheel = 0; wheel < contact.size(); ++wheel) {
+      contact[wheel].push_back(label == nullptr        ? LabelState::unknown
+                               : label->contact[wheel] ? LabelState::contact
+                                                       : LabelState::air);
+    }
+  }
+  return contact;
+}
+
+std::array<std::vector<logs::LabelState>, models::wheel_count> true_contact(
+    const logs::Recording& recording, const scoring::LabelConfig& definition) {
+  const auto truth = scoring::contact_labels(recording, definition);
+  std::array<std::vector<logs::LabelState>, models::wheel_count> contact;
+  for (std::size_t wheel = 0; wheel < contact.size(); ++wheel) {
+    for (const std::uint8_t one : truth[wheel]) {
+      contact[wheel].push_back(one != 0 ? LabelState::contact : LabelState::air);
+    }
+  }
+  return contact;
+}
+
+bool is_known(const LoggedRun& run, std::size_t row) {
+  const auto& [left, right] = run.contact;
+  return row < std::min(left.size(), right.size()) && left[row] != LabelState::unknown &&
+         right[row] != LabelState::unknown;
+}
+
+static bool is_known_anywhere(const LoggedRun& run) {
+  for (std::size_t k = 0; k < run.contact[0].size(); ++k) {
+    if (is_known(run, k)) return true;
+  }
+  return false;
+}
+
+std::vector<StepRange> flights_of(const LoggedRun& run) {
+  const bool is_believed = !is_known_anywhere(run) && !run.beliefs.empty();
+  const std::size_t steps =
+      is_believed ? run.beliefs.front().contact[0].size() : run.contact[0].size();
+  std::vector<std::uint8_t> in_air(steps);
+  for (std::size_t k = 0; k < steps; ++k) {
+    const auto is_in_air = [&](std::size_t wheel) {
+      return is_believed ? run.beliefs.front().contact[wheel][k] == 0
+                         : run.contact[wheel][k] == LabelState::air;
+    };
+    in_air[k] = is_in_air(0) && is_in_air(1) ? 1 : 0;
+  }
+  return ranges_of(in_air);
+}
+
+std::vector<StepRange> errors_of(const LoggedRun& run, std::size_t index) {
+  constexpr double shortest = 0.005;  // s
+  if (index >= run.beliefs.size()) return {};
+  const auto& decisions = run.beliefs[index].contact;
+  std::vector<std::uint8_t> wrong(run.contact[0].size());
+  for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+    const std::size_t steps = std::min(run.contact[wheel].size(), decisions[wheel].size());
+    for (std::size_t k = 0; k < steps; ++k) {
+      const LabelState truth = run.contact[wheel][k];
+      if (truth == LabelState::unknown) continue;
+      if ((truth == LabelState::contact) != (decisions[wheel][k] != 0)) wrong[k] = 1;
+    }
+  }
+  std::vector<StepRange> errors = ranges_of(wrong);
+  std::erase_if(errors, [&](const StepRange& range) {
+    return static_cast<double>(range.end - range.begin) * run.recording.period() < shortest;
+  });
+  return errors;
+}
+
+}  // namespace touchdown::viewer

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/viewer/film.hpp"
+#include "apps/viewer/label_editor.hpp"
+#include "apps/viewer/panel.hpp"
+#include "apps/viewer/screen.hpp"
+#include "apps/viewer/watch.hpp"
+#include "render/film/scene_view.hpp"
+#include "render/film/strip.hpp"
+
+namespace touchdown::viewer {
+
+/// Heights of what is above the curves (pixels).
+struct LogAreas {
+  static constexpr int time_line = 22;
+  static constexpr int overview_lane = 9;
+  static constexpr int overview = 2 * overview_lane + 4;  ///< both wheels' labels of the whole log
+  static constexpr int ruler = 18;
+  static constexpr int lane_height = 22;
+  static constexpr int sure = 8;  ///< marks of what is unsure, between the lanes
+  static constexpr int lanes = ruler + 2 * lane_height + sure + 4;
+  static constexpr int lanes_height = overview + lanes;  ///< of all that labels add
+
+  /// The top of a wheel's lane, below that of the ruler.
+  static constexpr int lane_top(std::size_t wheel) {
+    return ruler + static_cast<int>(wheel) * (lane_height + sure);
+  }
+};
+
+/// The window that plays a log: scene, panel, time line and curves; with labels the lanes in which
+/// they are edited, with a film its pictures. Its keys are in log_keys.cpp, its pictures in
+/// log_pictures.cpp.
+class LogWindow {
+ public:
+  /// Keeps a reference to `run`. Errors: those of `Film` and `Window`.
+  LogWindow(LoggedRun& run, const LogSession& session);
+
+  void watch(const std::atomic<bool>& stop) {
+    screen_.watch(
+        stop, [this](double seconds) { draw(seconds); },
+        [this](const Mouse& mouse) { use_mouse(mouse); });
+  }
+
+  /// What to print at the end. Errors: those of `LabelEditor::finish`.
+  std::string finish();
+
+ private:
+  double period() const { return run_.recording.period(); }
+  double duration() const { return period() * static_cast<double>(poses_.count() - 1); }
+  void seek(double time) { time_ = std::clamp(time, 0.0, duration()); }
+  std::size_t row() const {
+    return std::min(static_cast<std::size_t>(std::llround(time_ / period())), poses_.count() - 1);
+  }
+  /// The present by the log's clock, which may jitter or have gaps.
+  double now() const { return clock_.time_of(row()); }
+  void seek_clock(std::optional<double> time) {
+    if (!time) return;
+    seek(static_cast<double>(clock_.step_at(*time)) * period());
+    paused_ = true;
+    jumps_ = true;
+  }
+
+  /// Jumps to the next event, or to the one before, and pauses there.
+  void jump(const std::vector<StepRange>& events, bool back);
+  /// Finds flights and errors anew, of another estimator or after an edit.
+  void find_events();
+  std::vector<std::uint8_t> known_wheels() const;
+  std::vector<KeyBinding> time_keys();
+  std::vector<KeyBinding> label_keys();
+  std::vector<KeyBinding> film_keys();
+  void edit(const std::function<void(LabelEditor&)>& action);
+  void set_state(logs::LabelState state, bool both_wheels);
+  void use_mouse(const Mouse& mouse);
+  void press(const Mouse& mouse);
+  void zoom(double steps);
+  void draw(double seconds);
+  void draw_scene(double seconds);
+  void draw_film();
+  void draw_time_line(const Area& area);
+  void draw_lanes();
+  void make_strip();
+  std::vector<PanelLine> panel_lines() const;
+  void add_label_lines(std::vector<PanelLine>& lines) const;
+
+  Area time_line() const;
+  /// Ruler and lanes of the zoomed part, below the time line; and the curves below them.
+  Area lanes() const;
+  Area curves() const;
+  double present() const { return editor_ ? 0.5 : render::StripWindow{}.present; }
+  LaneScale zoomed() const;
+
+  LoggedRun& run_;
+  std::optional<Film> film_;
+  double film_offset_;  ///< of the film's time before the log's (s)
+  Window window_;
+  Screen screen_;
+  render::Poses poses_;
+  LogClock clock_;
+  std::optional<LabelEditor> editor_;
+  std::size_t estimator_ = 0;  ///< the one with the errors
+  std::vector<StepRange> flights_, errors_;
+  std::optional<render::SignalStrip> strip_;
+  cv::Mat plots_;
+  double view_seconds_ = render::StripWindow{}.seconds;
+  double time_ = 0.0;
+  double speed_ = 1.0;
+  bool paused_ = false;
+  bool jumps_ = true;
+  Mouse last_mouse_;
+  enum class Held : int { none, time_line, curves, edge } held_ = Held::none;
+};
+
+}  // namespace touchdown::viewer
