@@ -68,10 +68,14 @@ void label(const LabelFlags& flags, const CliSession& session) {
   write_atomically(flags.output, logs::to_csv(labels));
   print("{}: {} intervals, {:.3f} s\n{}", flags.output, labels.intervals.size(), seconds,
         least_sure(labels.intervals));
+  const std::string robot = flags.options.robot.empty() ? "" : " --robot " + flags.options.robot;
+  const std::string mapping =
+      flags.options.mapping.empty() ? "" : " --mapping " + flags.options.mapping;
+  print("{:<12} touchdown watch {} --labels {}{}{}\n", "next", flags.log, flags.output, robot,
+        mapping);
   const bool is_upkie_layout = flags.options.mapping.empty();  // which fits read
   print("{:<12} touchdown fit {} --labels {} --prior models/evidence_curves.npz{} -o model.npz\n",
-        "next", is_upkie_layout ? flags.log : "LOG", flags.output,
-        flags.options.robot.empty() ? "" : " --robot " + flags.options.robot);
+        "then", is_upkie_layout ? flags.log : "LOG", flags.output, robot);
 }
 
 }  // namespace

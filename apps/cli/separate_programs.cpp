@@ -45,7 +45,8 @@ void add_train(CLI::App& program, const CliSession& /*session*/) {
 // Windows bring the display's OpenGL with them, which off-screen drawing must not meet.
 void add_watch(CLI::App& program, const CliSession& /*session*/) {
   Verb verb(program, "watch",
-            "touchdown watch scenarios/stairs.yaml\n\n"
+            "touchdown watch scenarios/stairs.yaml\n"
+            "touchdown watch robot.mpack --labels labels.csv --film robot.mp4\n\n"
             "Shows a robot in a window, live or from a log, while estimators run on it. It needs "
             "GLFW.");
   verb.action_on_words([](const std::vector<std::string>& words) {

@@ -39,8 +39,8 @@ class LogClock {
   double period_;
 };
 
-/// Edits the labels of a log, whose steps are where edges can be, and writes the file after each
-/// edit. It has no window: keys and mouse call it.
+/// Edits the labels of a log and writes the file after each edit. Edges are at steps of the log. It
+/// has no window: keys and mouse call it.
 class LabelEditor {
  public:
   /// `labels.file` is written.

@@ -17,10 +17,10 @@ std::vector<KeyBinding> LogWindow::time_keys() {
        }},
       {{'.', ','},
        ",  .",
-       "pause and go one step back, ahead",
+       "pause and go one step back, ahead; with Shift ten",
        [this](const KeyPress& press) {
          paused_ = true;
-         seek(time_ + (press.key == '.' ? 1.0 : -1.0) * period());
+         seek(time_ + (press.key == '.' ? 1.0 : -1.0) * (press.shift ? 10.0 : 1.0) * period());
        }},
       {{key_left, key_right},
        "← →",

@@ -39,6 +39,7 @@ void draw_badges(cv::Mat& image, const render::TextPen& pen, const ContactBadges
 
 constexpr int side_margin = 12;  // px, left and right
 constexpr int first_top = 6;     // px
+constexpr int smallest_letters = 8;
 
 int line_height(const std::vector<PanelLine>& lines, int height) {
   const int count = static_cast<int>(lines.size());
@@ -134,7 +135,12 @@ cv::Mat panel(const render::TextPen& pen, const std::vector<PanelLine>& lines, i
   const int line = line_height(lines, height);
   int top = first_top;
   for (const PanelLine& one : lines) {
-    const int letters = line * (one.heading ? 54 : 50) / 100;
+    int letters = line * (one.heading ? 54 : 50) / 100;
+    const int badges = one.badges ? line * 2 : 0;
+    const auto needed = [&] {
+      return pen.width(one.text, letters) + pen.width(one.value, letters) + badges;
+    };
+    while (letters > smallest_letters && needed() > width - 5 * side_margin / 2) --letters;
     if (one.heading && top > first_top) {
       cv::line(image, {side_margin, top}, {width - side_margin, top}, render::rgb(0xdfe3e6));
     }

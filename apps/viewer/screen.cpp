@@ -278,11 +278,16 @@ void Screen::watch(const std::atomic<bool>& stop, const std::function<void(doubl
 void Screen::draw_chips(const std::vector<Chip>& chips) {
   constexpr int height = 28;
   int left = height / 2;
+  int top = height / 2;
   for (const Chip& chip : chips) {
     const int width = pen_.width(chip.text, height / 2) + 2 * (2 * height / 5);
+    if (left > height / 2 && left + width > layout().scene.width) {  // in the next line
+      left = height / 2;
+      top += height + height / 3;
+    }
     cv::Mat image(height, width, CV_8UC3);
     pen_.chip(image, chip.text, 0, 0, height, render::rgb(chip.colour));
-    draw(image, left, height / 2);
+    draw(image, left, top);
     left += width + height / 3;
   }
 }

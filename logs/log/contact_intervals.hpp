@@ -20,8 +20,8 @@ struct ContactInterval {
   std::optional<double> sure = {};
 };
 
-/// The time rounded to the microsecond (s): labels are compared and written so, because a log's
-/// times are sums and products whose last digits differ.
+/// The time rounded to the microsecond (s): labels are compared and written so, because the
+/// last digits of a log's times depend on how they were computed.
 double to_microsecond(double time);
 
 /// Contact labels of a log: intervals that do not overlap, in order of time. Contact between them

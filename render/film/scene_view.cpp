@@ -41,7 +41,8 @@ std::vector<double> held_positions(const models::GroundTruth& truth) {
 /// The distance of the sun's shadow map from the robot (m).
 constexpr double sun_distance = 6.0;
 constexpr double degree = std::numbers::pi / 180.0;
-constexpr float vector_width = 0.012F;                        // m
+constexpr double usual_reach = 0.65;    // m: of a robot that cameras are made for
+constexpr float vector_width = 0.012F;  // m
 constexpr float vector_colour[4] = {0.85F, 0.46F, 0.06F, 1};  // of the film's orange labels
 
 }  // namespace
@@ -138,8 +139,25 @@ std::vector<Eigen::Vector3d> smoothed(std::vector<Eigen::Vector3d> values, doubl
   return values;
 }
 
+/// The largest distance of a part of the robot from its base (m), at the pose of its file.
+static double reach_of(const models::RobotModel& robot) {
+  const models::MjDataPtr data = models::at_reference(robot);
+  update_geoms(*robot.mj, *data);
+  const auto place = [](const mjtNum* at) { return Eigen::Map<const Eigen::Vector3d>(at); };
+  const Eigen::Vector3d base = place(data->xpos + 3 * robot.base_body);
+  double reach = 0.0;
+  for (int geom = 0; geom < robot.mj->ngeom; ++geom) {
+    if (robot.mj->geom_bodyid[geom] == 0) continue;
+    const Eigen::Vector3d centre = place(data->geom_xpos + 3 * geom);
+    reach = std::max(reach, (centre - base).norm() + robot.mj->geom_rbound[geom]);
+  }
+  return reach;
+}
+
 SceneView::SceneView(const models::RobotModel& robot)
-    : robot_(robot), data_(mj_makeData(robot.mj.get())) {
+    : robot_(robot),
+      data_(mj_makeData(robot.mj.get())),
+      scale_(std::max(1.0, reach_of(robot) / usual_reach)) {
   const mjModel* model = robot.mj.get();
   mjv_defaultScene(&scene_);
   mjv_defaultOption(&visibility_);
@@ -166,7 +184,10 @@ SceneView::~SceneView() {
 }
 
 void SceneView::draw(const mjrRect& viewport, const Eigen::Vector3d& target,
-                     const SceneCamera& camera, std::span<const SceneVector> vectors) {
+                     const SceneCamera& wanted, std::span<const SceneVector> vectors) {
+  SceneCamera camera = wanted;
+  camera.distance *= scale_;
+  camera.look_at *= scale_;
   const Eigen::Vector3d look_at = target + camera.look_at;
   std::copy_n(look_at.data(), 3, camera_.lookat);
   camera_.azimuth = camera.azimuth;

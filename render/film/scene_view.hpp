@@ -45,7 +45,7 @@ void update_geoms(const mjModel& model, mjData& data);
 std::vector<Eigen::Vector3d> smoothed(std::vector<Eigen::Vector3d> values, double period,
                                       double time_constant);
 
-/// Where the camera stands.
+/// Where the camera stands. A robot larger than Upkie is seen from farther away.
 struct SceneCamera {
   double azimuth = 128.0;                        ///< degrees; 90 looks along the world's y axis
   double elevation = -13.0;                      ///< degrees; negative looks down
@@ -98,6 +98,7 @@ class SceneView {
 
   const models::RobotModel& robot_;
   models::MjDataPtr data_;
+  double scale_;  ///< of the camera's distance, for a robot larger than Upkie
   mjvScene scene_;
   mjvOption visibility_;
   mjvCamera camera_;

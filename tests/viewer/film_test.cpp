@@ -18,7 +18,7 @@ constexpr int bar = 16;  // px
 
 cv::Rect bar_of(int bit) { return {bit * bar, 0, bar, 48}; }
 
-/// A film whose pictures show their numbers, as black and white bars.
+/// A film of pictures that show their numbers, as black and white bars.
 std::filesystem::path numbered_film(const ScratchFolder& folder) {
   const auto path = folder / "numbers.mp4";
   cv::VideoWriter writer(path.string(), cv::CAP_FFMPEG, cv::VideoWriter::fourcc('m', 'p', '4', 'v'),
