@@ -62,7 +62,7 @@ MachineShare machine_share(const fs::path& root) {
     share.memory = static_cast<double>(machine.totalram + machine.totalswap) * machine.mem_unit;
   }
   // Lines are "number:controllers:path"; version 2 names no controllers. In a container the path
-  // may be the host's, whose folders are missing there: its own limits then stand at the top.
+  // may be the host's: its folders are missing there, and the container's limits stand at the top.
   std::ifstream groups(root / "proc/self/cgroup");
   for (std::string line; std::getline(groups, line);) {
     const std::size_t first = line.find(':');
