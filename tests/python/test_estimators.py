@@ -1,4 +1,9 @@
 import copy
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
 import unittest
 
 import numpy as np
@@ -360,6 +365,29 @@ class Spine(InFolder):
                 *_, info = environment.step(np.zeros(1))
                 self.assertAlmostEqual(info["contact"].p_contact[0], expected[k, 0], delta=1e-12)
         self.assertEqual(environment.spec, "Upkie")
+
+    def test_is_a_wrapper_of_gymnasium_where_that_is_installed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "gymnasium.py").write_text(
+                "class Wrapper:\n    def __init__(self, env): self.env = self.unwrapped = env\n")
+            program = ("import gymnasium, touchdown\nwrapper = touchdown.ContactWrapper('an environment', 'an estimator')\n"
+                       "print(isinstance(wrapper, gymnasium.Wrapper), wrapper.unwrapped, wrapper.estimator)")
+            path = os.pathsep.join([folder, *filter(None, sys.path)])
+            done = subprocess.run([sys.executable, "-c", program], env={**os.environ, "PYTHONPATH": path},
+                                  capture_output=True, text=True, check=True)
+        self.assertEqual(done.stdout.strip(), "True an environment an estimator")
+
+
+class Keywords(unittest.TestCase):
+    def test_that_are_unknown_are_refused_with_the_nearest_one(self):
+        for call, message in (
+                (lambda: touchdown.Estimator(modle="x.npz"), "Estimator: unknown keyword 'modle': .*did you mean 'model'"),
+                (lambda: touchdown.simulate("scenarios/flat.yaml", sead=1), "simulate: unknown keyword 'sead': .*'seed'"),
+                (lambda: touchdown.fit([], estimater="robust"), "fit: unknown keyword 'estimater': .*'estimator'"),
+                (lambda: touchdown.run({}, overides={}), "run: unknown keyword 'overides': expected one of"),
+                (lambda: touchdown.score({}, {}, zzz=1), "score: unknown keyword 'zzz': expected one of beliefs, recording")):
+            with self.assertRaisesRegex(touchdown.InputError, message):
+                call()
 
 
 if __name__ == "__main__":

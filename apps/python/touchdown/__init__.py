@@ -7,8 +7,12 @@ See docs/reference/python.md.
 """
 from touchdown._touchdown import Belief, Error, Estimator, InputError, Model, __version__, estimators, simulators
 from touchdown.experiment import Result, run
+from touchdown.keywords import checked as _checked
 from touchdown.recording import Recording, check, contact_labels, fit, score, simulate
 from touchdown.upkie import ContactWrapper
+
+check, contact_labels, fit, run, score, simulate = map(_checked, (check, contact_labels, fit, run, score, simulate))
+Estimator.__init__ = _checked(Estimator.__init__, "Estimator")
 
 #: Names of the numbers in `status` of `Estimator.run`.
 STATUS = ("good", "invalid", "gap", "frozen", "degraded")

@@ -6,23 +6,36 @@ from typing import Any, Callable
 from touchdown._touchdown import Estimator
 
 
-class ContactWrapper:
+try:
+    from gymnasium import Wrapper as _Wrapper
+except ImportError:
+    class _Wrapper:
+        """What `ContactWrapper` needs of gymnasium's wrapper, where there is no gymnasium."""
+
+        def __init__(self, env: Any):
+            self.env = env
+
+        def __getattr__(self, name: str) -> Any:
+            if name == "env":  # a copy before its construction
+                raise AttributeError(name)
+            return getattr(self.env, name)
+
+
+class ContactWrapper(_Wrapper):
     """Wraps an environment and adds `info["contact"]`, an estimator's belief from `info["spine_observation"]`.
 
-    env: any of Upkie's environments; its other attributes stay
+    env: any of Upkie's environments; its other attributes stay. Where gymnasium is installed, the wrapper is one
+        of its `Wrapper`s
     estimator: made for the environment's frequency (`sample_rate`, Hz)
     ground_velocity: gives the ground velocity of an action (m/s), for estimators that use commands,
         such as the neural network
     """
 
     def __init__(self, env: Any, estimator: Estimator, ground_velocity: Callable[[Any], float] | None = None):
-        self.env = env
+        super().__init__(env)
         self.estimator = estimator
         self.ground_velocity = ground_velocity
         self._command = 0.0
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self.env, name)
 
     def _with_belief(self, info: dict[str, Any]) -> dict[str, Any]:
         return {**info, "contact": self.estimator.update_from_spine(info["spine_observation"], self._command)}
