@@ -46,10 +46,11 @@ struct EstimateFlags {
 class BeliefWriter {
  public:
   /// A null stream means no such output. Streams must outlive this object.
-  BeliefWriter(std::ostream* csv, std::ostream* mpack, const std::optional<DrawnPart>& drawn)
+  BeliefWriter(const EstimateStreams& streams, const std::optional<DrawnPart>& drawn)
       : drawn_(drawn) {
-    if (csv != nullptr) csv_.emplace(*csv);
-    if (mpack != nullptr) annotator_.emplace(*mpack);
+    if (streams.csv != nullptr) csv_.emplace(*streams.csv);
+    if (streams.mpack != nullptr) annotator_.emplace(*streams.mpack);
+    if (streams.mcap != nullptr) bag_.emplace(*streams.mcap);
   }
 
   /// Call it before the first step, once the log's rate is known.
@@ -64,9 +65,10 @@ class BeliefWriter {
     const double time = step.signals.time;
     summary_->add(time, belief);
     score_->add(step, belief);
+    if (bag_) bag_->write(time, reader.start_time(), belief);
     if (!csv_ && !annotator_ && !drawn_) return;
     const Evidence evidence = estimator.evidence();
-    if (csv_) csv_->write(time, belief, evidence);
+    if (csv_) csv_->write(time, reader.start_time(), belief, evidence);
     if (annotator_) {
       annotator_->copy(reader.skipped());
       annotator_->annotate(reader.record(), belief, evidence);
@@ -85,6 +87,7 @@ class BeliefWriter {
   std::string finish(const logs::LogReader& reader, std::size_t findings) {
     flush();
     if (annotator_) annotator_->copy(reader.skipped());
+    if (bag_) bag_->finish();
     return summary_->text(score_->finish(), reader.start_time(), findings) + score_->load_text();
   }
 
@@ -105,6 +108,7 @@ class BeliefWriter {
 
   scoring::LabelConfig labels_;
   std::optional<experiments::BeliefCsv> csv_;
+  std::optional<experiments::BeliefBag> bag_;
   std::optional<logs::LogAnnotator> annotator_;
   std::optional<DrawnPart> drawn_;
   std::optional<experiments::LogSummary> summary_;
@@ -192,16 +196,16 @@ std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* 
                          const EstimateOutputs& outputs, const CliSession& session) {
   std::string summary;
   std::size_t findings = 0;
-  write_outputs(outputs, [&](std::ostream* csv, std::ostream* mpack) {
-    BeliefWriter writer(csv, mpack,
-                        flags.figure.empty() ? std::nullopt : std::optional(flags.drawn));
+  write_outputs(outputs, [&](const EstimateStreams& streams) {
+    BeliefWriter writer(streams, flags.figure.empty() ? std::nullopt : std::optional(flags.drawn));
     const bool live = path == "-";
     // A reader of a live stream gets every line before the program waits for the next record.
     const auto before_read = [&] {
       if (outputs.prints_csv()) writer.flush();
     };
-    logs::LogReader reader = open_log(path, flags.log, session,
-                                      {.with_bytes = mpack != nullptr, .before_read = before_read});
+    logs::LogReader reader =
+        open_log(path, flags.log, session,
+                 {.with_bytes = streams.mpack != nullptr, .before_read = before_read});
     const Evaluation evaluation = evaluate(reader, estimator, labels, writer, session);
     summary = evaluation.summary;
     findings = evaluation.findings.size();
@@ -222,6 +226,7 @@ std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* 
   if (!outputs.csv.empty() && !outputs.prints_csv()) {
     summary += fmt::format("{:<12} {}\n", "beliefs", outputs.csv.string());
   }
+  if (!outputs.mcap.empty()) summary += fmt::format("{:<12} {}\n", "bag", outputs.mcap.string());
   if (!outputs.mpack.empty()) summary += fmt::format("{:<12} {}\n", "log", outputs.mpack.string());
   print_text(outputs, summary);
   return findings;
@@ -270,9 +275,11 @@ void add_estimate(CLI::App& program, const CliSession& session) {
   add_log_options(verb, flags->log);
   verb.flag("--strict", &flags->strict,
             "Exit with code 1 if the signals of a log are not plausible");
-  verb.option("-o,--output", &flags->outputs,
-              "Beliefs as FILE.csv, or the log with beliefs in it as FILE.mpack, or both; - "
-              "prints the table. With several logs, each file's name begins with the log's name")
+  verb.option(
+          "-o,--output", &flags->outputs,
+          "Beliefs as FILE.csv, as a ROS 2 bag FILE.mcap to play beside the log's, or the log "
+          "with\nbeliefs in it as FILE.mpack, or all; - prints the table. With several logs, each "
+          "file's\nname begins with the log's name")
       .value_name("FILE")
       .one_at_a_time();
   verb.option("--figure", &flags->figure, "Figure of signals and beliefs over time")

@@ -37,10 +37,13 @@ EstimateOutputs sorted_by_kind(const std::vector<std::string>& outputs, const st
       take(result.csv, output);
     } else if (extension == ".mpack") {
       take(result.mpack, output);
+    } else if (extension == ".mcap") {
+      take(result.mcap, output);
     } else {
       throw InputError(
-          fmt::format("--output: '{}': expected a name that ends with .csv (a table of beliefs) or "
-                      ".mpack (the log with beliefs in it), or - for standard output",
+          fmt::format("--output: '{}': expected a name that ends with .csv (a table of beliefs), "
+                      ".mpack (the log with beliefs in it) or .mcap (a ROS 2 bag of beliefs), or - "
+                      "for standard output",
                       output));
     }
   }
@@ -105,9 +108,9 @@ std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& lo
     EstimateOutputs own = given;
     if (logs.size() > 1) {
       own = {named_after(log, given.csv), named_after(log, given.mpack),
-             named_after(log, given.figure)};
+             named_after(log, given.mcap), named_after(log, given.figure)};
     }
-    for (const fs::path& output : {own.csv, own.mpack, own.figure}) {
+    for (const fs::path& output : {own.csv, own.mpack, own.mcap, own.figure}) {
       check(output, seen);
       if (!output.empty() && output != own.figure) files.push_back(output);
     }
@@ -121,9 +124,11 @@ std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& lo
 }
 
 void write_outputs(const EstimateOutputs& outputs,
-                   const std::function<void(std::ostream* csv, std::ostream* mpack)>& use) {
+                   const std::function<void(const EstimateStreams& streams)>& use) {
   write_file(outputs.csv, [&](std::ostream* csv) {
-    write_file(outputs.mpack, [&](std::ostream* mpack) { use(csv, mpack); });
+    write_file(outputs.mpack, [&](std::ostream* mpack) {
+      write_file(outputs.mcap, [&](std::ostream* mcap) { use({csv, mpack, mcap}); });
+    });
   });
 }
 

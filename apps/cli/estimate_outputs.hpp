@@ -12,24 +12,32 @@ namespace touchdown::cli {
 struct EstimateOutputs {
   std::filesystem::path csv;  ///< "-" is standard output
   std::filesystem::path mpack;
+  std::filesystem::path mcap;
   std::filesystem::path figure;  ///< without its extension
 
   bool prints_csv() const { return csv == "-"; }
 };
 
-/// Assigns outputs by their extensions, `.csv` and `.mpack`. For several logs, each output's name
-/// begins with the log's name. Errors: `InputError` for another extension, two outputs of one kind,
-/// an output that two logs share, and those of `check_outputs`; `Error` for an output that cannot
-/// be written.
+/// Assigns outputs by their extensions, `.csv`, `.mpack` and `.mcap`. For several logs, each
+/// output's name begins with the log's name. Errors: `InputError` for another extension, two
+/// outputs of one kind, an output that two logs share, and those of `check_outputs`; `Error` for an
+/// output that cannot be written.
 std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& logs,
                                               const std::string& model,
                                               const std::vector<std::string>& labels,
                                               const std::vector<std::string>& outputs,
                                               const std::string& figure);
 
-/// Opens temporary files and calls `use` with their streams; a stream is null where there is no
-/// output. The complete files appear under their names once `use` returns.
+/// The streams of the outputs; null where there is no output.
+struct EstimateStreams {
+  std::ostream* csv = nullptr;
+  std::ostream* mpack = nullptr;
+  std::ostream* mcap = nullptr;
+};
+
+/// Opens temporary files and calls `use` with their streams. The complete files appear under their
+/// names once `use` returns.
 void write_outputs(const EstimateOutputs& outputs,
-                   const std::function<void(std::ostream* csv, std::ostream* mpack)>& use);
+                   const std::function<void(const EstimateStreams& streams)>& use);
 
 }  // namespace touchdown::cli

@@ -54,23 +54,61 @@ std::string score_text(const scoring::Score& score, std::int64_t takeoffs, std::
       found(score.landing, landings, "landings"));
 }
 
+/// The log's own clock (ns).
+std::int64_t stamp_of(double time, double start) {
+  return std::llround(1e9 * start) + std::llround(1e9 * time);
+}
+
+constexpr const char* joint_state = R"(std_msgs/Header header
+string[] name
+float64[] position
+float64[] velocity
+float64[] effort
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+)";
+
+/// Appends a number to a message in CDR: aligned to its size after the four bytes in front.
+template <typename T>
+void put(std::string& message, T number) {
+  constexpr std::size_t front = 4;
+  message.append((sizeof number - (message.size() - front) % sizeof number) % sizeof number, '\0');
+  message.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+void put(std::string& message, std::string_view text) {
+  put(message, static_cast<std::uint32_t>(text.size() + 1));
+  message.append(text).push_back('\0');
+}
+
+void put(std::string& message, const std::array<double, 2>& numbers) {
+  put(message, static_cast<std::uint32_t>(numbers.size()));
+  for (const double number : numbers) put(message, number);
+}
+
 }  // namespace
 
 BeliefCsv::BeliefCsv(std::ostream& stream) : stream_(stream) {
   fmt::format_to(std::back_inserter(buffer_),
                  "time_s,p_contact_left,p_contact_right,contact_left,contact_right,p_any_wheel,"
                  "p_both_wheels,p_takeoff,p_landing,status,load_left_n,load_right_n,"
-                 "load_deviation_left_n,load_deviation_right_n\n");
+                 "load_deviation_left_n,load_deviation_right_n,stamp_ns\n");
 }
 
-void BeliefCsv::write(double time, const Belief& belief, const Evidence& evidence) {
+void BeliefCsv::write(double time, double start, const Belief& belief, const Evidence& evidence) {
   const auto& [left, right] = belief.wheel;
   fmt::format_to(std::back_inserter(buffer_),
-                 FMT_COMPILE("{},{},{},{:d},{:d},{},{},{},{},{},{},{},{},{}\n"), time,
+                 FMT_COMPILE("{},{},{},{:d},{:d},{},{},{},{},{},{},{},{},{},{}\n"), time,
                  left.p_contact, right.p_contact, left.contact, right.contact, belief.p_any_wheel,
                  belief.p_both_wheels, evidence.transition.p_takeoff, evidence.transition.p_landing,
                  to_text(belief.status), left.load.force, right.load.force, left.load.deviation,
-                 right.load.deviation);
+                 right.load.deviation, stamp_of(time, start));
   constexpr std::size_t large = std::size_t{1} << 16U;
   if (buffer_.size() >= large) flush();
 }
@@ -80,6 +118,28 @@ void BeliefCsv::flush() {
   stream_.flush();
   buffer_.clear();
   if (!stream_) throw Error("the beliefs cannot be written: is the disk full?");
+}
+
+BeliefBag::BeliefBag(std::ostream& stream)
+    : writer_(stream, "ros2"),
+      topic_(writer_.add_topic("/touchdown/contact", "sensor_msgs/msg/JointState", joint_state,
+                               {"ros2msg", "cdr"})) {}
+
+void BeliefBag::write(double time, double start, const Belief& belief) {
+  constexpr std::int64_t second = 1'000'000'000;
+  const std::int64_t stamp = stamp_of(time, start);
+  const auto& [left, right] = belief.wheel;
+  message_.assign("\0\1\0\0", 4);  // CDR, little-endian
+  put(message_, static_cast<std::int32_t>(stamp / second));
+  put(message_, static_cast<std::uint32_t>(stamp % second));
+  put(message_, std::string_view());
+  put(message_, std::uint32_t{2});
+  put(message_, std::string_view("left_wheel"));
+  put(message_, std::string_view("right_wheel"));
+  put(message_, {left.p_contact, right.p_contact});
+  put(message_, {left.contact ? 1.0 : 0.0, right.contact ? 1.0 : 0.0});
+  put(message_, {left.load.force, right.load.force});
+  writer_.write(topic_, static_cast<std::uint64_t>(std::max<std::int64_t>(stamp, 0)), message_);
 }
 
 LogScore::LogScore(std::int64_t period_us, const scoring::LabelConfig& labels,

@@ -13,6 +13,7 @@
 
 #include "estimator/contact_estimator.hpp"
 #include "experiments/logs/log_steps.hpp"
+#include "logs/log/mcap.hpp"
 #include "scoring/extended_score.hpp"
 #include "scoring/labels.hpp"
 #include "scoring/score.hpp"
@@ -22,15 +23,16 @@ namespace touchdown::experiments {
 /// Writes beliefs as comma-separated values, one line per step: time (s), contact probability and
 /// decision (1 or 0) of each wheel, P(any wheel in contact), P(both wheels in contact), P(takeoff)
 /// and P(landing) of the transition model, status, normal force of each wheel and its standard
-/// deviation (N). Numbers are the shortest that read back to the same bits; `nan` stands for values
-/// that an estimator does not compute.
+/// deviation (N), the stamp of the log's own clock (ns, to 1 µs). Numbers are the shortest that
+/// read back to the same bits; `nan` stands for values that an estimator does not compute.
 class BeliefCsv {
  public:
   /// Writes the header. `stream` must outlive this.
   explicit BeliefCsv(std::ostream& stream);
 
   /// Buffers lines and writes them every 64 kB. Errors: `Error` when the stream fails.
-  void write(double time, const Belief& belief, const Evidence& evidence);
+  /// `start`: the log's clock at time 0 (s).
+  void write(double time, double start, const Belief& belief, const Evidence& evidence);
 
   /// Writes the buffered lines. Errors: as above.
   void flush();
@@ -38,6 +40,26 @@ class BeliefCsv {
  private:
   std::ostream& stream_;
   fmt::memory_buffer buffer_;
+};
+
+/// Writes beliefs as a ROS 2 bag (MCAP), to be played beside the log: sensor_msgs/msg/JointState,
+/// which every installation knows, on /touchdown/contact, stamped by the log's clock. Names are
+/// left_wheel and right_wheel; position is the contact probability, velocity the decision (1 or 0),
+/// effort the normal force (N).
+class BeliefBag {
+ public:
+  /// `stream` must outlive this.
+  explicit BeliefBag(std::ostream& stream);
+
+  /// `start`: the log's clock at time 0 (s).
+  void write(double time, double start, const Belief& belief);
+  /// Ends the file. Call it once.
+  void finish() { writer_.finish(); }
+
+ private:
+  logs::McapWriter writer_;
+  std::uint16_t topic_;
+  std::string message_;
 };
 
 /// The score of beliefs about a log, against its ground truth or against labels of segments. Each

@@ -75,9 +75,9 @@ void McapWriter::Span::add(std::uint64_t time) {
   is_empty = false;
 }
 
-McapWriter::McapWriter(std::ostream& stream) : stream_(stream) {
+McapWriter::McapWriter(std::ostream& stream, std::string_view profile) : stream_(stream) {
   emit(mcap_magic);
-  emit(record(Op::header, content(std::string_view(), std::string_view("touchdown"))));
+  emit(record(Op::header, content(profile, std::string_view("touchdown"))));
 }
 
 void McapWriter::emit(std::string_view bytes) {
@@ -88,13 +88,13 @@ void McapWriter::emit(std::string_view bytes) {
 }
 
 std::uint16_t McapWriter::add_topic(std::string_view topic, std::string_view schema_name,
-                                    std::string_view schema) {
+                                    std::string_view schema, const McapEncoding& encoding) {
   const auto id = static_cast<std::uint16_t>(counts_.size() + 1);
   counts_[id] = 0;
   const std::string of_schema =
-      record(Op::schema, content(id, schema_name, std::string_view("jsonschema"), schema));
+      record(Op::schema, content(id, schema_name, encoding.schema, schema));
   const std::string of_channel =
-      record(Op::channel, content(id, id, topic, std::string_view("json"), std::string_view()));
+      record(Op::channel, content(id, id, topic, encoding.message, std::string_view()));
   schemas_ += of_schema;
   channels_ += of_channel;
   emit(of_schema);
@@ -102,11 +102,13 @@ std::uint16_t McapWriter::add_topic(std::string_view topic, std::string_view sch
   return id;
 }
 
-void McapWriter::write(std::uint16_t topic, std::uint64_t time, std::string_view json) {
+void McapWriter::write(std::uint16_t topic, std::uint64_t time, std::string_view message) {
   const auto sequence = static_cast<std::uint32_t>(counts_[topic]++);
   index_[topic].emplace_back(time, chunk_.size());
   const std::string head = content(topic, sequence, time, time);
-  chunk_.append(record_head(Op::message, head.size() + json.size())).append(head).append(json);
+  chunk_.append(record_head(Op::message, head.size() + message.size()))
+      .append(head)
+      .append(message);
   chunk_span_.add(time);
   if (chunk_.size() >= chunk_bytes) finish_chunk();
 }

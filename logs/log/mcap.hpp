@@ -14,19 +14,25 @@
 
 namespace touchdown::logs {
 
-/// Writes JSON messages as an MCAP file, format version 0 (mcap.dev/spec): uncompressed chunks, an
+/// The encoding of a topic's schema and of its messages.
+struct McapEncoding {
+  std::string_view schema = "jsonschema";
+  std::string_view message = "json";
+};
+
+/// Writes messages as an MCAP file, format version 0 (mcap.dev/spec): uncompressed chunks, an
 /// index of their messages, and a summary at the end, with checksums.
 class McapWriter {
  public:
-  /// `stream` must outlive the writer.
-  explicit McapWriter(std::ostream& stream);
+  /// `stream` must outlive the writer. `profile`: "ros2" for messages of ROS 2.
+  explicit McapWriter(std::ostream& stream, std::string_view profile = {});
 
-  /// Adds a topic. `schema` is a JSON Schema with this name. Returns the number of the topic.
+  /// Adds a topic with the schema of its messages. Returns the number of the topic.
   std::uint16_t add_topic(std::string_view topic, std::string_view schema_name,
-                          std::string_view schema);
+                          std::string_view schema, const McapEncoding& encoding = {});
 
   /// `time` in ns. Errors: `Error` when the stream fails.
-  void write(std::uint16_t topic, std::uint64_t time, std::string_view json);
+  void write(std::uint16_t topic, std::uint64_t time, std::string_view message);
 
   /// Ends the file. Call it once, after the last message. Errors: as above.
   void finish();

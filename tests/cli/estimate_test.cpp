@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -12,6 +13,7 @@
 #include "experiments/estimators/fits.hpp"
 #include "experiments/logs/summary.hpp"
 #include "experiments/signals/estimator_runner.hpp"
+#include "logs/bags/bag.hpp"
 #include "logs/log/recording_file.hpp"
 #include "logs/model_file.hpp"
 #include "logs/signals_from.hpp"
@@ -39,12 +41,12 @@ Lines lines_of(const std::string& csv) {
   EXPECT_EQ(line,
             "time_s,p_contact_left,p_contact_right,contact_left,contact_right,p_any_wheel,"
             "p_both_wheels,p_takeoff,p_landing,status,load_left_n,load_right_n,"
-            "load_deviation_left_n,load_deviation_right_n");
+            "load_deviation_left_n,load_deviation_right_n,stamp_ns");
   while (std::getline(stream, line)) {
     std::istringstream cells(line);
     lines.emplace_back();
     for (std::string cell; std::getline(cells, cell, ',');) lines.back().push_back(cell);
-    EXPECT_EQ(lines.back().size(), 14U) << line;
+    EXPECT_EQ(lines.back().size(), 15U) << line;
   }
   return lines;
 }
@@ -150,6 +152,43 @@ TEST_F(Estimate, ScoresAgainstTheTruthAsExperimentsDo) {
   EXPECT_THAT(summary, HasSubstr("left wheel   takeoffs at (s) 0.6"));
   log("robot.mpack", test::robot_log(1.0));
   EXPECT_THAT(estimate("robot.mpack --model m.npz"), ::testing::Not(HasSubstr("truth")));
+}
+
+TEST_F(Estimate, WritesBeliefsAsABagWithTheClockOfTheLog) {
+  constexpr double start = 1.7e9;  // s, as a robot's clock
+  logs::Recording log = test::robot_log(2.0);
+  for (models::Observation& step : log.observation) step.time += start;
+  this->log("robot.mpack", log);
+  estimate("robot.mpack --model m.npz -o beliefs.csv -o beliefs.mcap");
+  const Lines lines = lines_of(folder_.text("beliefs.csv"));
+  logs::BagReader bag(folder_ / "beliefs.mcap");
+  logs::BagMessage message;
+  std::size_t k = 0;
+  for (; bag.next(message); ++k) {
+    // Places in sensor_msgs/msg/JointState with the names left_wheel and right_wheel, in CDR.
+    const auto number = [&]<typename T>(std::size_t place, T value) {
+      std::memcpy(&value, message.data.data() + 4 + place, sizeof value);
+      return value;
+    };
+    ASSERT_EQ(message.data.size(), 124U);
+    EXPECT_EQ(message.data.substr(4 + 24, 10), "left_wheel");
+    EXPECT_EQ(message.data.substr(4 + 40, 11), "right_wheel");
+    const std::int64_t stamp = 1'000'000'000 * std::int64_t{number(0, std::int32_t{})} +
+                               std::int64_t{number(4, std::uint32_t{})};
+    EXPECT_EQ(stamp, message.time);
+    EXPECT_EQ(std::to_string(stamp), lines.at(k)[14]);
+    EXPECT_NEAR(static_cast<double>(stamp) * 1e-9, start + 1e-3 * static_cast<double>(k), 1e-6);
+    for (std::size_t wheel = 0; wheel < 2; ++wheel) {
+      EXPECT_EQ(number(56 + 8 * wheel, 0.0), std::stod(lines[k][1 + wheel]));
+      EXPECT_EQ(number(80 + 8 * wheel, 0.0), std::stod(lines[k][3 + wheel]));
+      const double load = number(104 + 8 * wheel, 0.0);
+      EXPECT_EQ(fmt::format("{}", load), lines[k][10 + wheel]);
+    }
+  }
+  EXPECT_EQ(k, lines.size());
+  ASSERT_EQ(bag.topics().size(), 1U);
+  EXPECT_EQ(bag.topics()[0].name, "/touchdown/contact");
+  EXPECT_EQ(bag.topics()[0].type, "sensor_msgs/msg/JointState");
 }
 
 TEST_F(Estimate, ScoresAgainstLabelsIfGiven) {
