@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "apps/viewer/watch.hpp"
 
@@ -58,17 +60,25 @@ static bool is_known_anywhere(const LoggedRun& run) {
 
 std::vector<StepRange> flights_of(const LoggedRun& run) {
   const bool is_believed = !is_known_anywhere(run) && !run.beliefs.empty();
-  const std::size_t steps =
-      is_believed ? run.beliefs.front().contact[0].size() : run.contact[0].size();
-  std::vector<std::uint8_t> in_air(steps);
-  for (std::size_t k = 0; k < steps; ++k) {
-    const auto is_in_air = [&](std::size_t wheel) {
-      return is_believed ? run.beliefs.front().contact[wheel][k] == 0
-                         : run.contact[wheel][k] == LabelState::air;
-    };
-    in_air[k] = is_in_air(0) && is_in_air(1) ? 1 : 0;
+  const auto shortest = static_cast<std::size_t>(
+      std::llround(scoring::ScoringConfig{}.minimum_flight / run.recording.period()));
+  std::vector<StepRange> flights;
+  for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+    std::vector<std::uint8_t> in_air;
+    if (is_believed) {
+      for (const auto one : run.beliefs.front().contact[wheel]) in_air.push_back(one == 0 ? 1 : 0);
+    } else {
+      for (const LabelState one : run.contact[wheel]) {
+        in_air.push_back(one == LabelState::air ? 1 : 0);
+      }
+    }
+    for (const StepRange& flight : ranges_of(in_air)) {
+      if (flight.end - flight.begin >= shortest) flights.push_back(flight);
+    }
   }
-  return ranges_of(in_air);
+  std::ranges::sort(flights, {},
+                    [](const StepRange& flight) { return std::pair(flight.begin, flight.end); });
+  return flights;
 }
 
 std::vector<StepRange> errors_of(const LoggedRun& run, std::size_t index) {

@@ -71,7 +71,8 @@ std::vector<PanelLine> LogWindow::panel_lines() const {
     lines.push_back(std::move(line));
   }
   lines.push_back({.text = "events", .heading = true});
-  lines.push_back({.text = "flights (t)", .value = fmt::format("{}", flights_.size())});
+  lines.push_back(
+      {.text = "wheels' flights ≥ 50 ms (t)", .value = fmt::format("{}", flights_.size())});
   if (!run_.contact[0].empty() && !run_.beliefs.empty()) {
     lines.push_back({.text = "errors (e) of (o)", .value = fmt::format("{}", errors_.size())});
     lines.push_back({.text = "  " + run_.beliefs[estimator_].name,

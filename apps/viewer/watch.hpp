@@ -67,8 +67,9 @@ struct StepRange {
 /// The steps at which `values` is true, as maximal ranges.
 std::vector<StepRange> ranges_of(const std::vector<std::uint8_t>& values);
 
-/// The flights of the run: both wheels known to be in the air; if the contact of no row is known,
-/// by the first estimator's beliefs.
+/// The flights of each wheel, in order, as the score counts them: it is known to be in the air for
+/// at least `ScoringConfig::minimum_flight`. If the contact of no row is known, by the first
+/// estimator's beliefs.
 std::vector<StepRange> flights_of(const LoggedRun& run);
 
 /// Where the decision of estimator `index` differs from the known contact of a wheel for at least

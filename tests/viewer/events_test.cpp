@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,21 +40,34 @@ LoggedRun run_of(const Steps& left, const Steps& right) {
   return run;
 }
 
-TEST(Flights, HaveNoWheelInContactOrTheFirstEstimatorsWithoutTrueContact) {
-  EXPECT_THAT(flights_of(run_of({1, 0, 0, 1, 0}, {1, 1, 0, 0, 0})),
-              ElementsAre(StepRange{2, 3}, StepRange{4, 5}));
-  LoggedRun run = run_of({}, {});
+/// Each step lasts as long as the shortest flight that counts.
+LoggedRun slow(LoggedRun run) {
+  run.recording.info.control_period_us = 50'000;
+  return run;
+}
+
+TEST(Flights, AreThoseOfEachWheelOrTheFirstEstimatorsWithoutTrueContact) {
+  EXPECT_THAT(flights_of(slow(run_of({1, 0, 0, 1, 0}, {1, 1, 0, 0, 0}))),
+              ElementsAre(StepRange{1, 3}, StepRange{2, 5}, StepRange{4, 5}));
+  LoggedRun run = slow(run_of({}, {}));
   EXPECT_THAT(flights_of(run), IsEmpty());
   render::BeliefTrack belief;
   belief.contact = {Steps{1, 0, 0}, Steps{1, 0, 1}};
   run.beliefs = {belief};
-  EXPECT_THAT(flights_of(run), ElementsAre(StepRange{1, 2}));
+  EXPECT_THAT(flights_of(run), ElementsAre(StepRange{1, 2}, StepRange{1, 3}));
+}
+
+TEST(Flights, AreNotShorterThanThoseOfTheScore) {
+  Steps left(200, 1);
+  std::fill_n(left.begin() + 10, 49, 0);
+  std::fill_n(left.begin() + 100, 50, 0);
+  EXPECT_THAT(flights_of(run_of(left, Steps(200, 1))), ElementsAre(StepRange{100, 150}));
 }
 
 TEST(UnknownContact, IsNeitherAFlightNorAnErrorNorDoesItHideOthers) {
   const Steps labels = {0, 0, 0, 0, 0, 0, gap, gap, gap, gap, gap, gap, 1, 1, 1, 1, 1, 1, gap};
-  LoggedRun run = run_of(labels, labels);
-  EXPECT_THAT(flights_of(run), ElementsAre(StepRange{0, 6}));
+  LoggedRun run = slow(run_of(labels, labels));
+  EXPECT_THAT(flights_of(run), ElementsAre(StepRange{0, 6}, StepRange{0, 6}));
   render::BeliefTrack belief;
   belief.contact = {Steps(19, 0), Steps(19, 0)};
   run.beliefs = {belief};
@@ -64,11 +79,11 @@ TEST(UnknownContact, IsNeitherAFlightNorAnErrorNorDoesItHideOthers) {
 }
 
 TEST(UnknownContact, OfAWholeRunLeavesTheFlightsToTheFirstEstimator) {
-  LoggedRun run = run_of(Steps(3, gap), Steps(3, gap));
+  LoggedRun run = slow(run_of(Steps(3, gap), Steps(3, gap)));
   render::BeliefTrack belief;
   belief.contact = {Steps{1, 0, 0}, Steps{1, 0, 1}};
   run.beliefs = {belief};
-  EXPECT_THAT(flights_of(run), ElementsAre(StepRange{1, 2}));
+  EXPECT_THAT(flights_of(run), ElementsAre(StepRange{1, 2}, StepRange{1, 3}));
 }
 
 TEST(LabelledContact, IsThatOfEachRowsOwnTime) {

@@ -153,7 +153,7 @@ TEST(WatchSession, BeginsAFileOfLabelsAndDragsAnEdge) {
   const auto labels = folder / "new.csv";
   // 1 s marked from the start; its end is in the middle of the plots, 108 px are 0.4 s.
   const std::string script =
-      "sleep 2; xdotool key space Home b shift+Right c; sleep 0.3; "
+      "sleep 2; xdotool key period Home b shift+Right c; sleep 0.3; "
       "xdotool mousemove 716 438 mousedown 1; sleep 0.3; xdotool mousemove 770 438; sleep 0.3; "
       "xdotool mousemove 824 438; sleep 0.3; xdotool mouseup 1; sleep 0.5; xdotool key q";
   ASSERT_EQ(watch(folder, script, quoted(robot_log(folder)) + " --labels " + quoted(labels), ""), 0)
