@@ -164,15 +164,20 @@ Columns<Rollout> run_columns() {
       .metric("duration_s", [](const Rollout& run) { return run.report.duration; });
 }
 
-void write_paper_tables(const ExperimentResult& result) {
-  std::string markdown;
-  std::string latex;
-  for (const CaptionedTable& table : paper_tables(result)) {
-    markdown += to_markdown(table) + "\n";
-    latex += to_latex(table) + "\n";
+/// A file of LaTeX for each table, and all of the paper's in Markdown.
+void write_text_tables(const ExperimentResult& result) {
+  std::vector<CaptionedTable> tables = accuracy_tables(result);
+  if (result.experiment.paper_tables) {
+    std::string markdown;
+    for (CaptionedTable& table : paper_tables(result)) {
+      markdown += to_markdown(table) + "\n";
+      tables.push_back(std::move(table));
+    }
+    write_atomically(result.directory.own_file("tables", "tables.md"), markdown);
   }
-  write_atomically(result.directory.own_file("tables", "tables.md"), markdown);
-  write_atomically(result.directory.own_file("tables", "tables.tex"), latex);
+  for (const CaptionedTable& table : tables) {
+    write_atomically(result.directory.own_file("tables", table.label + ".tex"), to_latex(table));
+  }
 }
 
 }  // namespace
@@ -205,7 +210,7 @@ void write_result_files(const ExperimentResult& result) {
   if (!evidence.rows.empty()) directory.write_table("evidence.csv", evidence);
   directory.write_table("runs.csv", run_columns().table(result.runs));
   write_score_tables(result.summaries, result.scores, result.differences, directory);
-  if (result.experiment.paper_tables) write_paper_tables(result);
+  write_text_tables(result);
   write_summary(summary_of(result), result.directory.path());
 }
 

@@ -93,7 +93,8 @@ std::string metric_cell(const ScoreSummary& summary, const std::string& metric) 
   return with_interval(summary[metric]);
 }
 
-/// One column per name, filled by `cell`; the last column has the paper's numbers.
+/// One column per name, filled by `cell`; the last column has the paper's numbers, if one of the
+/// estimators is among its own.
 TextTable table_of(const Experiment& experiment, const std::vector<ScoreSummary>& summaries,
                    const std::vector<std::string>& names,
                    std::string (*cell)(const ScoreSummary&, const std::string&),
@@ -103,14 +104,17 @@ TextTable table_of(const Experiment& experiment, const std::vector<ScoreSummary>
     std::replace(name.begin(), name.end(), '_', ' ');
     table.header.push_back(name);
   }
-  table.header.emplace_back("paper, real robot");
+  const bool has_paper = std::ranges::any_of(summaries, [](const ScoreSummary& summary) {
+    return paper_row(summary.condition.estimator) != nullptr;
+  });
+  if (has_paper) table.header.emplace_back("paper, real robot");
   for (const ScoreSummary& summary : summaries) {
     if (summary.view != "wheels") continue;
     std::vector<std::string> row = {summary.condition.test_simulator,
                                     estimator_entry(experiment, summary.condition.estimator).title};
     for (const std::string& name : names) row.push_back(cell(summary, name));
     const PaperRow* paper = paper_row(summary.condition.estimator);
-    row.push_back(paper == nullptr ? "–" : paper->*reference);
+    if (has_paper) row.push_back(paper == nullptr ? "–" : paper->*reference);
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -258,17 +262,16 @@ std::vector<CaptionedTable> paper_tables(const Experiment& experiment,
                                          const std::vector<ScoreSummary>& summaries,
                                          const std::string& how) {
   return {
-      {"Table I. Point-wise classification. " + how, "classification",
+      {"Point-wise classification. " + how, "classification",
        table_of(
            experiment, summaries,
            {"contact_precision", "contact_recall", "no_contact_precision", "no_contact_recall"},
            metric_cell, &PaperRow::classification)},
-      {"Table II. Transitions. " + how, "transitions",
+      {"Transitions. " + how, "transitions",
        table_of(experiment, summaries,
                 {"takeoff_precision", "takeoff_recall", "landing_precision", "landing_recall"},
                 metric_cell, &PaperRow::transitions)},
-      {"Table III. Latency of detected transitions (ms): mean ± standard deviation [interval of "
-       "the mean]. " +
+      {"Latency of detected transitions (ms): mean ± standard deviation [interval of the mean]. " +
            how,
        "latency",
        table_of(experiment, summaries, {"takeoff", "landing"}, latency_cell, &PaperRow::latency)},
@@ -297,14 +300,31 @@ CaptionedTable difference_text_table(const Experiment& experiment,
 }
 
 std::vector<CaptionedTable> paper_tables(const ExperimentResult& result) {
+  const Experiment& experiment = result.experiment;
   std::vector<CaptionedTable> tables;
-  for (const noise::NoiseCell& cell : result.experiment.highlights) {
-    for (CaptionedTable& table : paper_tables(result.experiment, in_cell(result.scores, cell),
-                                              how_scored(result.experiment, cell))) {
+  for (std::size_t i = 0; i < experiment.highlights.size(); ++i) {
+    const noise::NoiseCell& cell = experiment.highlights[i];
+    std::vector<CaptionedTable> of_cell =
+        paper_tables(experiment, in_cell(result.scores, cell), how_scored(experiment, cell));
+    of_cell.push_back(difference_text_table(experiment, in_cell(result.differences, cell)));
+    of_cell.back().caption += setup_caption(experiment);
+    for (CaptionedTable& table : of_cell) {
+      if (i > 0) table.label += fmt::format("_{}", i + 1);
       tables.push_back(std::move(table));
     }
-    tables.push_back(difference_text_table(result.experiment, in_cell(result.differences, cell)));
-    tables.back().caption += setup_caption(result.experiment);
+  }
+  return tables;
+}
+
+std::vector<CaptionedTable> accuracy_tables(const ExperimentResult& result) {
+  const Experiment& experiment = result.experiment;
+  std::vector<CaptionedTable> tables;
+  for (std::size_t i = 0; i < experiment.highlights.size(); ++i) {
+    const noise::NoiseCell& cell = experiment.highlights[i];
+    tables.push_back(
+        {"Accuracy and false takeoffs. " + how_scored(experiment, cell),
+         i > 0 ? fmt::format("accuracy_{}", i + 1) : "accuracy",
+         accuracy_table(experiment, result.summaries, result.scores, cell, experiment.simulators)});
   }
   return tables;
 }
@@ -325,13 +345,18 @@ std::string to_markdown(const CaptionedTable& table) {
 }
 
 std::string to_latex(const CaptionedTable& table) {
-  const std::string columns(table.table.header.size() - 2, 'r');
-  std::string text = "\\begin{table}\n\\centering\n\\begin{tabular}{ll" + columns +
-                     "}\n\\toprule\n" + joined(latex_cells(table.table.header), " & ") +
-                     " \\\\\n\\midrule\n";
+  std::string columns(table.table.header.size(), 'l');
+  for (std::size_t i = 0; i < columns.size() && !table.table.rows.empty(); ++i) {
+    const std::string& cell = table.table.rows.front()[i];
+    const bool is_word =
+        !cell.empty() && std::isalpha(static_cast<unsigned char>(cell.front())) != 0;
+    if (!is_word) columns[i] = 'r';
+  }
+  std::string text =
+      fmt::format("% {}\n\\begin{{tabular}}{{{}}}\n\\toprule\n{} \\\\\n\\midrule\n", table.caption,
+                  columns, joined(latex_cells(table.table.header), " & "));
   for (const auto& row : table.table.rows) text += joined(latex_cells(row), " & ") + " \\\\\n";
-  return text + "\\bottomrule\n\\end{tabular}\n\\caption{" + latex_text(table.caption) +
-         "}\n\\label{table:" + table.label + "}\n\\end{table}\n";
+  return text + "\\bottomrule\n\\end{tabular}\n";
 }
 
 }  // namespace touchdown::experiments

@@ -11,7 +11,7 @@ namespace touchdown::experiments {
 /// A table with its caption.
 struct CaptionedTable {
   std::string caption;
-  std::string label;  ///< a word, for LaTeX references
+  std::string label;  ///< a word, for the name of its LaTeX file
   TextTable table;
 };
 
@@ -22,14 +22,19 @@ TextTable accuracy_table(const Experiment& experiment, const std::vector<CellSum
                          const std::vector<std::string>& engines);
 
 /// Tables I to III of the paper (point-wise classification, transitions, latency), one row per
-/// engine and estimator. The last column has the paper's numbers from the real robot. They are a
+/// engine and estimator. If the paper has one of the estimators, the last column has its numbers
+/// from the real robot. They are a
 /// reference, not a target: another robot, other drops, hand labels.
 std::vector<CaptionedTable> paper_tables(const Experiment& experiment,
                                          const std::vector<ScoreSummary>& summaries,
                                          const std::string& how);
 
-/// Those tables for every highlighted cell of a result, each with its differences.
+/// Those tables for every highlighted cell of a result, each with its differences. From the second
+/// cell on, labels end with its number.
 std::vector<CaptionedTable> paper_tables(const ExperimentResult& result);
+
+/// The tables of accuracy of every highlighted cell, labelled alike.
+std::vector<CaptionedTable> accuracy_tables(const ExperimentResult& result);
 
 /// The differences of the first estimator from the others, with intervals.
 CaptionedTable difference_text_table(const Experiment& experiment,
@@ -37,7 +42,7 @@ CaptionedTable difference_text_table(const Experiment& experiment,
 
 std::string to_text(const CaptionedTable& table);
 std::string to_markdown(const CaptionedTable& table);
-/// A `table` environment that needs the package booktabs.
+/// A `tabular` for \input, which needs the package booktabs, with its caption as a comment.
 std::string to_latex(const CaptionedTable& table);
 
 /// A result for the terminal: for each engine the highlighted cells and the first estimator's noise
