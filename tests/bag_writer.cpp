@@ -34,7 +34,8 @@ std::string definitions(const TestBag& bag) {
   std::string bytes;
   for (std::size_t i = 0; i < bag.topics.size(); ++i) {
     const TestTopic& topic = bag.topics[i];
-    bytes += mcap_record(3, u16(i + 1) + text(topic.type) + text("ros2msg") + text("# fields"));
+    bytes +=
+        mcap_record(3, u16(i + 1) + text(topic.type) + text("ros2msg") + text(topic.definition));
     bytes += mcap_record(4, u16(i) + u16(i + 1) + text(topic.name) + text(topic.encoding) +
                                 text(text("offered_qos_profiles") + text("")));
   }
@@ -59,6 +60,14 @@ void CdrBytes::put(std::uint64_t bits, std::size_t size) {
     const std::size_t byte = is_big_ ? size - 1 - i : i;
     bytes_ += static_cast<char>((bits >> (8 * byte)) & 0xffU);
   }
+}
+CdrBytes& CdrBytes::u8(std::uint8_t value) {
+  put(value, 1);
+  return *this;
+}
+CdrBytes& CdrBytes::f32(float value) {
+  put(std::bit_cast<std::uint32_t>(value), 4);
+  return *this;
 }
 CdrBytes& CdrBytes::u32(std::uint32_t value) {
   put(value, 4);
@@ -176,6 +185,14 @@ void write_db3(const TestBag& bag, const std::filesystem::path& path, bool zstd,
     const TestTopic& topic = bag.topics[i];
     run(database, fmt::format("INSERT INTO topics VALUES({}, '{}', '{}', '{}', '')", i + 1,
                               topic.name, topic.type, topic.encoding));
+  }
+  run(database,
+      "CREATE TABLE message_definitions(id INTEGER PRIMARY KEY, topic_type TEXT NOT NULL, encoding "
+      "TEXT NOT NULL, encoded_message_definition TEXT NOT NULL)");
+  for (const TestTopic& topic : bag.topics) {
+    run(database, fmt::format("INSERT INTO message_definitions(topic_type, encoding, "
+                              "encoded_message_definition) VALUES('{}', 'ros2msg', '{}')",
+                              topic.type, topic.definition));
   }
   sqlite3_stmt* insert = nullptr;
   sqlite3_prepare_v2(database, "INSERT INTO messages(topic_id, timestamp, data) VALUES(?, ?, ?)",

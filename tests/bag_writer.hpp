@@ -13,7 +13,9 @@ namespace touchdown::test {
 class CdrBytes {
  public:
   explicit CdrBytes(bool is_big_endian = false);
+  CdrBytes& u8(std::uint8_t value);
   CdrBytes& u32(std::uint32_t value);
+  CdrBytes& f32(float value);
   CdrBytes& f64(double value);
   CdrBytes& text(std::string_view text);
   CdrBytes& f64s(const std::vector<double>& values);
@@ -43,6 +45,7 @@ std::string imu_cdr(std::int64_t stamp, const TestImu& imu, bool is_big = false,
 struct TestTopic {
   std::string name, type;
   std::string encoding = "cdr";
+  std::string definition = "# fields";
 };
 struct TestMessage {
   std::size_t topic = 0;

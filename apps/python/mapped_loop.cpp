@@ -18,7 +18,8 @@ std::vector<logs::SourceNames> sources_of(const py::object& arrays,
                                           const std::filesystem::path& mapping) {
   logs::SourceNames names{.file = "signals", .are_arrays = true, .names = {}};
   for (const py::handle name : arrays) names.names.push_back(py::cast<std::string>(name));
-  names.is_topic = std::ranges::find(names.names, "orientation.x") != names.names.end();
+  names.is_topic = names.is_imu =
+      std::ranges::find(names.names, "orientation.x") != names.names.end();
   names.has_joint_names = names.is_topic;
   if (!names.is_topic && logs::read_log_sources(mapping).empty()) return {names};
   std::vector<logs::SourceNames> sources(2, names);

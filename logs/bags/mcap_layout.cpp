@@ -58,7 +58,11 @@ void McapChannels::add_schema(std::string_view content) {
   ByteReader reader(content);
   const auto id = reader.number<std::uint16_t>();
   if (id == 0) throw InputError("a schema has the id 0");
-  define(schema_name, id, std::string(reader.text()), "schema");
+  Schema one;
+  one.name = reader.text();
+  one.encoding = reader.text();
+  one.text = reader.text();
+  define(schema, id, std::move(one), "schema");
 }
 
 void McapChannels::add_channel(std::string_view content) {

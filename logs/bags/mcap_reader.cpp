@@ -84,9 +84,13 @@ std::size_t McapReader::topic_of(std::uint16_t channel) {
     throw InputError(fmt::format("a message is of channel {}, which is not defined", channel));
   }
   const McapChannels::Channel& of = defined->second;
-  const auto schema = layout_.channels.schema_name.find(of.schema);
-  const std::string type = schema == layout_.channels.schema_name.end() ? "" : schema->second;
-  return topic_of_channel_[channel] = topics_.index_of({of.topic, type, of.encoding, 0});
+  const auto schema = layout_.channels.schema.find(of.schema);
+  BagTopic topic{of.topic, "", of.encoding};
+  if (schema != layout_.channels.schema.end()) {
+    topic.type = schema->second.name;
+    if (schema->second.encoding == "ros2msg") topic.definition = schema->second.text;
+  }
+  return topic_of_channel_[channel] = topics_.index_of(topic);
 }
 
 void McapReader::load(const McapPart& part) {

@@ -40,7 +40,13 @@ struct McapChannels {
     std::string encoding;
     bool operator==(const Channel&) const = default;
   };
-  std::map<std::uint16_t, std::string> schema_name;
+  struct Schema {
+    std::string name;
+    std::string encoding;
+    std::string text;
+    bool operator==(const Schema&) const = default;
+  };
+  std::map<std::uint16_t, Schema> schema;
   std::map<std::uint16_t, Channel> channel;
 
   /// Errors: `InputError` for a channel or a schema that differs from an earlier one of its id.

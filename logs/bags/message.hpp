@@ -17,6 +17,8 @@ struct BagTopic {
   std::string type;            ///< "sensor_msgs/msg/Imu"; empty if the bag does not give it
   std::string encoding;        ///< of its messages, "cdr" in ROS 2
   std::uint64_t messages = 0;  ///< read so far
+  /// Of its type, as `MessageType` reads it; empty if the bag does not give it.
+  std::string definition = {};
   bool operator==(const BagTopic&) const = default;
 };
 
@@ -27,7 +29,7 @@ class BagTopics {
   std::size_t index_of(const BagTopic& topic) {
     const auto [known, is_new] =
         index_.try_emplace({topic.name, topic.type, topic.encoding}, all_.size());
-    if (is_new) all_.push_back({topic.name, topic.type, topic.encoding, 0});
+    if (is_new) all_.push_back({topic.name, topic.type, topic.encoding, 0, topic.definition});
     return known->second;
   }
   BagTopic& operator[](std::size_t index) { return all_[index]; }

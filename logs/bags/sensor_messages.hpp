@@ -19,7 +19,8 @@ struct MessageStamp {
   std::int64_t time() const { return std::int64_t{1'000'000'000} * sec + nanosec; }
 };
 
-/// sensor_msgs/msg/JointState. Each list of numbers is empty or has one per name.
+/// sensor_msgs/msg/JointState. Each list of numbers is empty or has one per name;
+/// of some drivers, the list of names is empty.
 struct JointState {
   MessageStamp stamp;
   std::vector<std::string_view> name;  ///< into the payload

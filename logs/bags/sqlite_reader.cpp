@@ -162,6 +162,29 @@ void SqliteReader::read_topics(const TopicFilter& wanted) {
     if (!wanted || wanted(topic.name)) index_of_id_[id] = topics_.size();
     topics_.push_back(std::move(topic));
   }
+  try {
+    read_definitions();
+  } catch (const InputError&) {  // NOLINT(bugprone-empty-catch): a part that is cut off
+  }
+}
+
+/// The definitions of types, of newer bags.
+void SqliteReader::read_definitions() {
+  if (!has_table("message_definitions")) return;
+  const Statement types = prepare("SELECT * FROM message_definitions");
+  const auto column = [&](std::string_view name) {
+    int i = sqlite3_column_count(types.get());
+    while (--i >= 0 && name != sqlite3_column_name(types.get(), i)) {
+    }
+    return i;  // of −1, SQLite gives null
+  };
+  while (step(types.get())) {
+    if (text_at(types.get(), column("encoding")) != "ros2msg") continue;
+    for (BagTopic& topic : topics_) {
+      if (topic.type != text_at(types.get(), column("topic_type"))) continue;
+      topic.definition = text_at(types.get(), column("encoded_message_definition"));
+    }
+  }
 }
 
 SqliteReader::Statement SqliteReader::prepare(const std::string& sql) {

@@ -50,6 +50,7 @@ class SqliteReader {
                         const std::filesystem::path& copy) const;
   bool has_table(std::string_view name);
   void read_topics(const TopicFilter& wanted);
+  void read_definitions();
   Statement prepare(const std::string& sql);
   bool step(sqlite3_stmt* statement);
   bool take(sqlite3_stmt* row, BagMessage& message);

@@ -5,11 +5,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "logs/bags/message.hpp"
+#include "logs/bags/message_type.hpp"
 #include "logs/bags/sensor_messages.hpp"
 #include "logs/bags/source_join.hpp"
 #include "logs/held_number.hpp"
@@ -20,20 +23,37 @@ namespace touchdown::logs {
 inline constexpr const char* stamp_column = "header.stamp";
 inline constexpr const char* log_time_column = "log_time";
 
-/// A topic of sensor_msgs/msg/JointState or sensor_msgs/msg/Imu as the beginning of a bag shows it.
+/// Lists and signals of the messages.
+inline constexpr std::array<const char*, 3> joint_fields = {"position", "velocity", "effort"};
+inline constexpr std::array<const char*, 10> imu_fields = {
+    "orientation.x",         "orientation.y",        "orientation.z",      "orientation.w",
+    "angular_velocity.x",    "angular_velocity.y",   "angular_velocity.z", "linear_acceleration.x",
+    "linear_acceleration.y", "linear_acceleration.z"};
+/// A header without a stamp was sent now, unless the clock is a simulation's, which starts at zero.
+inline constexpr double longest_delay = 60.0;  // s
+
+/// The stamp with which a message of another type begins; zero without one.
+MessageStamp stamp_of(const MessageNumbers& numbers);
+
+/// A topic of sensor_msgs/msg/JointState, sensor_msgs/msg/Imu, or of another type that the bag
+/// defines, as the beginning of a bag shows it.
 struct SignalTopic {
   std::string name;
   std::string type;
   std::vector<std::string> joints;  ///< of JointState, in the order of their first message
+  std::size_t width = 0;            ///< of JointState: the largest number of positions, …
   bool has_velocity = false;        ///< of JointState
   bool has_effort = false;          ///< of JointState
   bool has_orientation = false;     ///< of Imu
-  bool has_stamps = false;          ///< whether a header has a stamp that is not zero
-  double stamp_delay = 0.0;         ///< the least time of recording − stamp of such headers (s)
-  std::uint64_t messages = 0;       ///< decoded so far
+  std::shared_ptr<const MessageType> definition;  ///< of another type
+  std::vector<std::string> numbers;               ///< of another type
+  bool has_stamps = false;                        ///< whether a header has a stamp that is not zero
+  double stamp_delay = 0.0;    ///< the least time of recording − stamp of such headers (s)
+  std::uint64_t messages = 0;  ///< decoded so far
 
   /// Names of all numbers of a message: `stamp_column`, `log_time_column`; NAME/position,
-  /// NAME/velocity, NAME/effort for each joint; or orientation.x, …, linear_acceleration.z.
+  /// NAME/velocity, NAME/effort for each joint, and position[0], velocity[0], effort[0], …; or
+  /// orientation.x, …, linear_acceleration.z; or the paths of another type's numbers.
   std::vector<std::string> columns() const;
 };
 
@@ -50,10 +70,10 @@ class TopicRows {
 
   TopicRows(SignalTopic topic, const std::vector<std::string>& columns, const Config& config);
 
-  /// Decodes the message. Returns whether it is a row: an Imu, or a JointState with the first of
-  /// the selected joints. Values that a JointState does not give, as from a driver that sends a
-  /// part of the joints, or some efforts, are the latest ones if they are not stale, otherwise NaN.
-  /// A malformed message is counted and gives no row.
+  /// Decodes the message. Returns whether it is a row: a JointState with the first of the selected
+  /// joints, or any message of another type. Values that a JointState does not give, as from a
+  /// driver that sends a part of the joints, or some efforts, are the latest ones if they are not
+  /// stale, otherwise NaN. A malformed message is counted and gives no row.
   bool update(const BagMessage& message);
 
   std::span<const double> row() const { return row_; }
@@ -62,12 +82,15 @@ class TopicRows {
   std::uint64_t malformed() const { return malformed_; }
   /// One line for each thing that a user should know about the messages.
   std::vector<std::string> notes() const;
+  /// One line for each thing that makes the rows wrong: several publishers with the same joints.
+  std::vector<std::string> findings() const;
 
  private:
   /// The two latest values of a number: messages can come in another order than their stamps.
   using Held = std::array<HeldNumber, 2>;
   struct Joint {
-    std::string name;
+    std::string name;  ///< empty: by its place
+    std::size_t place = 0;
     std::array<std::size_t, 3> slot{};  ///< of position, velocity, effort in the row, or `no_slot`
     std::array<Held, 3> held{};
   };
@@ -75,7 +98,9 @@ class TopicRows {
 
   void set_time(const MessageStamp& stamp, std::int64_t recorded);
   bool take(const JointState& state);
+  void count_kind(const JointState& state);
   void take(const ImuState& state);
+  void take(const MessageNumbers& numbers, std::int64_t recorded);
   void put(std::size_t slot, Held& held, double value, bool is_given);
 
   SignalTopic topic_;
@@ -88,6 +113,14 @@ class TopicRows {
   std::array<std::size_t, 10> imu_slot_{};
   JointState joint_state_;
   ImuState imu_;
+  MessageNumbers numbers_;
+  std::vector<std::string> columns_;
+  std::vector<std::string> paths_;      ///< of the last message of another type
+  std::vector<std::size_t> number_at_;  ///< of the columns among its numbers, or `no_slot`
+  /// Of messages with the first joint: the number by their names, and how often they change.
+  std::map<std::vector<std::string>, std::uint64_t> kinds_;
+  std::vector<std::string> last_kind_;
+  std::uint64_t alternations_ = 0;
   Ages ages_;  ///< of the values from earlier messages
   std::uint64_t malformed_ = 0;
   std::string first_malformed_;

@@ -23,12 +23,12 @@ namespace touchdown::logs {
 
 /// Sources with clocks of their own that a mapping joins: files of one folder, or topics of a bag.
 struct LogSources {
-  std::vector<std::string> joints;  ///< empty: the log is one file
-  std::vector<std::string> imu;
+  std::vector<std::string> joints;   ///< of a bag, empty: the only topic of JointState
+  std::vector<std::string> imu;      ///< of a bag, empty: the only topic of Imu
   std::vector<std::string> contact;  ///< empty: among the joints' columns
   double stale_after = 0.05;         ///< older values are missing (s)
 
-  bool empty() const { return joints.empty(); }
+  bool empty() const { return joints.empty() && imu.empty(); }  ///< the log is one file, or a bag
   /// Whether they are named like files, not like topics.
   bool are_files() const;
 };
@@ -53,8 +53,8 @@ struct SourceNames {
   std::vector<std::string> names;
   /// The section of the mapping that a source belongs to: joints, imu or contact. Empty: all.
   std::string section = {};
-  /// Whether it is a topic of a bag: its messages have defined names and conventions.
-  bool is_topic = false;
+  bool is_topic = false;  ///< of a bag
+  bool is_imu = false;    ///< of sensor_msgs/msg/Imu, with its names and conventions
   /// Whether columns NAME/position, NAME/velocity and NAME/effort follow from the names of joints
   /// in the rows: of a topic, or of a file with such names.
   bool has_joint_names = false;

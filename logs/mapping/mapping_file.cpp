@@ -31,14 +31,17 @@ bool is_file_name(const std::string& name) {
 void describe_sources(Fields& fields, LogSources& sources) {
   for (const char* key : {"joints", "imu", "contact", "stale_after"}) fields.know(key);
   fields.finish();
-  fields.require("joints");
-  fields.require("imu");
   describe_names(
       fields, "joints", sources.joints,
-      "Files of one folder, or topics of a bag, with the joints. Their clock is the log's.");
-  describe_names(fields, "imu", sources.imu, "File or topic with the IMU.");
+      "Files of one folder, or topics of a bag, with the joints. Their clock is the log's. Without "
+      "it: the only topic of JointState.");
+  describe_names(fields, "imu", sources.imu,
+                 "File or topic with the IMU. Without it: the only topic of Imu.");
   describe_names(fields, "contact", sources.contact,
                  "File with the contact labels, if they are not among the joints.");
+  fields.check(!sources.empty() || fields.documenting(), "", "expected 'joints', 'imu', or both");
+  if (sources.are_files() && sources.joints.empty()) fields.require("joints");
+  if (sources.are_files() && sources.imu.empty()) fields.require("imu");
   fields("stale_after", sources.stale_after, 1e-3, 10.0)
       .doc("s", "A value is held until the next one, but is missing when it is older than this.");
 }
@@ -142,9 +145,9 @@ void describe_time(Fields& fields, MappingReader& reader, LogMapping& mapping) {
 void describe_orientation(Fields& fields, MappingReader& reader, LogMapping& mapping) {
   SignalKind kind{"the quaternion's components in the order of 'order'", 4};
   // sensor_msgs/Imu and REP 103
-  std::size_t order = reader.names().is_topic ? 1 : 0;
+  std::size_t order = reader.names().is_imu ? 1 : 0;
   std::size_t reference = order;
-  if (reader.names().is_topic) {
+  if (reader.names().is_imu) {
     kind.names = {"orientation.x", "orientation.y", "orientation.z", "orientation.w"};
   } else {
     fields.check(fields.documenting() || fields.present("orientation", false), "",
@@ -170,10 +173,10 @@ void describe_orientation(Fields& fields, MappingReader& reader, LogMapping& map
 }
 
 /// Reads the rotation to Upkie's IMU axes: each is x, y or z of the log's IMU, or its reverse.
-void describe_axes(Fields& fields, bool is_topic, Eigen::Matrix3d& axes) {
+void describe_axes(Fields& fields, bool is_imu, Eigen::Matrix3d& axes) {
   // REP 103: x forward, y left, z up
-  std::vector<std::string> names = is_topic ? std::vector<std::string>{"-x", "y", "-z"}
-                                            : std::vector<std::string>{"x", "y", "z"};
+  std::vector<std::string> names =
+      is_imu ? std::vector<std::string>{"-x", "y", "-z"} : std::vector<std::string>{"x", "y", "z"};
   fields("axes", names)
       .range("x, y, z, each with or without a minus")
       .doc("Axes of the log's IMU that point back, left and down.");
@@ -188,11 +191,11 @@ void describe_axes(Fields& fields, bool is_topic, Eigen::Matrix3d& axes) {
 void describe_imu(Fields& fields, MappingReader& reader, LogMapping& mapping) {
   expect_keys(fields, {"time", "orientation", "angular_velocity", "linear_acceleration",
                        "proper_acceleration", "axes", "rotation"});
-  const bool is_topic = reader.names().is_topic;
+  const bool is_imu = reader.names().is_imu;
   const auto kind = [&](const char* signal, const std::vector<Unit>& units) {
     SignalKind one{"x, y, z", 3, units};
     for (const char* axis : {".x", ".y", ".z"}) {
-      if (is_topic) one.names.push_back(std::string(signal) + axis);
+      if (is_imu) one.names.push_back(std::string(signal) + axis);
     }
     return one;
   };
@@ -207,13 +210,13 @@ void describe_imu(Fields& fields, MappingReader& reader, LogMapping& mapping) {
       .doc("Acceleration without gravity; this or the next is needed.");
   reader.optional(fields, "proper_acceleration", acceleration, mapping.proper_acceleration)
       .doc("Acceleration as the chip measures it, gravity included.");
-  if (is_topic && !mapping.linear_acceleration && !mapping.proper_acceleration) {
+  if (is_imu && !mapping.linear_acceleration && !mapping.proper_acceleration) {
     reader.take_default(fields, "", acceleration, mapping.proper_acceleration.emplace());
   }
   const bool has_rotation = fields.present("rotation", false);
   fields.check(fields.documenting() || !has_rotation || !fields.present("axes", false), "rotation",
                "expected either 'rotation' or 'axes'");
-  describe_axes(fields, is_topic, mapping.conventions.axes);
+  describe_axes(fields, is_imu, mapping.conventions.axes);
   if (has_rotation) {
     fields
         .within("rotation",
@@ -270,7 +273,7 @@ void describe_mapping(Fields& fields, MappingReader& reader, LogMapping& mapping
   fields.within("joints", [&](Fields& inner) { describe_joints(inner, reader, mapping); })
       .doc("Signals of the six servos.");
   reader.enter("imu");
-  if (!reader.names().is_topic) fields.require("imu");
+  if (!reader.names().is_imu) fields.require("imu");
   if (fields.present("imu", false)) {
     fields.within("imu", [&](Fields& inner) { describe_imu(inner, reader, mapping); })
         .doc("Signals of the IMU.");

@@ -34,29 +34,37 @@ double unit_of(Fields& fields, const std::vector<Unit>& units) {
   return units[index].size;
 }
 
-/// Lists the first few names of a log, for messages.
+/// Lists the first few names of a log, for messages; those of a list's items once: "position[i]".
 std::string some_of(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 8;
-  const auto shown = std::span(names).first(std::min(names.size(), most));
-  return fmt::format(" (it has {}{})", fmt::join(shown, ", "), names.size() > most ? ", …" : "");
+  constexpr std::size_t most = 12;
+  std::vector<std::string> shown;
+  for (std::string name : names) {
+    for (std::size_t at = 0; (at = name.find('[', at)) != std::string::npos; ++at) {
+      const std::size_t end = std::min(name.find(']', at), name.size());
+      if (end > at + 1 && std::all_of(name.begin() + static_cast<std::ptrdiff_t>(at) + 1,
+                                      name.begin() + static_cast<std::ptrdiff_t>(end),
+                                      [](char c) { return c >= '0' && c <= '9'; })) {
+        name.replace(at + 1, end - at - 1, "i");
+      }
+    }
+    if (std::ranges::find(shown, name) == shown.end()) shown.push_back(std::move(name));
+  }
+  const bool has_more = shown.size() > most;
+  if (has_more) shown.resize(most);
+  return fmt::format(" (it has {}{})", fmt::join(shown, ", "), has_more ? ", …" : "");
 }
 
-/// The numbers of a signal are columns of one array (the first ones, unless `index` selects
-/// others), or come from one array each.
-std::vector<SourceColumn> columns_of_arrays(Fields& fields, const SignalKind& kind,
-                                            const std::vector<std::string>& from) {
-  const bool is_of_one = from.size() == 1;
-  fields.check(
-      is_of_one || from.size() == kind.count, "from",
-      fmt::format("expected an array with two axes, or {} with one: {}", kind.count, kind.what));
+/// Which columns of an array, or items of a list, a signal has: the first ones without `index`.
+std::vector<int> index_of(Fields& fields, const SignalKind& kind, bool is_of_one) {
   std::vector<int> index;
-  const bool is_given = fields.present("index", false);
-  if (is_given) {
+  if (fields.present("index", false)) {
     one_or_more(fields, "index", index)
         .type("whole number or list of whole numbers")
         .range("≥ 0")
         .fallback("the first ones")
-        .doc("Columns of an array with two axes, from 0; only in `.npz` files.");
+        .doc(
+            "Columns of an array with two axes in `.npz` files, or items of a message's list, "
+            "from 0.");
     if (fields.documenting()) return {};
     fields.check(index.size() == kind.count, "index",
                  fmt::format("expected {} of the array's columns: {}", kind.count, kind.what));
@@ -66,12 +74,31 @@ std::vector<SourceColumn> columns_of_arrays(Fields& fields, const SignalKind& ki
     index.resize(kind.count);
     std::iota(index.begin(), index.end(), 0);
   }
+  return index;
+}
+
+/// The numbers of a signal are columns of one array, or come from one array each.
+std::vector<SourceColumn> columns_of_arrays(Fields& fields, const SignalKind& kind,
+                                            const std::vector<std::string>& from) {
+  const bool is_of_one = from.size() == 1;
+  fields.check(
+      is_of_one || from.size() == kind.count, "from",
+      fmt::format("expected an array with two axes, or {} with one: {}", kind.count, kind.what));
+  const std::vector<int> index = index_of(fields, kind, is_of_one);
+  if (fields.documenting()) return {};
   std::vector<SourceColumn> columns;
   for (std::size_t i = 0; i < kind.count; ++i) {
     SourceColumn& column = columns.emplace_back(SourceColumn{from[is_of_one ? 0 : i]});
     if (!index.empty()) column.index = static_cast<std::size_t>(index[i]);
   }
   return columns;
+}
+
+/// The column of an item of a list: "position[2]"; of "motor_state[].q", "motor_state[2].q".
+std::string item_of(std::string list, int i) {
+  const std::size_t at = list.find("[]");
+  const std::string place = fmt::format("[{}]", i);
+  return at == std::string::npos ? list + place : list.replace(at, 2, place);
 }
 
 }  // namespace
@@ -152,7 +179,8 @@ void MappingReader::take_default(const Fields& fields, std::string_view key, con
 }
 
 void MappingReader::describe_signal(Fields& fields, const SignalKind& kind, MappedSignal& signal) {
-  if (names().are_arrays) fields.know("index");
+  const auto is_item = [](const std::string& name) { return name.find('[') != std::string::npos; };
+  if (names().are_arrays || std::ranges::any_of(names().names, is_item)) fields.know("index");
   if (kind.has_zero) fields.know("zero");
   if (!kind.units.empty()) fields.know("unit");
   expect_keys(fields, {"from", "sign", "scale"});
@@ -200,6 +228,16 @@ std::vector<SourceColumn> MappingReader::columns_of(Fields& fields, const Signal
   one_or_more(fields, "from", from)
       .type(kind.count == 1 ? "text" : "text or list of texts")
       .doc(fmt::format("Columns or arrays: {}.", kind.what));
+  const bool has_index = !names().are_arrays && fields.present("index", false);
+  fields.check(!has_index || from.size() == 1, "index", "expected one list in 'from'");
+  if (!names().are_arrays && from.size() == 1 &&
+      (has_index || (kind.count > 1 && is_there(item_of(from[0], 0))))) {
+    const std::string list = from.front();
+    from.clear();
+    for (const int i : index_of(fields, kind, true)) from.push_back(item_of(list, i));
+  }
+  fields.check(names().are_arrays || from.size() == kind.count, "from",
+               fmt::format("expected {} of the names of columns: {}", kind.count, kind.what));
   std::vector<std::size_t> source;
   for (const std::string& name : from) source.push_back(source_of(fields, "from", name));
   if (names().are_arrays) {
@@ -209,11 +247,18 @@ std::vector<SourceColumn> MappingReader::columns_of(Fields& fields, const Signal
     }
     return columns;
   }
-  fields.check(from.size() == kind.count, "from",
-               fmt::format("expected {} of the names of columns: {}", kind.count, kind.what));
   std::vector<SourceColumn> columns;
   for (std::size_t i = 0; i < from.size(); ++i) columns.push_back({from[i], {}, source[i]});
   return columns;
+}
+
+bool MappingReader::is_there(const std::string& name) const {
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    if (is_entered(i) && std::ranges::find(sources_[i].names, name) != sources_[i].names.end()) {
+      return true;
+    }
+  }
+  return false;
 }
 
 bool MappingReader::is_entered(std::size_t source) const {

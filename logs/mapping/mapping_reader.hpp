@@ -82,6 +82,8 @@ class MappingReader {
  private:
   std::vector<SourceColumn> columns_of(Fields& fields, const SignalKind& kind) const;
   bool is_entered(std::size_t source) const;
+  /// Whether a source that is entered has this column.
+  bool is_there(const std::string& name) const;
 
   /// The source with this column; reports an error at `key` if not exactly one column has the name.
   std::size_t source_of(const Fields& fields, std::string_view key, const std::string& name) const;

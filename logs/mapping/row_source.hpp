@@ -33,6 +33,8 @@ class RowSource {
   /// One line for each thing that a user should know about the rows, such as the ages of held
   /// values. Complete at the end.
   virtual std::vector<std::string> notes() const = 0;
+  /// One line for each thing that makes the rows wrong.
+  virtual std::vector<std::string> findings() const { return {}; }
 };
 
 /// Opens a log: a file by its extension (comma-separated values with a line of names, or NumPy's

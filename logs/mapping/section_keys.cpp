@@ -40,6 +40,13 @@ SignalKind describe_joint_names(Fields& fields, MappingReader& reader, SignalKin
     fields.check(kind.names.size() == kind.count, "names",
                  fmt::format("expected {}: {}", kind.count, kind.what));
     const std::vector<std::string>& columns = reader.names().names;
+    const bool is_nameless = reader.names().is_topic && !reader.names().has_joint_names &&
+                             std::ranges::find(columns, "position[0]") != columns.end();
+    fields.check(!is_nameless || fields.present("position", false), "names",
+                 fmt::format("names are empty in the messages of {0}; give positions by index: "
+                             "position: {{from: position, index: [{1} numbers from 0]}}, velocity: "
+                             "{{from: velocity, index: …}}, torque: {{from: effort, index: …}}",
+                             reader.names().file, kind.count));
     const bool has_names =
         reader.names().has_joint_names ||
         std::any_of(columns.begin(), columns.end(),

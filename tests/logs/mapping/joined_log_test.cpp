@@ -365,7 +365,9 @@ TEST_F(JoinedLog, WrongMappingsOfABagAreRefused) {
               AllOf(HasSubstr("'names' is missing"), HasSubstr("r_wheel, l_wheel")));
   EXPECT_THAT(complaint(bag, "sources: {joints: /imu, imu: /joint_states}\njoints: {}\n"),
               HasSubstr("has the type sensor_msgs/msg/Imu, expected sensor_msgs/msg/JointState"));
-  EXPECT_THAT(complaint(bag, "sources: {joints: /joint_states}\njoints: {}\n"),
+  EXPECT_THAT(complaint(bag, "sources: {stale_after: 0.1}\njoints: {}\n"),
+              HasSubstr("map.yaml:1:10: sources: expected 'joints', 'imu', or both"));
+  EXPECT_THAT(complaint(bag, "sources: {joints: joints.csv}\njoints: {}\n"),
               HasSubstr("map.yaml:1:10: sources.imu: is missing"));
   EXPECT_THAT(complaint(bag, "sources: {joints: /joint_states, imu: /imu, stale_after: -1}\n"),
               HasSubstr("sources.stale_after"));

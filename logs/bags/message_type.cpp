@@ -1,0 +1,248 @@
+#include "logs/bags/message_type.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "logs/bags/cdr.hpp"
+
+namespace touchdown::logs {
+
+namespace {
+
+using Read = double (*)(CdrReader& reader);
+
+template <typename T>
+double read(CdrReader& reader) {
+  return static_cast<double>(reader.take<T>());
+}
+
+struct Primitive {
+  std::string_view name;
+  std::size_t size;  ///< of texts, that of their length
+  Read read;         ///< null for texts
+};
+
+constexpr std::array<Primitive, 14> primitives = {{{"bool", 1, read<std::uint8_t>},
+                                                   {"byte", 1, read<std::uint8_t>},
+                                                   {"char", 1, read<std::uint8_t>},
+                                                   {"uint8", 1, read<std::uint8_t>},
+                                                   {"int8", 1, read<std::int8_t>},
+                                                   {"uint16", 2, read<std::uint16_t>},
+                                                   {"int16", 2, read<std::int16_t>},
+                                                   {"uint32", 4, read<std::uint32_t>},
+                                                   {"int32", 4, read<std::int32_t>},
+                                                   {"uint64", 8, read<std::uint64_t>},
+                                                   {"int64", 8, read<std::int64_t>},
+                                                   {"float32", 4, read<float>},
+                                                   {"float64", 8, read<double>},
+                                                   {"string", 4, nullptr}}};
+
+constexpr const char* stamp_definition = "int32 sec\nuint32 nanosec\n";
+constexpr std::size_t longest_list = 1024;
+constexpr std::size_t most_numbers = std::size_t{1} << 16U;
+constexpr std::size_t deepest = 32;
+
+std::string_view trimmed(std::string_view text) {
+  constexpr const char* blanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// The next word, which is removed from the text.
+std::string_view take_word(std::string_view& text) {
+  text = trimmed(text);
+  const std::string_view word = text.substr(0, text.find_first_of(" \t"));
+  text.remove_prefix(word.size());
+  return word;
+}
+
+/// "package/msg/Type" and "package/Type" are the same; a bare name is of this package.
+std::string whole_name(std::string_view type, std::string_view package) {
+  if (type == "Header") return "std_msgs/Header";
+  const std::size_t slash = type.find('/');
+  if (slash == std::string_view::npos) return fmt::format("{}/{}", package, type);
+  return fmt::format("{}/{}", type.substr(0, slash), type.substr(type.rfind('/') + 1));
+}
+
+}  // namespace
+
+/// Reads definitions; each type once.
+class TypeParser {
+ public:
+  TypeParser(MessageType& type, const std::string& name, std::string_view definition)
+      : type_(type) {
+    definitions_["builtin_interfaces/Time"] = definitions_["builtin_interfaces/Duration"] =
+        stamp_definition;
+    std::string current = whole_name(name, "");
+    bool begins = true;
+    while (!definition.empty()) {
+      std::string_view line = definition.substr(0, definition.find('\n'));
+      definition.remove_prefix(std::min(definition.size(), line.size() + 1));
+      line = trimmed(line);
+      constexpr std::string_view head = "MSG:";
+      if (line.starts_with("=====")) {
+        current.clear();
+      } else if (current.empty() && line.starts_with(head)) {
+        current = whole_name(trimmed(line.substr(head.size())), "");
+        begins = true;
+      } else if (!current.empty()) {
+        std::string& text = definitions_[current];
+        if (std::exchange(begins, false)) text.clear();
+        text.append(line) += '\n';
+      }
+    }
+    (void)structure(whole_name(name, ""));
+  }
+
+ private:
+  using Field = MessageType::Field;
+
+  /// The index of a type in `structs_`.
+  std::size_t structure(const std::string& name) {
+    if (const auto known = known_.find(name); known != known_.end()) return known->second;
+    const auto found = definitions_.find(name);
+    if (found == definitions_.end()) {
+      throw InputError(fmt::format("the bag has no definition of {}", name));
+    }
+    if (depth_ == deepest) throw InputError(fmt::format("{} contains itself", name));
+    ++depth_;
+    MessageType::Struct fields;
+    std::string_view rest = found->second;
+    while (!rest.empty()) {
+      std::string_view line = rest.substr(0, rest.find('\n'));
+      rest.remove_prefix(line.size() + 1);
+      line = trimmed(line.substr(0, line.find('#')));
+      if (!line.empty()) add(line, name, fields);
+    }
+    if (fields.empty() && depth_ == 1) throw InputError(name + " has no fields");
+    // ROS 2 adds a byte to a type without fields.
+    if (fields.empty()) fields.push_back({"structure_needs_at_least_one_member", 3});
+    --depth_;
+    // The outermost type is the last one.
+    type_.structs_.push_back(std::move(fields));
+    return known_[name] = type_.structs_.size() - 1;
+  }
+
+  void add(std::string_view line, const std::string& of, MessageType::Struct& fields) {
+    std::string_view rest = line;
+    std::string_view type = take_word(rest);
+    const std::string_view name = take_word(rest);
+    // A constant has a value behind "=".
+    if (name.find('=') != std::string_view::npos || trimmed(rest).starts_with('=')) return;
+    const auto complain = [&] {
+      throw InputError(
+          fmt::format("expected `type name` in the definition of {}, found '{}'", of, line));
+    };
+    Field field;
+    field.name = name;
+    if (type.ends_with(']')) {
+      const std::size_t open = type.rfind('[');
+      if (open == std::string_view::npos) complain();
+      const std::string_view length = type.substr(open + 1, type.size() - open - 2);
+      type = type.substr(0, open);
+      field.array = MessageType::Array::sequence;
+      if (!length.empty() && !length.starts_with("<=")) {
+        field.array = MessageType::Array::fixed;
+        const auto [end, error] =
+            std::from_chars(length.data(), length.data() + length.size(), field.length);
+        if (error != std::errc() || end != length.data() + length.size()) complain();
+      }
+    }
+    type = type.substr(0, type.find("<="));
+    if (type.empty() || name.empty()) complain();
+    const auto* const primitive = std::ranges::find(primitives, type, &Primitive::name);
+    field.type = static_cast<std::size_t>(primitive - primitives.begin());
+    if (primitive == primitives.end()) {
+      field.type += structure(whole_name(type, of.substr(0, of.find('/'))));
+    }
+    fields.push_back(std::move(field));
+  }
+
+  MessageType& type_;
+  std::map<std::string, std::string> definitions_;
+  std::map<std::string, std::size_t> known_;
+  std::size_t depth_ = 0;
+};
+
+/// Reads one message.
+class NumberReader {
+ public:
+  NumberReader(const MessageType& type, std::string_view payload, MessageNumbers& numbers)
+      : type_(type), reader_(payload), numbers_(numbers) {
+    numbers_.values.clear();
+    numbers_.lengths.clear();
+  }
+
+  /// Reads the fields of a type. Paths are built only if `path` is there.
+  void read(const MessageType::Struct& fields, std::string* path) {
+    for (const MessageType::Field& field : fields) {
+      const std::size_t begin = path == nullptr ? 0 : path->size();
+      if (path != nullptr) path->append(path->empty() ? "" : ".").append(field.name);
+      read(field, path);
+      if (path != nullptr) path->resize(begin);
+    }
+  }
+
+ private:
+  void read(const MessageType::Field& field, std::string* path) {
+    if (field.array == MessageType::Array::none) return read_one(field.type, path);
+    std::size_t length = field.length;
+    const bool is_primitive = field.type < primitives.size();
+    if (field.array == MessageType::Array::sequence) {
+      length = reader_.count(is_primitive ? primitives.at(field.type).size : 1);
+    }
+    if (is_primitive && primitives.at(field.type).read != nullptr && length > longest_list) {
+      reader_.skip(primitives.at(field.type).size, length);
+      return;
+    }
+    if (field.array == MessageType::Array::sequence) {
+      numbers_.lengths.push_back(static_cast<std::uint32_t>(length));
+    }
+    const std::size_t begin = path == nullptr ? 0 : path->size();
+    for (std::size_t i = 0; i < length; ++i) {
+      if (path != nullptr) fmt::format_to(std::back_inserter(*path), "[{}]", i);
+      read_one(field.type, path);
+      if (path != nullptr) path->resize(begin);
+    }
+  }
+
+  void read_one(std::size_t type, std::string* path) {
+    if (type >= primitives.size()) {
+      return read(type_.structs_.at(type - primitives.size()), path);
+    }
+    if (primitives.at(type).read == nullptr) {
+      (void)reader_.text();
+      return;
+    }
+    const double value = primitives.at(type).read(reader_);
+    if (numbers_.values.size() == most_numbers) return;
+    numbers_.values.push_back(value);
+    if (path != nullptr) numbers_.paths.push_back(*path);
+  }
+
+  const MessageType& type_;
+  CdrReader reader_;
+  MessageNumbers& numbers_;
+};
+
+MessageType::MessageType(const std::string& name, std::string_view definition) {
+  (void)TypeParser(*this, name, definition);
+}
+
+void MessageType::decode(std::string_view payload, MessageNumbers& numbers) const {
+  const std::vector<std::uint32_t> before = numbers.lengths;
+  NumberReader(*this, payload, numbers).read(structs_.back(), nullptr);
+  if (numbers.lengths == before && numbers.paths.size() == numbers.values.size()) return;
+  numbers.paths.clear();
+  std::string path;
+  NumberReader(*this, payload, numbers).read(structs_.back(), &path);
+}
+
+}  // namespace touchdown::logs

@@ -1,0 +1,220 @@
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/error.hpp"
+#include "core/yaml.hpp"
+#include "logs/bags/bag.hpp"
+#include "logs/bags/topic_rows.hpp"
+
+namespace touchdown::logs {
+
+std::vector<std::string> SignalTopic::columns() const {
+  std::vector<std::string> names = {stamp_column, log_time_column};
+  for (const std::string& joint : joints) {
+    for (const char* field : joint_fields) names.push_back(fmt::format("{}/{}", joint, field));
+  }
+  for (std::size_t i = 0; i < width; ++i) {
+    for (const char* field : joint_fields) names.push_back(fmt::format("{}[{}]", field, i));
+  }
+  names.insert(names.end(), numbers.begin(), numbers.end());
+  if (type == imu_type) names.insert(names.end(), imu_fields.begin(), imu_fields.end());
+  return names;
+}
+
+/// Messages of one robot are recorded about as long after their stamps, whatever their topic.
+std::vector<std::string> clock_notes(const SignalTopic& topic, const SignalTopic& joints) {
+  constexpr double most = SignalGuardConfig{}.maximum_gap;
+  const double ahead = joints.stamp_delay - topic.stamp_delay;
+  // A simulation's clock has another rate, too.
+  if (!(std::abs(joints.stamp_delay) < longest_delay && std::abs(ahead) > most)) return {};
+  return {fmt::format(
+      "{}: its stamps are {:.3g} s {} those of {} by the times of recording: are they of another "
+      "computer's clock? `time: {{from: log_time}}` takes the times of recording",
+      topic.name, std::abs(ahead), ahead > 0.0 ? "ahead of" : "behind", joints.name)};
+}
+
+MessageStamp stamp_of(const MessageNumbers& numbers) {
+  const auto is_named = [&](std::size_t i, const char* end) {
+    return i < numbers.paths.size() && numbers.paths[i].ends_with(end);
+  };
+  if (!is_named(0, "stamp.sec") || !is_named(1, "stamp.nanosec")) return {};
+  return {static_cast<std::int32_t>(numbers.values[0]),
+          static_cast<std::uint32_t>(numbers.values[1])};
+}
+
+namespace {
+
+/// Messages of each topic that show its joints and stamps.
+constexpr std::uint64_t enough_messages = 100;
+
+/// Lists the topics, most of them first; for messages.
+std::string listed(const std::vector<BagTopic>& topics) {
+  constexpr std::size_t most = 40;
+  if (topics.empty()) return "it has no topics";
+  std::vector<std::string> texts;
+  for (const BagTopic& topic : topics) {
+    if (texts.size() == most) {
+      texts.push_back(fmt::format("and {} more", topics.size() - most));
+      break;
+    }
+    texts.push_back(fmt::format("{} ({}, {} messages)", topic.name,
+                                topic.type.empty() ? "no type" : topic.type, topic.messages));
+  }
+  return fmt::format("it has {}", fmt::join(texts, ", "));
+}
+
+/// Reads the rest of the bag, so that its topics and their counts are complete.
+std::string all_topics(BagReader& bag) {
+  BagMessage message;
+  while (bag.next(message)) {
+  }
+  return listed(bag.topics());
+}
+
+void look_at(const JointState& state, SignalTopic& topic) {
+  for (const std::string_view name : state.name) {
+    if (std::find(topic.joints.begin(), topic.joints.end(), name) == topic.joints.end()) {
+      topic.joints.emplace_back(name);
+    }
+  }
+  topic.width =
+      std::max({topic.width, state.position.size(), state.velocity.size(), state.effort.size()});
+  if (!state.velocity.empty()) topic.has_velocity = true;
+  if (!state.effort.empty()) topic.has_effort = true;
+}
+
+void look_at(const ImuState& state, SignalTopic& topic) {
+  if (!std::isnan(state.orientation[0])) topic.has_orientation = true;
+}
+
+/// Counts a message that was decoded.
+void count(const MessageStamp& stamp, std::int64_t recorded, SignalTopic& topic) {
+  ++topic.messages;
+  if (stamp.is_zero()) return;
+  const double delay = 1e-9 * static_cast<double>(recorded - stamp.time());
+  topic.stamp_delay = topic.has_stamps ? std::min(topic.stamp_delay, delay) : delay;
+  topic.has_stamps = true;
+}
+
+template <typename State>
+void look_at(const BagMessage& message, SignalTopic& topic) {
+  State state;
+  try {
+    decode(message.data, state);
+  } catch (const InputError&) {
+    return;  // counted when the rows are read
+  }
+  look_at(state, topic);
+  count(state.stamp, message.time, topic);
+}
+
+/// `numbers`: of the message before.
+void look_at(const BagMessage& message, SignalTopic& topic, MessageNumbers& numbers) {
+  const std::vector<std::string> before = numbers.paths;
+  try {
+    topic.definition->decode(message.data, numbers);
+  } catch (const InputError&) {
+    return;
+  }
+  const std::vector<std::string>& paths = numbers.paths;
+  if (paths != before) {
+    const std::set<std::string> known(topic.numbers.begin(), topic.numbers.end());
+    std::ranges::copy_if(paths, std::back_inserter(topic.numbers),
+                         [&](const std::string& path) { return !known.contains(path); });
+  }
+  count(stamp_of(numbers), message.time, topic);
+}
+
+/// Reads the definition of another type than the two that are known.
+void require_readable(const BagTopic& topic, BagReader& bag, const std::filesystem::path& path,
+                      SignalTopic& found) {
+  found.type = topic.type;
+  if (topic.type != joint_state_type && topic.type != imu_type) {
+    std::string fault = "the bag has no definition of it in .msg";
+    try {
+      if (!topic.definition.empty()) {
+        found.definition = std::make_shared<MessageType>(topic.type, topic.definition);
+      }
+    } catch (const InputError& error) {
+      fault = error.what();
+    }
+    if (!found.definition) {
+      throw InputError(fmt::format("{}: topic {} has the type '{}', expected {} or {}; {}: {}",
+                                   path.string(), topic.name, topic.type, joint_state_type,
+                                   imu_type, fault, all_topics(bag)));
+    }
+  }
+  if (topic.encoding != "cdr") {
+    throw InputError(fmt::format(
+        "{}: topic {} has messages in '{}', expected cdr: convert the bag with rosbags-convert",
+        path.string(), topic.name, topic.encoding));
+  }
+}
+
+}  // namespace
+
+std::vector<SignalTopic> find_signal_topics(const std::filesystem::path& path,
+                                            const std::vector<std::string>& names,
+                                            const std::atomic<bool>* stop) {
+  BagReader bag(path, {}, stop);
+  std::vector<SignalTopic> found;
+  for (const std::string& name : names) found.emplace_back().name = name;
+  std::vector<MessageNumbers> numbers(found.size());
+  const auto is_complete = [](const SignalTopic& topic) {
+    return topic.messages >= enough_messages;
+  };
+  BagMessage message;
+  while (!std::all_of(found.begin(), found.end(), is_complete) && bag.next(message)) {
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      SignalTopic& one = found[i];
+      const BagTopic& topic = bag.topics()[message.topic];
+      if (one.name != topic.name || is_complete(one)) continue;
+      // A copy: reading on moves them.
+      if (one.type.empty()) require_readable(BagTopic(topic), bag, path, one);
+      if (one.definition) {
+        look_at(message, one, numbers[i]);
+      } else if (one.type == imu_type) {
+        look_at<ImuState>(message, one);
+      } else {
+        look_at<JointState>(message, one);
+      }
+    }
+  }
+  for (const SignalTopic& one : found) {
+    if (one.messages > 0) continue;
+    if (!one.type.empty()) {
+      throw InputError(
+          fmt::format("{}: no message of topic {} can be decoded", path.string(), one.name));
+    }
+    const std::string all = all_topics(bag);
+    std::vector<std::string> known;
+    for (const BagTopic& topic : bag.topics()) {
+      if (topic.name != one.name) known.push_back(topic.name);  // it may be there, without messages
+    }
+    throw InputError(fmt::format("{}: has no message of topic {}{}: {}", path.string(), one.name,
+                                 did_you_mean(one.name, known), all));
+  }
+  return found;
+}
+
+std::string only_topic_of_type(const std::filesystem::path& path, const std::string& type,
+                               const std::atomic<bool>* stop) {
+  BagReader bag(path, {}, stop);
+  const std::string all = all_topics(bag);
+  std::vector<std::string> names;
+  for (const BagTopic& topic : bag.topics()) {
+    if (topic.type == type && topic.messages > 0) names.push_back(topic.name);
+  }
+  if (names.size() == 1) return names.front();
+  throw InputError(fmt::format("{}: {} topic of {}: name it in the mapping's `sources`: {}",
+                               path.string(), names.empty() ? "has no" : "has more than one", type,
+                               all));
+}
+
+}  // namespace touchdown::logs

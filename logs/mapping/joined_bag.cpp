@@ -1,0 +1,171 @@
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "logs/bags/bag.hpp"
+#include "logs/bags/topic_rows.hpp"
+#include "logs/mapping/joined_source.hpp"
+
+namespace touchdown::logs {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Errors: `InputError` for a needed signal that a topic never gives.
+void check_given(const fs::path& log, const LogMapping& mapping,
+                 std::span<const SignalTopic> topics) {
+  for (const SourceColumn& column : mapping.columns) {
+    const SignalTopic& topic = topics[column.source];
+    const auto complain = [&](const char* what, const char* remedy) {
+      throw InputError(fmt::format("{}: {} is not given by the messages of {}: {}", log.string(),
+                                   what, topic.name, remedy));
+    };
+    const auto is_of = [&](const std::string& list) {
+      return topic.type == joint_state_type &&
+             (column.name.ends_with("/" + list) || column.name.starts_with(list + "["));
+    };
+    if (is_of("velocity") && !topic.has_velocity) {
+      complain("velocity", "map a source that has velocities (rad/s)");
+    }
+    if (is_of("effort") && !topic.has_effort) {
+      complain("effort", "estimators need the joints' torques (N·m); map a source that has them");
+    }
+    if (topic.type == imu_type && column.name.starts_with("orientation.") &&
+        !topic.has_orientation) {
+      complain(
+          "orientation",
+          "its covariance begins with -1 or its quaternion is zero (REP 145); map a topic of a "
+          "filter that estimates it, such as imu_filter_madgwick");
+    }
+  }
+}
+
+class JoinedBag final : public JoinedSource {
+ public:
+  JoinedBag(const fs::path& log, const LogSources& sources, const std::atomic<bool>* stop)
+      : JoinedSource(log, sources.stale_after), stop_(stop) {
+    const auto named = [&](const std::vector<std::string>& topics, const char* type) {
+      return topics.empty() ? std::vector{only_topic_of_type(log, type, stop)} : topics;
+    };
+    add_topics("joints", named(sources.joints, joint_state_type));
+    add_topics("imu", named(sources.imu, imu_type));
+    add_topics("contact", sources.contact);
+    std::vector<std::string> topics;
+    for (const SourceNames& one : names_) topics.push_back(one.file);
+    topics_ = find_signal_topics(log, topics, stop);
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      const bool is_imu = names_[i].section == "imu";
+      if (topics_[i].type == (is_imu ? joint_state_type : imu_type)) {
+        throw InputError(fmt::format("{}: `sources.{}`: topic {} has the type {}, expected {}",
+                                     log.string(), names_[i].section, topics_[i].name,
+                                     topics_[i].type, is_imu ? imu_type : joint_state_type));
+      }
+      names_[i].names = topics_[i].columns();
+      names_[i].is_imu = topics_[i].type == imu_type;
+      names_[i].has_joint_names = !topics_[i].joints.empty();
+    }
+  }
+
+  std::string place() const override {
+    return fmt::format("{}: message {} of {}", log_.string(), position(), names_[clock()].file);
+  }
+
+  std::vector<std::string> findings() const override {
+    std::vector<std::string> findings;
+    for (const TopicRows& one : rows_) {
+      for (std::string& finding : one.findings()) findings.push_back(std::move(finding));
+    }
+    return findings;
+  }
+
+  std::vector<std::string> notes() const override {
+    std::vector<std::string> notes = reader_->notes();
+    if (lacks_stamps_) {
+      notes.emplace_back("stamps are zero or missing: the times of recording are used instead");
+    }
+    for (std::size_t i = 0; i < topics_.size() && !lacks_stamps_ && !uses_log_time_; ++i) {
+      for (std::string& note : clock_notes(topics_[i], topics_[clock()])) {
+        notes.push_back(std::move(note));
+      }
+    }
+    for (const TopicRows& one : rows_) {
+      for (std::string& note : one.notes()) notes.push_back(std::move(note));
+    }
+    for (std::string& note : JoinedSource::notes()) notes.push_back(std::move(note));
+    return notes;
+  }
+
+ private:
+  void add_topics(const char* section, const std::vector<std::string>& topics) {
+    for (const std::string& topic : topics) {
+      names_.push_back({.file = topic, .names = {}, .section = section, .is_topic = true});
+    }
+  }
+
+  void open(const LogMapping& mapping) override {
+    check_given(log_, mapping, topics_);
+    uses_log_time_ = std::any_of(mapping.columns.begin(), mapping.columns.end(),
+                                 [](const auto& one) { return one.name == log_time_column; });
+    lacks_stamps_ = std::any_of(topics_.begin(), topics_.end(),
+                                [](const SignalTopic& topic) { return !topic.has_stamps; });
+    for (std::size_t i = 0; i < topics_.size(); ++i) {
+      std::vector<std::string> wanted;
+      for (const std::size_t column : columns()[i]) wanted.push_back(mapping.columns[column].name);
+      rows_.emplace_back(topics_[i], wanted, TopicRows::Config{lacks_stamps_, stale_after()});
+    }
+    messages_.resize(rows_.size());
+    clocks_ = mapping.clocks;
+    mapped_.resize(mapping.columns.size());
+    const auto is_named = [this](std::string_view topic) {
+      return std::ranges::any_of(names_, [&](const SourceNames& one) { return one.file == topic; });
+    };
+    reader_.emplace(log_, is_named, stop_);
+  }
+
+  bool add_next(SourceJoin& join) override {
+    BagMessage message;
+    if (!reader_->next(message)) return false;
+    const std::string& name = reader_->topics()[message.topic].name;
+    arrival_ = std::max(arrival_, 1e-9 * static_cast<double>(message.time));
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      if (names_[i].file != name) continue;
+      ++messages_[i];
+      if (!rows_[i].update(message)) continue;
+      const std::span<const double> row = rows_[i].row();
+      for (std::size_t k = 0; k < row.size(); ++k) mapped_[columns()[i][k]] = row[k];
+      join.add(i, arrival_, clocks_[i].at(mapped_), row, messages_[i]);
+    }
+    return true;
+  }
+
+  const std::atomic<bool>* stop_;
+  std::vector<SignalTopic> topics_;
+  bool uses_log_time_ = false;
+  bool lacks_stamps_ = false;
+  std::vector<TopicRows> rows_;
+  std::vector<std::uint64_t> messages_;  ///< of each topic so far
+  std::vector<SourceClock> clocks_;      ///< of each topic
+  std::vector<double> mapped_;
+  std::optional<BagReader> reader_;
+  double arrival_ = -1e300;
+};
+
+}  // namespace
+
+std::unique_ptr<RowSource> open_rows(const fs::path& log, const LogSources& sources,
+                                     const std::atomic<bool>* stop) {
+  if (sources.empty() && !is_bag(log)) return open_file(log);
+  if (!is_there(log)) throw InputError(fmt::format("{}: no such file or folder", log.string()));
+  if (sources.are_files()) return join_files(log, sources);
+  if (is_bag(log)) return std::make_unique<JoinedBag>(log, sources, stop);
+  throw InputError(fmt::format(
+      "{}: is no ROS 2 bag (a folder with .mcap or .db3 files, or such a file), but the mapping's "
+      "`sources` are topics",
+      log.string()));
+}
+
+}  // namespace touchdown::logs

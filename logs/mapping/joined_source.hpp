@@ -1,0 +1,117 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/error.hpp"
+#include "logs/bags/source_join.hpp"
+#include "logs/mapping/row_source.hpp"
+
+namespace touchdown::logs {
+
+/// Several sources with clocks of their own, joined at the joints' clock.
+class JoinedSource : public RowSource {
+ public:
+  std::span<const SourceNames> names() const final { return names_; }
+
+  void select(const LogMapping& mapping) final {
+    clock_ = mapping.joint_source();
+    columns_.resize(names_.size());
+    for (std::size_t i = 0; i < mapping.columns.size(); ++i) {
+      columns_[mapping.columns[i].source].push_back(i);
+    }
+    join_.emplace(SourceJoin::Config{columns_, clock_, stale_after_});
+    open(mapping);
+  }
+
+  bool next(std::vector<double>& row) final {
+    while (!join_->pop(row)) {
+      if (is_finished_) {
+        require_joined();
+        return false;
+      }
+      is_finished_ = !add_next(*join_);
+      if (is_finished_) join_->finish();
+    }
+    return true;
+  }
+
+  /// One line for each source that is held, and for rows that are left out.
+  std::vector<std::string> notes() const override {
+    std::vector<std::string> notes;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (names_[i].file == names_[clock_].file) continue;
+      const SourceJoin::Report& report = join_->report(i);
+      std::string note = fmt::format(
+          "{}: held at the rows of {}, ages {:.1f} ms (median) to {:.1f} ms", names_[i].file,
+          names_[clock_].file, 1e3 * report.ages.median(), 1e3 * report.ages.largest());
+      if (report.stale > 0) {
+        note += fmt::format("; missing at {} of {} rows, where it is older than {:.0f} ms",
+                            report.stale, join_->rows(), 1e3 * stale_after_);
+      }
+      notes.push_back(std::move(note));
+    }
+    if (join_->rows_before() > 0) {
+      notes.push_back(fmt::format("{}: {} rows before the first of the other sources are left out",
+                                  names_[clock_].file, join_->rows_before()));
+    }
+    return notes;
+  }
+
+ protected:
+  JoinedSource(std::filesystem::path log, double stale_after)
+      : log_(std::move(log)), stale_after_(stale_after) {}
+
+  /// Called once, when the columns of each source are known.
+  virtual void open(const LogMapping& mapping) = 0;
+  /// Adds what was recorded next. Returns false at the end.
+  virtual bool add_next(SourceJoin& join) = 0;
+
+  /// Of each source, where its columns are in the mapping's rows.
+  const std::vector<std::vector<std::size_t>>& columns() const { return columns_; }
+  double stale_after() const { return stale_after_; }
+  std::size_t clock() const { return clock_; }
+  /// The number of the joints' row among those of its source, from 1.
+  std::uint64_t position() const { return join_->position(); }
+
+  std::filesystem::path log_;
+  std::vector<SourceNames> names_;
+
+ private:
+  /// Errors: `InputError` if no row was joined.
+  void require_joined() const {
+    if (join_->rows() > 0) return;
+    std::vector<std::string> spans;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      const SourceJoin::Report& report = join_->report(i);
+      spans.push_back(report.rows == 0
+                          ? fmt::format("{} has no rows with a time", names_[i].file)
+                          : fmt::format("{} has {} rows from {:.3f} to {:.3f} s", names_[i].file,
+                                        report.rows, report.first, report.last));
+    }
+    throw InputError(fmt::format(
+        "{}: no row of {} has values of the other sources that are at most {:.0f} ms old: {}. Are "
+        "their times of one clock and one unit?{}",
+        log_.string(), names_[clock_].file, 1e3 * stale_after_, fmt::join(spans, ", "),
+        names_[clock_].is_topic ? " `time: {from: log_time}` takes the times of recording" : ""));
+  }
+
+  double stale_after_;
+  std::vector<std::vector<std::size_t>> columns_;
+  std::size_t clock_ = 0;
+  std::optional<SourceJoin> join_;
+  bool is_finished_ = false;
+};
+
+/// Files of one folder as sources. `log` is the folder, or one of them.
+std::unique_ptr<RowSource> join_files(const std::filesystem::path& log, const LogSources& sources);
+
+}  // namespace touchdown::logs
