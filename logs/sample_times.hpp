@@ -7,10 +7,33 @@
 namespace touchdown::logs {
 
 /// The time between two samples of a log with these times, in their unit, however the log stamps
-/// them: rounded to a coarse tick (2, 3, 2, 3 ms at 400 Hz), with jitter, in bursts (3, 7, 3, 7
+/// them: rounded to a coarse tick (2, 3, 2, 3 ms at 400 Hz), with jitter, in bursts (1, 1, 1, 7
 /// ms), in pairs of equal times, with lost samples, jumps and steps back. Times that are not finite
 /// are left out. Empty if no time is after another one.
 std::optional<double> typical_step(std::span<const double> times);
+
+/// What the times show if they are those of several clocks, as when publishers share a topic, or if
+/// they come in bursts, as times of receiving do; empty for times of one clock.
+std::string interleaved_clocks(std::span<const double> times);
+
+/// Finds times of which the fraction is a count without its leading zeros: 1.9 and 1.10 are 9 and
+/// 10 ms after the first second. Where the count gets another digit, time goes back within a
+/// second, and its steps become a tenth.
+class UnpaddedFractions {
+ public:
+  void add(double time);
+  /// How often the count got another digit.
+  int count() const { return count_; }
+  std::string text() const;
+
+ private:
+  double previous_ = 0.0;
+  double step_ = 0.0;      ///< the last one
+  double expected_ = 0.0;  ///< the next step, after a count that may have got a digit; else 0
+  double before_ = 0.0;    ///< the fractions where the last one may have got it
+  double after_ = 0.0;
+  int count_ = 0;
+};
 
 /// Rates are equal if they differ by less than this share.
 inline constexpr double rate_tolerance = 0.01;

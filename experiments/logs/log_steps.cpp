@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 
@@ -25,7 +26,9 @@ double usable_rate(logs::LogReader& reader) {
   constexpr double highest = 20'000.0;
   if (!(rate >= lowest && rate <= highest)) {
     throw InputError(
-        fmt::format("{}: {:.4g} steps per second: expected 100 to 20000", reader.name(), rate));
+        fmt::format("{}: {:.4g} steps per second: expected 100 to 20000, since estimators bridge "
+                    "gaps of 20 ms",
+                    reader.name(), rate));
   }
   return rate;
 }
@@ -158,7 +161,7 @@ LogSteps::LogSteps(logs::LogReader& reader, const logs::ContactIntervals* labels
       sample_rate_(usable_rate(reader)),
       period_us_(std::llround(1e6 / sample_rate_)),
       signals_(sample_rate_),
-      plausibility_(1.0 / sample_rate_, robot),
+      plausibility_(1.0 / sample_rate_, robot, reader.start_time()),
       label_check_(labels == nullptr
                        ? nullptr
                        : std::make_unique<LabelCheck>(*labels, sample_rate_,
@@ -199,7 +202,8 @@ void LogSteps::add_to_digest(const Signals& signals) {
 std::string LogSteps::digest() const { return fmt::format("{:016x}", digest_); }
 
 std::vector<std::string> LogSteps::findings() const {
-  std::vector<std::string> findings = plausibility_.findings();
+  std::vector<std::string> findings = reader_.findings();
+  std::ranges::move(plausibility_.findings(), std::back_inserter(findings));
   if (!label_check_) return findings;
   if (std::optional<std::string> label = label_check_->finding()) findings.push_back(*label);
   return findings;

@@ -1,9 +1,13 @@
 #include "logs/log/byte_source.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <fcntl.h>
+#include <initializer_list>
 #include <memory>
 #include <poll.h>
+#include <string>
 #include <string_view>
 #include <unistd.h>
 
@@ -42,15 +46,35 @@ bool is_opened_already(std::string_view name) {
   return name == "/dev/stdin" || name.starts_with("/dev/fd/") || name.starts_with("/proc/self/fd/");
 }
 
+/// What a path is if it is no log in Upkie's layout, but read with a mapping; else empty.
+std::string kind_of_other_log(const std::filesystem::path& path) {
+  std::string name = path.string();
+  std::ranges::transform(name, name.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto ends_with_any = [&](std::initializer_list<const char*> extensions) {
+    return std::ranges::any_of(extensions, [&](const char* one) { return name.ends_with(one); });
+  };
+  if (is_folder(path)) return "a folder";
+  if (ends_with_any({".csv", ".tsv"})) return "a CSV file";
+  if (ends_with_any({".npz"})) return "a file of NumPy's arrays";
+  if (ends_with_any({".mcap", ".db3", ".zstd"})) return "a ROS 2 bag";
+  return {};
+}
+
 }  // namespace
 
 ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool>* stop) {
   const std::string name = path.string();
-  if (is_folder(path)) {
+  const std::string other = kind_of_other_log(path);
+  if (!other.empty() && is_there(path)) {
+    const bool is_table = other.ends_with("file") || other.ends_with("arrays");
     throw InputError(fmt::format(
-        "{}: is a folder, expected a log; `touchdown estimate`, `check` and `export` read a ROS 2 "
-        "bag with --mapping FILE.yaml",
-        name));
+        "{}: is {}, expected a log in Upkie's layout; `touchdown estimate`, `check` and `export` "
+        "read {} with --mapping FILE.yaml: start from a copy of examples/mapping/{}",
+        name, other, is_table ? "it" : "a ROS 2 bag", is_table ? "robot.yaml" : "ros2_bag.yaml"));
+  }
+  if (path.extension() == ".gz") {
+    throw InputError(fmt::format("{0}: is compressed with gzip: `gunzip -k {0}` first", name));
   }
   if (name != "-" && !is_opened_already(name)) require_file(name);
   const int opened =

@@ -302,15 +302,10 @@ class PackedRecords final : public RecordSource {
   }
 
   [[noreturn]] void complain_about_garbage(std::size_t offset) const {
-    constexpr std::array source_logs = {".csv", ".CSV", ".tsv", ".npz", ".mcap", ".db3", ".zstd"};
-    const bool is_source_log = std::ranges::any_of(
-        source_logs, [&](const char* extension) { return name_.ends_with(extension); });
     const bool is_scenario = name_.ends_with(".yaml") || name_.ends_with(".yml");
     throw InputError(fmt::format(
         "{}: byte {}: expected a MessagePack map, one per control step{}", name_, offset_ + offset,
-        is_source_log ? ": `touchdown export --mapping` makes such a log"
-        : is_scenario ? ": `touchdown simulate` makes such a log of a scenario"
-                      : ""));
+        is_scenario ? ": `touchdown simulate` makes such a log of a scenario" : ""));
   }
 
   ByteSource source_;

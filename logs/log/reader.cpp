@@ -303,7 +303,8 @@ std::int64_t LogReader::period_us_of(const std::vector<double>& times) const {
   const std::optional<double> step = typical_step(times);
   if (!step) {
     throw InputError(
-        fmt::format("{}: observation.time: expected times that increase: of a log that has no "
+        fmt::format("{}: observation.time: expected times that increase within 200 rows: do the "
+                    "stamps have seconds alone, or did they lose digits? Of a log that has no "
                     "clock, `period:` in a mapping gives the time between two rows",
                     name_));
   }

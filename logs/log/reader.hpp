@@ -61,6 +61,8 @@ class LogReader {
   /// One line per problem that was not fatal: of the log as a whole, of the records, then of their
   /// values. Complete at the end of the log.
   std::vector<std::string> warnings() const;
+  /// Those of the records' source.
+  std::vector<std::string> findings() const { return records_->findings(); }
   /// Adds a problem of the log as a whole.
   void warn(std::string problem) { problems_.push_back(std::move(problem)); }
 

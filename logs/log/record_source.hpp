@@ -43,6 +43,8 @@ class RecordSource {
 
   /// One line per problem that was not fatal. Complete at the end.
   virtual std::vector<std::string> warnings() const = 0;
+  /// One line for each thing that makes the records implausible, which their values do not show.
+  virtual std::vector<std::string> findings() const { return {}; }
 };
 
 /// The records of a log in MessagePack, without building them in memory. Unknown keys are skipped.

@@ -186,6 +186,7 @@ class MappedRecords final : public RecordSource {
     robot = mapping_.robot;
   }
   std::vector<std::string> warnings() const override { return warnings_of(converted_, log_); }
+  std::vector<std::string> findings() const override { return rows_->findings(); }
 
   const std::string& robot() const { return mapping_.robot; }
   /// Complete at the end.
@@ -224,6 +225,11 @@ class MappedRecords final : public RecordSource {
     const double step = typical_step(first_times_).value_or(0.0);
     const std::string unit = unit_of_step(step);
     constexpr std::uint64_t few = 10;  // rows: their steps may be pauses
+    UnpaddedFractions fractions;
+    for (const double time : first_times_) fractions.add(time);
+    if (fractions.count() > 0) {
+      throw InputError(fmt::format("{}: time goes back, {}", log_, fractions.text()));
+    }
     if (!unit.empty() && converted_.rows > few && mapping_.time &&
         mapping_.time->time.unit == 1.0) {
       throw InputError(

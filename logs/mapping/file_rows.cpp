@@ -294,6 +294,10 @@ std::unique_ptr<RowSource> open_file(const std::filesystem::path& file, const st
     return std::make_unique<CsvFile>(file, section, source);
   }
   if (extension == ".npz") return std::make_unique<ArrayFile>(file, section, source);
+  if (extension == ".gz") {
+    throw InputError(
+        fmt::format("{0}: is compressed with gzip: `gunzip -k {0}` first", file.string()));
+  }
   throw InputError(
       fmt::format("{}: expected a log as FILE.csv or FILE.npz, or a ROS 2 bag", file.string()));
 }

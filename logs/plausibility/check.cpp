@@ -25,14 +25,16 @@ std::vector<std::string> Findings::lines() const {
   return lines;
 }
 
-PlausibilityCheck::PlausibilityCheck(double period, const CheckedRobot& robot)
+PlausibilityCheck::PlausibilityCheck(double period, const CheckedRobot& robot, double start)
     : windows_(period),
-      clock_(period),
+      clock_(period, start),
+      held_(period),
       joint_range_(robot),
       load_(robot.legs.value_or(LegGeometry{}), robot.legs.has_value()) {}
 
 void PlausibilityCheck::add(const models::Observation& reported, const ServoTargets& targets) {
   clock_.add(reported.time);
+  held_.add(reported);
   constant_.add(reported);
   stopped_.add(reported);
   // One value beyond its sensor's range would be the mean of a whole window.
@@ -55,6 +57,7 @@ void PlausibilityCheck::add(const models::Observation& reported, const ServoTarg
 std::vector<std::string> PlausibilityCheck::findings() const {
   Findings findings;
   clock_.report(findings);
+  held_.report(findings);
   constant_.report(findings);
   stopped_.report(findings);
   sensor_range_.report(findings);

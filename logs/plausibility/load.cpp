@@ -55,6 +55,7 @@ constexpr std::array<Hypothesis, 9> all_hypotheses = {{
      [](Legs& legs) {
        for (Leg& leg : legs) std::swap(leg.hip, leg.knee);
      }},
+    // Units, from `first_unit` on.
     {"the torques are in cNm",
      [](Legs& legs) {
        for (Leg& leg : legs) scale(leg, 1e-2);
@@ -64,6 +65,8 @@ constexpr std::array<Hypothesis, 9> all_hypotheses = {{
        for (Leg& leg : legs) scale(leg, 1e-3);
      }},
 }};
+
+constexpr std::size_t first_unit = 7;
 
 /// The force of the ground on a leg's foot in the leg's plane (N), and its error.
 struct FootForce {
@@ -161,6 +164,16 @@ void LoadCheck::add_still(const CheckedWindow& stretch) {
   }
   tolerance_ += tolerance;
   largest_load_ = std::max(largest_load_, misfit[0].load);
+  Legs limp = legs;
+  for (Leg& leg : limp) scale(leg, 0.0);
+  const double own = misfit_of(geometry_, limp, heaviest).load;
+  const double error = std::max(misfit[0].error, 1.0);
+  carried_ += (misfit[0].load - own) / (error * error);
+  to_carry_ += (weight - own) / (error * error);
+  if (misfit[0].load > own && weight > own) {
+    for (Leg& leg : legs) scale(leg, (weight - own) / (misfit[0].load - own));
+  }
+  scaled_misfit_ += misfit_of(geometry_, legs, heaviest).distance;
   for (std::size_t i = 0; i < hypotheses; ++i) {
     misfit_.at(i) += misfit.at(i).distance;
     load_.at(i) += misfit.at(i).load;
@@ -175,21 +188,62 @@ void LoadCheck::report(Findings& findings, bool drives) const {
 
 bool LoadCheck::report_misfit(Findings& findings) const {
   if (stretches_ == 0 || misfit_[0] <= tolerance_) return false;
-  // The first one that explains the forces as well as they can be known, else the best one.
-  const auto* best = std::find_if(misfit_.begin() + 1, misfit_.end(),
-                                  [&](double misfit) { return misfit <= tolerance_; });
-  if (best == misfit_.end()) best = std::min_element(misfit_.begin(), misfit_.end());
-  const auto index = static_cast<std::size_t>(best - misfit_.begin());
-  const std::string cause =
-      *best < explains * misfit_[0]
-          ? fmt::format("probably {}", all_hypotheses.at(index).cause)
-          : std::string("check signs, units, gear ratios and the order of joints");
   const double load = load_[0] / stretches_;
   const double weight = gravity_at_rest * geometry_.robot_mass;
+  // Any force is small in another unit: it has to be about the weight.
+  std::array<double, hypotheses> misfits = misfit_;
+  for (std::size_t i = first_unit; i < hypotheses; ++i) {
+    const double share = torque_factor() / (i == first_unit ? 1e2 : 1e3);
+    const double widest = is_known_ ? 2.0 : heaviest_other;
+    const bool carries = share > 1.0 / widest && share < widest;
+    if (!carries) misfits.at(i) = misfit_[0];
+  }
+  // The first one that explains the forces as well as they can be known, else the best one.
+  const auto* best = std::find_if(misfits.begin() + 1, misfits.end(),
+                                  [&](double misfit) { return misfit <= tolerance_; });
+  if (best == misfits.end()) best = std::min_element(misfits.begin(), misfits.end());
+  const auto index = static_cast<std::size_t>(best - misfits.begin());
+  std::string cause = "check signs, units, gear ratios and the order of joints";
+  if (*best < explains * misfit_[0]) {
+    cause = fmt::format("probably {}", all_hypotheses.at(index).cause);
+  } else if (scaled_misfit_ < std::max(tolerance_, explains * misfit_[0]) && load > weight) {
+    cause = scale_text();
+  } else if (is_known_) {
+    cause += ", or whether the legs are those of --robot";
+  }
   findings.add("load of both legs while the robot is still",
                fmt::format("{:.0f} N, expected 0 to {:.0f} N{}, straight up: {}", load, weight,
                            is_known_ ? "" : " (Upkie's weight; --robot names another)", cause));
   return true;
+}
+
+/// The torques by those that would carry the robot.
+double LoadCheck::torque_factor() const {
+  return to_carry_ > 0.0 ? std::max(carried_ / to_carry_, 1e-4) : 1.0;
+}
+
+std::string LoadCheck::scale_text() const {
+  const double factor = torque_factor();
+  struct Known {
+    double size;
+    const char* unit;
+  };
+  constexpr std::array<Known, 5> known = {{{1000.0, "mN·m (N·mm)"},
+                                           {141.6, "ozf·in"},
+                                           {100.0, "cN·m"},
+                                           {10.2, "kgf·cm"},
+                                           {8.85, "lbf·in"}}};
+  std::string units;
+  constexpr double error = 0.25;  // another robot's mass is another factor
+  for (const Known& one : known) {
+    if (std::abs(std::log(factor / one.size)) > error || !is_known_) continue;
+    units += fmt::format("in {}, ", one.unit);
+  }
+  return fmt::format(
+      "the torques are {:.2g} times those that carry its weight: are they {}in mA, in percent of a "
+      "rating, or {}? `scale: {:.2g}` would carry it; or are the legs other ones{}",
+      factor, units, factor > 1.0 ? "in another unit" : "those of motors before their gears",
+      1.0 / factor, is_known_ ? " than those of --robot" : " (--robot)");
 }
 
 void LoadCheck::report_small_load(Findings& findings, bool drives) const {
@@ -207,7 +261,7 @@ void LoadCheck::report_small_load(Findings& findings, bool drives) const {
   const auto* const found = std::find_if(load_.begin() + 1, load_.end(), carries);
   const std::string cause =
       found == load_.end()
-          ? std::string("check units, gear ratios and the order of joints")
+          ? fmt::format("check units, gear ratios and the order of joints; {}", scale_text())
           : fmt::format("probably {}",
                         all_hypotheses.at(static_cast<std::size_t>(found - load_.begin())).cause);
   findings.add("load of both legs while the robot is still",

@@ -196,33 +196,6 @@ class StoppedChannels {
   Eigen::Vector3d turned_ = Eigen::Vector3d::Zero();  ///< by the gyroscope since then (rad)
 };
 
-/// Checks the times of a log: stretches at another rate, repeated times, steps back, jumps.
-class ClockCheck {
- public:
-  /// `period`: between two records, as measured at the beginning of the log (s).
-  explicit ClockCheck(double period) : period_(period) {}
-
-  void add(double time);
-  void report(Findings& findings) const;
-
- private:
-  void end_window();
-
-  double period_;
-  std::vector<double> window_;  ///< times
-  double previous_ = 0.0;       ///< NaN before the first time
-  bool is_started_ = false;
-  std::int64_t repeated_ = 0;
-  std::int64_t back_ = 0;
-  double furthest_back_ = 0.0;
-  std::int64_t jumps_ = 0;
-  double longest_jump_ = 0.0;
-  std::int64_t windows_ = 0;
-  std::int64_t other_rate_ = 0;  ///< windows
-  double first_other_ = 0.0;     ///< time of the first of them (s) …
-  double other_step_ = 0.0;      ///< … and its step between two records (s)
-};
-
 /// Checks every joint that moves: its reported velocity is the derivative of its position. Units,
 /// signs, and the order of joints show.
 class JointMotionCheck {
@@ -376,6 +349,8 @@ class LoadCheck {
  private:
   static constexpr std::size_t hypotheses = 9;
 
+  double torque_factor() const;
+  std::string scale_text() const;
   bool report_misfit(Findings& findings) const;
   void report_small_load(Findings& findings, bool drives) const;
   void report_small_torques(Findings& findings) const;
@@ -387,9 +362,14 @@ class LoadCheck {
   std::array<double, hypotheses> misfit_ = {};  ///< sums (N); the first is the log as it is
   double tolerance_ = 0.0;                      ///< sum (N)
   std::array<double, hypotheses> load_ = {};    ///< sums of both legs' (N)
-  double largest_load_ = 0.0;                   ///< of both legs in a stretch (N)
-  int standing_stretches_ = 0;                  ///< in which the torques carry the robot
-  double axle_offset_ = 0.0;                    ///< sum (m)
+  /// Sums of what the torques carry beside the legs' own weight, and would have to (N), each by
+  /// the square of its error.
+  double carried_ = 0.0;
+  double to_carry_ = 0.0;
+  double scaled_misfit_ = 0.0;  ///< sum (N), of the torques by a factor that gives the weight
+  double largest_load_ = 0.0;   ///< of both legs in a stretch (N)
+  int standing_stretches_ = 0;  ///< in which the torques carry the robot
+  double axle_offset_ = 0.0;    ///< sum (m)
   int windows_ = 0;
   double largest_torque_ = 0.0;  ///< of hips and knees (N·m)
 };

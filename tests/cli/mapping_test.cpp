@@ -218,9 +218,7 @@ TEST_F(Mapping, InconsistentRequestsAreRefusedAndNothingIsWritten) {
        {"export bad.csv --mapping si.yaml --benchmark d", {"--mapping: expected -o"}},
        {"export bad.csv --labels l.csv -o bad.mpack", {"--labels: expected --mapping"}},
        {"export bad.csv -o bad.mpack", {"bad.mpack: expected --mapping"}},
-       {"estimate bad.csv",
-        {"bad.csv: byte 0: expected a MessagePack map, one per control step: `touchdown export "
-         "--mapping`"}},
+       {"estimate bad.csv", {"bad.csv: is a CSV file, expected a log in Upkie's layout"}},
        {"export bad.csv --mapping none.yaml -o bad.mpack", {"none.yaml"}},
        {"export si.csv --mapping si.yaml -o bad.mpack --labels bad_labels.csv",
         {"--labels: si.csv has no contact labels"}},

@@ -92,7 +92,7 @@ class OtherRobotsLogs(InFolder):
             (lambda: touchdown.check(hop(), mapping="csv.yaml"), "mapping is for logs by path"),
             *((lambda call=call: call("log.csv", mapping="none.yaml"), "none.yaml")
               for call in (touchdown.check, touchdown.Recording.load)),
-            *((lambda call=call: call("log.csv"), "`touchdown export --mapping` makes such a log")
+            *((lambda call=call: call("log.csv"), "is a CSV file, expected a log in Upkie's layout")
               for call in (touchdown.check, touchdown.Recording.load))])
 
 
