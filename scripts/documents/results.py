@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""results.py PROGRAM [--quick]: runs the commands of README.md and docs/results.md and compares the numbers of
-their tables.
+"""results.py PROGRAM [--quick]: runs the commands of README.md and docs and compares the numbers of their
+tables.
 
 A comment above a table names the command and where its columns are in tables/results.csv of the run:
 
@@ -9,7 +9,8 @@ A comment above a table names the command and where its columns are in tables/re
     -->
 
 `columns: NAME` names such lines that are below. Column 2 is then compared; behind " / " stands what differs for the second part of a cell "a / b". A row's
-estimator is the first name in code in its first cell; `row: KEY` takes the first cell's text for another key.
+estimator is the first name in code in its first cell; `row: KEY` takes the first name in code, else the
+first cell's text, for another key.
 A cell's numbers are the estimate, or the estimate with its interval, rounded to the cell's decimals; `%` counts in
 percent. Comments that begin with `results quick:` are those of --quick. Runs stay in runs/results and resume.
 """
@@ -52,10 +53,8 @@ def checks(page):
 
 
 def name_of(cell, key):
-    if key != 'estimator':
-        return cell
     code = re.search(r'`([^`]+)`', cell)
-    return code[1] if code else None
+    return code[1] if code else None if key == 'estimator' else cell
 
 
 def agrees(text, value, percent):
@@ -88,7 +87,7 @@ def faults_of_table(columns, key, rows, results):
             continue
         for column, places in columns.items():
             parts = row[column - 1].split(' / ') if len(places) > 1 else [row[column - 1]]
-            if parts == ['']:
+            if parts in ([''], ['–']):
                 continue
             if len(parts) != len(places):
                 yield name, column, f'expected {len(places)} parts, found "{row[column - 1]}"'
@@ -117,7 +116,7 @@ def main():
     parser.add_argument('--quick', action='store_true')
     parser.add_argument('--runs', type=pathlib.Path, default=ROOT / 'runs' / 'results')
     parser.add_argument('--page', type=pathlib.Path, nargs='+',
-                        default=[ROOT / 'README.md', ROOT / 'docs' / 'results.md'])
+                        default=[ROOT / 'README.md', *sorted((ROOT / 'docs').rglob('*.md'))])
     flags = parser.parse_args()
     failed, compared, known = 0, 0, {}
     pages = ''.join(page.read_text(encoding='utf-8') for page in flags.page)
