@@ -8,6 +8,7 @@
 #include "experiments/evaluation/tuning_table.hpp"
 #include "experiments/results/long_table.hpp"
 #include "experiments/results/result_files.hpp"
+#include "experiments/results/samples.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_directory/shard.hpp"
 #include "experiments/run_directory/test_seed_log.hpp"
@@ -45,6 +46,7 @@ ExperimentResult score(ExperimentContext& context, Computed& done) {
   };
   const StageTimer timer(context, "score");
   const CollectedCounts counts = collect(plan, plan.runs_in(0), context.directory.store());
+  write_samples(counts, plan, context.directory);
   const scoring::BootstrapConfig& bootstrap = experiment.intervals.bootstrap;
   result.summaries = summarise(own(counts.counted), result.cells, bootstrap);
   const std::vector<ConditionScores> scored = own(counts.scored);

@@ -47,25 +47,8 @@ EstimateOutputs sorted_by_kind(const std::vector<std::string>& outputs, const st
                       output));
     }
   }
-  if (figure.empty()) return result;
-  const fs::path path = figure;
-  const std::set<fs::path> known = {"", ".png", ".svg", ".pdf"};
-  if (!known.contains(path.extension())) {
-    throw InputError(fmt::format(
-        "--figure: '{}': expected a name that ends with .png; .svg and .pdf come with it", figure));
-  }
-  result.figure = path.parent_path() / path.stem();
+  result.figure = figure_stem(figure);
   return result;
-}
-
-/// The figure files, with gnuplot's data and script.
-std::vector<fs::path> figure_files(const fs::path& stem) {
-  std::vector<fs::path> files;
-  if (stem.empty()) return files;
-  for (const char* const extension : {".png", ".svg", ".pdf", ".gp", ".dat"}) {
-    files.push_back(stem.string() + extension);
-  }
-  return files;
 }
 
 void check(const fs::path& output, std::set<fs::path>& seen) {
@@ -87,6 +70,25 @@ void write_file(const fs::path& path, const std::function<void(std::ostream*)>& 
 }
 
 }  // namespace
+
+fs::path figure_stem(const std::string& figure) {
+  const fs::path path = figure;
+  const std::set<fs::path> known = {"", ".png", ".svg", ".pdf"};
+  if (!known.contains(path.extension())) {
+    throw InputError(fmt::format(
+        "--figure: '{}': expected a name that ends with .png; .svg and .pdf come with it", figure));
+  }
+  return path.parent_path() / path.stem();
+}
+
+std::vector<fs::path> figure_files(const fs::path& stem) {
+  std::vector<fs::path> files;
+  if (stem.empty()) return files;
+  for (const char* const extension : {".png", ".svg", ".pdf", ".gp", ".dat"}) {
+    files.push_back(stem.string() + extension);
+  }
+  return files;
+}
 
 std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& logs,
                                               const std::string& model,

@@ -18,6 +18,13 @@ struct EstimateOutputs {
   bool prints_csv() const { return csv == "-"; }
 };
 
+/// The figure's path without its extension; empty for no figure. Errors: `InputError` for another
+/// extension than .png, .svg and .pdf.
+std::filesystem::path figure_stem(const std::string& figure);
+
+/// The figure's files, with gnuplot's data and script; none without a figure.
+std::vector<std::filesystem::path> figure_files(const std::filesystem::path& stem);
+
 /// Assigns outputs by their extensions, `.csv`, `.mpack` and `.mcap`. For several logs, each
 /// output's name begins with the log's name. Errors: `InputError` for another extension, two
 /// outputs of one kind, an output that two logs share, and those of `check_outputs`; `Error` for an

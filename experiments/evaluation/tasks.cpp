@@ -23,23 +23,26 @@ std::string title_of(const ModelTasks& tasks) {
 }
 
 /// Adds the results of one task to the conditions that are tested on its engine. All noise seeds of
-/// a run are one sample, so later seeds are added to the sample of the first one.
+/// a run are one sample, so later seeds are added to the sample of the first one. Returns the
+/// number of the run's samples.
 template <typename Sample>
-void add_samples(std::vector<ConditionSamples<Sample>>& all, const std::vector<Sample>& found,
-                 const std::string& simulator, bool first_seed) {
+std::size_t add_samples(std::vector<ConditionSamples<Sample>>& all,
+                        const std::vector<Sample>& found, const std::string& simulator,
+                        bool first_seed) {
   std::vector<std::vector<Sample>*> cells;
   for (ConditionSamples<Sample>& condition : all) {
     if (condition.condition.test_simulator != simulator) continue;
     for (std::vector<Sample>& samples : condition.samples) cells.push_back(&samples);
   }
+  const std::size_t segments = cells.empty() ? 0 : found.size() / cells.size();
   auto next = found.begin();
   for (std::vector<Sample>* samples : cells) {
-    const std::size_t segments = found.size() / cells.size();
     if (first_seed) samples->resize(samples->size() + segments);
     for (std::size_t i = samples->size() - segments; i < samples->size(); ++i) {
       (*samples)[i] += *next++;
     }
   }
+  return segments;
 }
 
 std::vector<scoring::RobotScore> scores_of(const scoring::Prediction& prediction,
@@ -257,7 +260,10 @@ CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs, con
     const TaskCounts found = counts_of(plan, task, store);
     if (!found.is_scored()) continue;
     const std::string& simulator = plan.runs[task.run].simulator;
-    add_samples(all.counted, found.counted, simulator, task.seed == 0);
+    const std::size_t segments = add_samples(all.counted, found.counted, simulator, task.seed == 0);
+    for (std::size_t i = 0; task.seed == 0 && i < segments; ++i) {
+      all.origins[simulator].push_back({task.run, i});
+    }
     add_samples(all.scored, found.scored, simulator, task.seed == 0);
   }
   return all;

@@ -168,9 +168,17 @@ const std::vector<Sample>& samples_of(const std::vector<ConditionSamples<Sample>
 using ConditionCounts = ConditionSamples<scoring::Classification>;  ///< both wheels added
 using ConditionScores = ConditionSamples<scoring::RobotScore>;
 
+/// The origin of a statistical sample.
+struct SampleOrigin {
+  std::size_t run = 0;      ///< index in the plan
+  std::size_t segment = 0;  ///< of the run: a drop
+};
+
 struct CollectedCounts {
   std::vector<ConditionCounts> counted;
   std::vector<ConditionScores> scored;
+  /// Of the counted samples, by engine.
+  std::map<std::string, std::vector<SampleOrigin>> origins = {};
 };
 
 /// Adds the results of all tasks of these runs of one group, in the order of the tasks. The sums

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/rows.hpp"
+#include "experiments/estimators/baselines.hpp"
 #include "experiments/plan/rollouts.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/results/summary_file.hpp"

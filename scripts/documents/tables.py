@@ -60,9 +60,9 @@ def declared(run):
     tables = {}
     for file in sorted((run / 'state' / 'columns').glob('*.csv')):
         tables[file.stem] = columns_in(file)
-    for name in ('runs', 'results'):
+    for name in ('runs', 'results', 'samples'):
         with (run / 'tables' / f'{name}.csv').open(encoding='utf-8', newline='') as rows:
-            tables[name] = [(column, 'key', False) for column in next(csv.reader(rows))]
+            tables[name] = [(column, 'metric' if '_as_' in column else 'key', False) for column in next(csv.reader(rows))]
     return dict(sorted(tables.items()))
 
 

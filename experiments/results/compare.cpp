@@ -1,0 +1,342 @@
+#include "experiments/results/compare.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/parallel_for.h>
+
+#include "core/columns.hpp"
+#include "core/error.hpp"
+#include "core/rows.hpp"
+#include "experiments/results/captions.hpp"
+#include "simulators/registry.hpp"
+
+namespace touchdown::experiments {
+
+namespace {
+
+using scoring::Classification;
+
+/// What identifies a cell in both runs: names and noise.
+auto identity_of(const SampledCell& cell) {
+  return std::tuple(cell.condition.test_simulator, cell.condition.fit_simulator,
+                    cell.condition.estimator, cell.noise.knee, cell.noise.wheel,
+                    cell.noise.accelerometer);
+}
+
+/// "1 N·m, 5 m/s²".
+std::string levels_text(const noise::NoiseCell& noise) {
+  const std::string torque = std::isnan(noise.torque)
+                                 ? fmt::format("knee {}, wheel {}", noise.knee, noise.wheel)
+                                 : fmt::format("{}", noise.torque);
+  return fmt::format("{} N·m, {} m/s²", torque, noise.accelerometer);
+}
+
+/// "robust", "robust fitted in bullet".
+std::string name_of(const Condition& condition) {
+  return condition.is_fitted_in_domain()
+             ? condition.estimator
+             : fmt::format("{} fitted in {}", condition.estimator, condition.fit_simulator);
+}
+
+template <typename OneCell>
+std::string title_of_cell(const OneCell& cell) {
+  return fmt::format("{} {}, {}", cell.condition.test_simulator, name_of(cell.condition),
+                     levels_text(cell.noise));
+}
+
+std::string text_of(const SampleKey& key) {
+  return fmt::format("{} run {}{}", key.scenario, key.run,
+                     key.segment > 0 ? fmt::format(" segment {}", key.segment) : std::string());
+}
+
+/// The first names, and the number of the others.
+std::string some_of(std::vector<std::string> names) {
+  constexpr std::size_t most = 3;
+  if (names.size() > most) {
+    const std::size_t more = names.size() - most;
+    names.resize(most);
+    names.push_back(fmt::format("{} more", more));
+  }
+  return fmt::format("{}", fmt::join(names, "; "));
+}
+
+/// A cell of both runs.
+struct CommonCell {
+  const SampledCell* before;
+  const SampledCell* after;
+};
+
+/// The samples of a cell that both runs have.
+struct Pairs {
+  std::vector<Classification> before = {};
+  std::vector<Classification> after = {};
+  std::vector<SampleKey> single = {};  ///< samples that one run alone has
+  std::string reason = {};             ///< why they are not comparable; empty: they are
+};
+
+Pairs pairs_of(const CommonCell& cell) {
+  Pairs pairs;
+  for (const auto& [key, before] : cell.before->samples) {
+    const auto found = cell.after->samples.find(key);
+    if (found == cell.after->samples.end()) {
+      pairs.single.push_back(key);
+      continue;
+    }
+    const Classification& after = found->second;
+    if (pairs.reason.empty() &&
+        (before.contact() != after.contact() || before.flight() != after.flight())) {
+      pairs.reason = fmt::format(
+          "{} has {} steps in contact and {} in flight before, {} and {} after (another seed, "
+          "scenario, robot, label or number of noise seeds?)",
+          text_of(key), before.contact(), before.flight(), after.contact(), after.flight());
+    }
+    pairs.before.push_back(before);
+    pairs.after.push_back(after);
+  }
+  for (const auto& [key, after] : cell.after->samples) {
+    if (!cell.before->samples.contains(key)) pairs.single.push_back(key);
+  }
+  if (pairs.before.empty()) pairs.reason = "they have no run in common";
+  return pairs;
+}
+
+ComparedCell compared(const SampledCell& cell, const Pairs& pairs,
+                      const scoring::BootstrapConfig& bootstrap) {
+  std::vector<std::function<double(const Classification&)>> statistics;
+  for (const ComparedMetric& metric : compared_metrics) statistics.emplace_back(metric.of);
+  const std::vector<Interval> differences =
+      scoring::bootstrap_differences(pairs.after, pairs.before, statistics, bootstrap);
+  ComparedCell result{cell.condition, cell.noise, pairs.before.size(), pairs.before == pairs.after};
+  const Classification before = scoring::sum(pairs.before);
+  const Classification after = scoring::sum(pairs.after);
+  for (std::size_t m = 0; m < differences.size(); ++m) {
+    result.metric[m] = {statistics[m](before), statistics[m](after), differences[m]};
+  }
+  return result;
+}
+
+std::vector<std::string> estimators_of(const SampledRun& run) {
+  return unique(run.cells, [](const SampledCell& cell) { return cell.condition.estimator; });
+}
+
+/// The cells that one run alone has, in one line.
+void note_single(const std::string& directory, const std::vector<const SampledCell*>& cells,
+                 std::vector<std::string>& notes) {
+  if (cells.empty()) return;
+  std::vector<std::string> names;
+  const auto condition_of = [](const SampledCell* cell) { return cell->condition; };
+  for (const auto& [condition, own] : group_by(cells, condition_of)) {
+    names.push_back(title_of_cell(*own.front()));
+    if (own.size() > 1) names.back() += fmt::format(" and {} more", own.size() - 1);
+  }
+  notes.push_back(fmt::format("only in {}: {}: {}", directory, plural(cells.size(), "cell"),
+                              some_of(std::move(names))));
+}
+
+/// Samples that one run alone has, because the robot fell in the other one for example.
+void note_single_samples(const std::vector<Pairs>& pairs, std::vector<std::string>& notes) {
+  const auto has_single = [](const Pairs& one) {
+    return one.reason.empty() && !one.single.empty();
+  };
+  const auto first = std::find_if(pairs.begin(), pairs.end(), has_single);
+  if (first == pairs.end()) return;
+  const auto cells = static_cast<std::size_t>(std::count_if(first, pairs.end(), has_single));
+  std::vector<std::string> names;
+  for (const SampleKey& key : first->single) names.push_back(text_of(key));
+  notes.push_back(fmt::format("in one of the runs only: {} of {}: {}",
+                              plural(first->single.size(), "sample"), plural(cells, "cell"),
+                              some_of(std::move(names))));
+}
+
+/// The cells of each engine that are not of the same runs, in one line with the first reason.
+void note_refused(const std::vector<CommonCell>& cells, const std::vector<Pairs>& pairs,
+                  std::vector<std::string>& notes) {
+  std::vector<std::size_t> refused;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (!pairs[i].reason.empty()) refused.push_back(i);
+  }
+  for (const auto& [engine, places] :
+       group_by(refused, [&](std::size_t i) { return cells[i].after->condition.test_simulator; })) {
+    notes.push_back(fmt::format("not the same runs: {} of {}: {}", plural(places.size(), "cell"),
+                                engine, pairs[places.front()].reason));
+  }
+}
+
+/// Places of the cells with a difference of the metric, the largest first.
+std::vector<std::size_t> by_difference(const Comparison& comparison, std::size_t metric) {
+  const auto size = [&](std::size_t i) {
+    return std::abs(comparison.cells[i].metric[metric].difference.estimate);
+  };
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < comparison.cells.size(); ++i) {
+    if (!std::isnan(size(i))) places.push_back(i);
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [&](std::size_t a, std::size_t b) { return size(a) > size(b); });
+  return places;
+}
+
+std::string level_text(const Comparison& comparison) {
+  return fmt::format("{:.3g} %", 100.0 * comparison.level);
+}
+
+/// "2 of 12 cells moved; 6 with equal counts in every run; by chance alone about 0.3 of the other 6
+/// would".
+std::string chance_text(const Comparison& comparison, std::size_t moved) {
+  const std::size_t all = comparison.cells.size();
+  const auto equal = static_cast<std::size_t>(
+      std::ranges::count_if(comparison.cells, &ComparedCell::has_equal_counts));
+  const double by_chance = (1.0 - comparison.level) * static_cast<double>(all - equal);
+  std::string text = fmt::format("{} of {} moved", moved, plural(all, "cell"));
+  if (equal == all) return text + ": all have equal counts in every run\n";
+  if (equal > 0) text += fmt::format("; {} with equal counts in every run", equal);
+  return text + fmt::format("; by chance alone about {:.1f}{} would\n", by_chance,
+                            equal > 0 ? fmt::format(" of the other {}", all - equal) : "");
+}
+
+}  // namespace
+
+Comparison compare(const SampledRun& before, const SampledRun& after) {
+  std::map<decltype(identity_of(before.cells.front())), const SampledCell*> known;
+  for (const SampledCell& cell : before.cells) known.emplace(identity_of(cell), &cell);
+  std::vector<CommonCell> common;
+  std::vector<const SampledCell*> only_before;
+  std::vector<const SampledCell*> only_after;
+  for (const SampledCell& cell : after.cells) {
+    const auto found = known.find(identity_of(cell));
+    if (found == known.end()) {
+      only_after.push_back(&cell);
+    } else {
+      common.push_back({found->second, &cell});
+      known.erase(found);
+    }
+  }
+  for (const SampledCell& cell : before.cells) {
+    if (known.contains(identity_of(cell))) only_before.push_back(&cell);
+  }
+  if (common.empty()) {
+    throw InputError(fmt::format(
+        "{} and {} have no cell of engine, estimator and noise in common: estimators of the first: "
+        "{}; of the second: {}",
+        before.directory, after.directory, fmt::join(estimators_of(before), ", "),
+        fmt::join(estimators_of(after), ", ")));
+  }
+
+  std::vector<Pairs> pairs(common.size());
+  std::vector<std::optional<ComparedCell>> cells(common.size());
+  tbb::parallel_for(std::size_t{0}, common.size(), [&](std::size_t i) {
+    pairs[i] = pairs_of(common[i]);
+    if (pairs[i].reason.empty()) {
+      cells[i] = compared(*common[i].after, pairs[i], after.bootstrap);
+    }
+  });
+  Comparison result{before.directory, after.directory, after.bootstrap.level};
+  for (std::optional<ComparedCell>& cell : cells) {
+    if (cell) result.cells.push_back(*std::move(cell));
+  }
+  note_refused(common, pairs, result.left_out);
+  if (result.cells.empty()) {
+    throw InputError(
+        fmt::format("{} and {}: {}", before.directory, after.directory, result.left_out.front()));
+  }
+  note_single_samples(pairs, result.left_out);
+  note_single(before.directory, only_before, result.left_out);
+  note_single(after.directory, only_after, result.left_out);
+  return result;
+}
+
+Table comparison_table(const Comparison& comparison) {
+  Columns<ComparedCell> columns;
+  columns.text("simulator", [](const ComparedCell& cell) { return cell.condition.test_simulator; })
+      .text("fit_simulator", [](const ComparedCell& cell) { return cell.condition.fit_simulator; })
+      .text("estimator", [](const ComparedCell& cell) { return cell.condition.estimator; })
+      .part(&ComparedCell::noise, noise_columns())
+      .part(&ComparedCell::noise, knee_wheel_columns())
+      .runs("pairs", &ComparedCell::pairs);
+  for (std::size_t m = 0; m < compared_metrics.size(); ++m) {
+    const std::string name = compared_metrics[m].name;
+    columns
+        .metric(name + "_before", [m](const ComparedCell& cell) { return cell.metric[m].before; })
+        .metric(name + "_after", [m](const ComparedCell& cell) { return cell.metric[m].after; })
+        .interval(name + "_difference",
+                  [m](const ComparedCell& cell) { return cell.metric[m].difference; })
+        .flag(name + "_moved",
+              [m](const ComparedCell& cell) { return cell.metric[m].has_moved(); });
+  }
+  return columns.table(comparison.cells);
+}
+
+std::string comparison_text(const Comparison& comparison, std::size_t metric) {
+  constexpr std::size_t most = 20;
+  const std::vector<std::size_t> moved =
+      where(by_difference(comparison, metric),
+            [&](std::size_t i) { return comparison.cells[i].metric[metric].has_moved(); });
+  TextTable table{{"engine", "estimator", "noise", "before", "after", "difference"}, {}};
+  for (std::size_t i = 0; i < std::min(moved.size(), most); ++i) {
+    const ComparedCell& cell = comparison.cells[moved[i]];
+    const Movement& movement = cell.metric[metric];
+    table.rows.push_back({cell.condition.test_simulator, name_of(cell.condition),
+                          levels_text(cell.noise), fixed(movement.before, 3),
+                          fixed(movement.after, 3), with_interval(movement.difference)});
+  }
+  std::string text = fmt::format("{}: {} minus {}, {} intervals over pairs of equal runs\n\n",
+                                 compared_metrics[metric].title, comparison.after,
+                                 comparison.before, level_text(comparison));
+  if (!moved.empty()) text += to_text(table, 3);
+  if (moved.size() > most) text += fmt::format("… and {} more\n", moved.size() - most);
+  text += (moved.empty() ? "" : "\n") + chance_text(comparison, moved.size());
+  for (const std::string& line : comparison.left_out) text += line + "\n";
+  return text;
+}
+
+FigureSpec comparison_figure(const Comparison& comparison, std::size_t metric) {
+  constexpr std::size_t most = 40;
+  const Table table = comparison_table(comparison);
+  const std::string title = compared_metrics[metric].title;
+  FigureSpec spec{.name = "compare", .table = "compare.csv"};
+  spec.panels = combinations_in(table, {"simulator", "fit_simulator"}, [](const auto& engines) {
+    const std::string tested = simulators::simulator_title(engines[0]);
+    return engines[0] == engines[1]
+               ? tested
+               : fmt::format("{}, fitted in {}", tested, simulators::simulator_title(engines[1]));
+  });
+  spec.series = groups_in(table, "estimator", estimator_title);
+  std::erase_if(spec.series.groups, [&](const FigureGroup& estimator) {
+    return std::ranges::all_of(comparison.cells, [&](const ComparedCell& cell) {
+      return cell.has_equal_counts || cell.condition.estimator != estimator.values.front();
+    });
+  });
+  spec.rows.columns = {"knee_noise_nm", "wheel_noise_nm", "accelerometer_noise_mps2"};
+  const auto noise_of = [&](std::size_t i) { return comparison.cells[i].noise; };
+  const auto settings = group_by(by_difference(comparison, metric), noise_of);
+  for (const auto& [noise, cells] : settings) {
+    if (spec.rows.groups.size() == most) break;
+    FigureGroup& group = spec.rows.groups.emplace_back();
+    for (const std::string& column : spec.rows.columns) {
+      group.values.push_back(TableRow(table, cells.front()).text(column));
+    }
+    group.title = levels_text(noise);
+  }
+  spec.measures = {axis_with_interval(std::string(compared_metrics[metric].name) + "_difference",
+                                      fmt::format("difference of {}", title))};
+  spec.title = fmt::format("Difference of {} between two runs", title);
+  if (spec.series.groups.size() == 1) spec.title += ": " + spec.series.groups.front().title;
+  spec.caption = fmt::format(
+      "{} minus {}, with {} bootstrap intervals over pairs of equal runs: {}, the one with the "
+      "largest difference first. Estimators with equal counts in every run are left out.",
+      comparison.after, comparison.before, level_text(comparison),
+      settings.size() > most ? fmt::format("{} of {} noise settings", most, settings.size())
+                             : plural(settings.size(), "noise setting"));
+  spec.alt = spec.title + "." + values_text(spec, table);
+  return spec;
+}
+
+}  // namespace touchdown::experiments
