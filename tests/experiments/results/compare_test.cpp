@@ -119,7 +119,7 @@ TEST(Compare, CellsWithOtherTrueContactAreLeftOut) {
                                     cell_of("bullet", "robust", 0.0, right_steps(5, 4)),
                                     cell_of("bullet", "robust", 1.0, right_steps(5, 4))};
   std::vector<SampledCell> second = first;
-  for (std::size_t i : {1, 2}) second[i].samples.rbegin()->second = {6, 1, 0, 3};
+  for (const std::size_t i : {1U, 2U}) second[i].samples.rbegin()->second = {6, 1, 0, 3};
   const Comparison comparison = compare(run_of("a", first), run_of("b", second));
   ASSERT_EQ(comparison.cells.size(), 1U);
   EXPECT_EQ(comparison.cells.front().condition.test_simulator, "mujoco");
