@@ -13,15 +13,13 @@
 #include "core/program.hpp"
 #include "core/progress.hpp"
 #include "core/resources.hpp"
+#include "experiments/estimators/entries.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "logs/model_file.hpp"
 
 namespace touchdown::cli {
 
 namespace {
-
-constexpr const char* shipped_model = "models/evidence_curves.npz";
-constexpr const char* without_takeoffs = "force_kinematics";
 
 struct FitFlags {
   std::vector<std::string> logs;
@@ -242,31 +240,31 @@ void show_accuracy(const experiments::EstimatorEntry& entry,
       fmt::format("touchdown: the shipped model is better on these logs ({:.4f} against {:.4f}): "
                   "use it, or fit "
                   "evidence_curves with --prior {}\n",
-                  *accuracy.shipped, own, shipped_model));
+                  *accuracy.shipped, own, experiments::shipped_file("shipped")));
 }
 
 /// Fits to logs. Without a name, and without a takeoff in the logs, estimators with a few physical
-/// parameters extrapolate best.
+/// parameters extrapolate best: `entry` is then another one.
 Model fit_chosen(const FitFlags& flags, const std::vector<experiments::FitLog>& logs,
                  const experiments::LogFitConfig& config, experiments::EstimatorEntry& entry,
                  experiments::LogFitReport& report) {
-  Model model = experiments::fit_to_logs(entry, logs, config, report);
-  if (report.takeoffs.value_or(1) > 0 || entry.name == without_takeoffs) return model;
-  constexpr const char* missing = "touchdown: these logs hold no takeoff of a wheel, so that ";
-  if (flags.estimator.empty() && flags.prior.empty() && flags.hyperparameters.empty() &&
-      !flags.config.servo_load) {
+  const experiments::EstimatorEntry& physical = experiments::estimator_entry("force_kinematics");
+  const bool may_choose = flags.estimator.empty() && flags.prior.empty() &&
+                          flags.hyperparameters.empty() && !flags.config.servo_load;
+  Model model =
+      experiments::fit_to_logs(entry, logs, config, report, may_choose ? &physical : nullptr);
+  if (report.replaced) {
     print_message(
-        fmt::format("{}{} is fitted: {} would not know the moments of takeoffs and "
-                    "landings\n",
-                    missing, without_takeoffs, entry.name));
-    entry = experiments::estimator_entry(without_takeoffs);
-    report = {};
-    return experiments::fit_to_logs(entry, logs, config, report);
+        fmt::format("touchdown: these logs hold no takeoff of a wheel, so that {} is fitted: {} "
+                    "would not know the moments of takeoffs and landings\n",
+                    physical.name, entry.name));
+    entry = physical;
+  } else if (report.takeoffs.value_or(1) == 0 && entry.name != physical.name) {
+    report.warnings.push_back(fmt::format(
+        "{} does not know the moments of takeoffs and landings: add a log with flights and labels, "
+        "or fit --estimator {}",
+        entry.name, physical.name));
   }
-  report.warnings.push_back(fmt::format(
-      "{} does not know the moments of takeoffs and landings: add a log with flights and labels, "
-      "or fit --estimator {}",
-      entry.name, without_takeoffs));
   return model;
 }
 

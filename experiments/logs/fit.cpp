@@ -236,12 +236,14 @@ std::vector<RunSignals> signals_of_logs(std::span<const FitLog> logs, const LogF
   return runs;
 }
 
-/// How often a wheel leaves the ground in the used part of the run.
-std::size_t takeoffs_of_wheels(const RunSignals& run, std::size_t skipped) {
+/// How often a wheel leaves the ground in the used parts of the runs.
+std::size_t takeoffs_of_wheels(const std::vector<RunSignals>& runs, double skip) {
   std::size_t takeoffs = 0;
-  for (const scoring::ContactSequence& contact : run.contact) {
-    for (const scoring::Flight& flight : scoring::flights(contact)) {
-      if (flight.takeoff > skipped) ++takeoffs;
+  for (const RunSignals& run : runs) {
+    for (const scoring::ContactSequence& contact : run.contact) {
+      for (const scoring::Flight& flight : scoring::flights(contact)) {
+        if (flight.takeoff > skipped_steps(run, skip)) ++takeoffs;
+      }
     }
   }
   return takeoffs;
@@ -270,10 +272,7 @@ std::vector<RunSignals> logs_with_takeoffs(std::span<const FitLog> logs, const L
     return has_takeoff(run, skipped_steps(run, config.skip));
   });
   if (!takeoff) {
-    std::size_t of_one_wheel = 0;
-    for (const RunSignals& run : runs) {
-      of_one_wheel += takeoffs_of_wheels(run, skipped_steps(run, config.skip));
-    }
+    const std::size_t of_one_wheel = takeoffs_of_wheels(runs, config.skip);
     const bool has_gaps = std::ranges::any_of(logs, [](const FitLog& log) {
       if (!log.labels) return false;
       const auto& all = log.labels->intervals;
@@ -298,15 +297,13 @@ std::vector<RunSignals> logs_of_both_classes(std::span<const FitLog> logs,
          double /*before*/) { reader.require_truth(); },
       report, skipped);
   require_both_classes(report.samples, skipped, config.skip);
-  report.takeoffs = 0;
-  for (const RunSignals& run : runs) {
-    *report.takeoffs += takeoffs_of_wheels(run, skipped_steps(run, config.skip));
-  }
+  report.takeoffs = takeoffs_of_wheels(runs, config.skip);
   return runs;
 }
 
 Model fit_model(const EstimatorEntry& entry, std::span<const FitLog> logs,
-                const LogFitConfig& config, LogFitReport& report) {
+                const LogFitConfig& config, const EstimatorEntry* without_takeoffs,
+                LogFitReport& report) {
   if (entry.fitting.torques) {
     return {.grid = fit_measurement_to_logs(logs, *entry.fitting.torques, config, report)};
   }
@@ -318,17 +315,20 @@ Model fit_model(const EstimatorEntry& entry, std::span<const FitLog> logs,
   fitted.scoring.skip = config.skip;
   fitted.before_density = [&] { stop_if_asked(config); };
   fitted.servo_load = config.servo_load;
-  return entry.fit(fitted);
+  if (without_takeoffs == nullptr || report.takeoffs.value_or(1) > 0) return entry.fit(fitted);
+  report.replaced = true;
+  return without_takeoffs->fit(fitted);
 }
 
 }  // namespace
 
 Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
-                  const LogFitConfig& config, LogFitReport& report) {
+                  const LogFitConfig& config, LogFitReport& report,
+                  const EstimatorEntry* without_takeoffs) {
   check_names(config.hyperparameters, entry);
   if (config.prior) check_prior(*config.prior, entry, config.servo_load);
-  Model model =
-      fit_model(with_hyperparameters(entry, config.hyperparameters), logs, config, report);
+  Model model = fit_model(with_hyperparameters(entry, config.hyperparameters), logs, config,
+                          without_takeoffs, report);
   const auto& [without, with] = report.declared_load;
   if (with.sum * without.count < without.sum * with.count) {
     report.warnings.push_back(fmt::format(
@@ -340,7 +340,8 @@ Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
   if (!config.robot.name.empty()) report.fitted_to.robots = {config.robot.name};
   if (config.robot.legs) report.fitted_to.legs = *config.robot.legs;
   report.fitted_to.servo_load = config.servo_load;
-  model.metadata = new_metadata(entry.name, report.fitted_to);
+  model.metadata =
+      new_metadata((report.replaced ? *without_takeoffs : entry).name, report.fitted_to);
   if (config.prior) add_prior(*config.prior, report, model);
   put_into(*model.metadata, config.hyperparameters);
   return model;

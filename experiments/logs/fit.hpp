@@ -81,6 +81,7 @@ struct LogFitReport {
   double weight = 1.0;  ///< of these logs in the model, beside a prior
   /// Of a wheel, in what is fitted; nothing if an estimator needs none.
   std::optional<std::size_t> takeoffs = {};
+  bool replaced = false;  ///< by the estimator for logs without a takeoff
   std::vector<std::string> warnings;
 };
 
@@ -151,8 +152,12 @@ class FitLogSteps {
 ///
 /// Parameters are fitted to logs in memory, of one class or with ground truth. Unusable steps are
 /// left out as during estimation. Errors: `InputError` for logs without one of the classes.
+///
+/// `without_takeoffs` is fitted instead of an estimator that learns from both classes, if no wheel
+/// takes off in the logs; null: none is. Each log is read once.
 Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
-                  const LogFitConfig& config, LogFitReport& report);
+                  const LogFitConfig& config, LogFitReport& report,
+                  const EstimatorEntry* without_takeoffs = nullptr);
 
 /// Whether a model was fitted to a log that was read to its end: to a copy of it, or to the same
 /// run of the same scene.

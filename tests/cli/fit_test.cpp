@@ -371,6 +371,14 @@ TEST_F(Fit, ReadsALogFromStandardInput) {
   }
 }
 
+TEST_F(Fit, WithoutATakeoffReadsStandardInputOnce) {
+  log("robot.mpack", test::robot_log(4.0));
+  folder_.write("gap.csv", "start,end,contact\n0.0,0.59,1\n0.62,0.79,0\n0.81,1.5,1\n");
+  fit("robot.mpack --labels gap.csv -o file.npz --no-accuracy");
+  fit("- --labels gap.csv -o input.npz --no-accuracy < robot.mpack");
+  EXPECT_TRUE(folder_.text("file.npz") == folder_.text("input.npz"));
+}
+
 TEST_F(Fit, AnswersWrongRequestsInOneLine) {
   log("a.mpack", test::synthetic_log(1.0));
   log("robot.mpack", test::robot_log(1.0));
