@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <fcntl.h>
@@ -170,6 +171,13 @@ void write_stream_atomically(const std::filesystem::path& path,
     file.close();
     if (!file) throw Error(unwritable(path, errno));
   });
+}
+
+std::string extension_of(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
 }
 
 bool is_there(const std::filesystem::path& path) noexcept {

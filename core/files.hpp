@@ -46,6 +46,9 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
 void write_stream_atomically(const std::filesystem::path& path,
                              const std::function<void(std::ostream& stream)>& write);
 
+/// The extension of a file's name in lower case, because some systems write names in capitals.
+std::string extension_of(const std::filesystem::path& file);
+
 /// Whether a file or folder is there. What cannot be looked at, such as a file in a folder without
 /// permission, is not.
 bool is_there(const std::filesystem::path& path) noexcept;

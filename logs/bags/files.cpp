@@ -1,7 +1,6 @@
 #include "logs/bags/files.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -19,13 +18,6 @@
 #include "core/stop.hpp"
 
 namespace touchdown::logs {
-
-std::string extension_of(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 RandomFile::RandomFile(const std::filesystem::path& path, std::string name,
                        const std::atomic<bool>* stop)

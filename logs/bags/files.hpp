@@ -7,9 +7,6 @@
 
 namespace touchdown::logs {
 
-/// The extension of a file's name in lower case, because some systems write names in capitals.
-std::string extension_of(const std::filesystem::path& file);
-
 /// A file that is read at any position.
 class RandomFile {
  public:

@@ -1,11 +1,9 @@
 #include "logs/log/byte_source.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <fcntl.h>
-#include <initializer_list>
 #include <memory>
+#include <optional>
 #include <poll.h>
 #include <string>
 #include <string_view>
@@ -46,36 +44,43 @@ bool is_opened_already(std::string_view name) {
   return name == "/dev/stdin" || name.starts_with("/dev/fd/") || name.starts_with("/proc/self/fd/");
 }
 
-/// What a path is if it is no log in Upkie's layout, but read with a mapping; else empty.
-std::string kind_of_other_log(const std::filesystem::path& path) {
-  std::string name = path.string();
-  std::ranges::transform(name, name.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto ends_with_any = [&](std::initializer_list<const char*> extensions) {
-    return std::ranges::any_of(extensions, [&](const char* one) { return name.ends_with(one); });
-  };
-  if (is_folder(path)) return "a folder";
-  if (ends_with_any({".csv", ".tsv"})) return "a CSV file";
-  if (ends_with_any({".npz"})) return "a file of NumPy's arrays";
-  if (ends_with_any({".mcap", ".db3", ".zstd"})) return "a ROS 2 bag";
-  return {};
+/// A log in another layout, which is read with a mapping.
+struct OtherLog {
+  const char* kind;
+  const char* read;     ///< what the commands then read
+  const char* example;  ///< a mapping to begin with
+};
+
+/// Nothing for a path that may be a log in Upkie's layout.
+std::optional<OtherLog> other_log(const std::filesystem::path& path) {
+  const std::string extension = extension_of(path);
+  if (is_folder(path)) return OtherLog{"a folder", "a ROS 2 bag", "ros2_bag.yaml"};
+  if (extension == ".csv" || extension == ".tsv") return OtherLog{"a CSV file", "it", "robot.yaml"};
+  if (extension == ".npz") return OtherLog{"a file of NumPy's arrays", "it", "robot.yaml"};
+  if (extension == ".mcap" || extension == ".db3" || extension == ".zstd") {
+    return OtherLog{"a ROS 2 bag", "a ROS 2 bag", "ros2_bag.yaml"};
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
+void require_no_gzip(const std::filesystem::path& path) {
+  if (extension_of(path) != ".gz") return;
+  throw InputError(
+      fmt::format("{0}: is compressed with gzip: `gunzip -k {0}` first", path.string()));
+}
+
 ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool>* stop) {
   const std::string name = path.string();
-  const std::string other = kind_of_other_log(path);
-  if (!other.empty() && is_there(path)) {
-    const bool is_table = other.ends_with("file") || other.ends_with("arrays");
+  const std::optional<OtherLog> other = other_log(path);
+  if (other && is_there(path)) {
     throw InputError(fmt::format(
         "{}: is {}, expected a log in Upkie's layout; `touchdown estimate`, `check` and `export` "
         "read {} with --mapping FILE.yaml: start from a copy of examples/mapping/{}",
-        name, other, is_table ? "it" : "a ROS 2 bag", is_table ? "robot.yaml" : "ros2_bag.yaml"));
+        name, other->kind, other->read, other->example));
   }
-  if (path.extension() == ".gz") {
-    throw InputError(fmt::format("{0}: is compressed with gzip: `gunzip -k {0}` first", name));
-  }
+  require_no_gzip(path);
   if (name != "-" && !is_opened_already(name)) require_file(name);
   const int opened =
       name == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);  // NOLINT

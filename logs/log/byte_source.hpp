@@ -17,4 +17,7 @@ using ByteSource = std::function<std::size_t(std::span<char>)>;
 /// when the file cannot be opened or read.
 ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool>* stop = nullptr);
 
+/// Errors: `InputError` with the command that decompresses the file, if it is compressed with gzip.
+void require_no_gzip(const std::filesystem::path& path);
+
 }  // namespace touchdown::logs

@@ -13,8 +13,9 @@
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "estimator/npz/npz.hpp"
-#include "logs/bags/files.hpp"
+#include "logs/log/byte_source.hpp"
 #include "logs/log/numbers_csv.hpp"
 #include "logs/mapping/row_source.hpp"
 
@@ -294,10 +295,7 @@ std::unique_ptr<RowSource> open_file(const std::filesystem::path& file, const st
     return std::make_unique<CsvFile>(file, section, source);
   }
   if (extension == ".npz") return std::make_unique<ArrayFile>(file, section, source);
-  if (extension == ".gz") {
-    throw InputError(
-        fmt::format("{0}: is compressed with gzip: `gunzip -k {0}` first", file.string()));
-  }
+  require_no_gzip(file);
   throw InputError(
       fmt::format("{}: expected a log as FILE.csv or FILE.npz, or a ROS 2 bag", file.string()));
 }

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "core/files.hpp"
 #include "core/resources.hpp"
-#include "logs/bags/files.hpp"
 #include "logs/mapping/mapping_reader.hpp"
 
 namespace touchdown::logs {

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -132,9 +131,7 @@ bool is_corner(std::string_view corner, const ObjCounts& so_far, const ObjCounts
 }  // namespace
 
 std::string fault_of_mesh(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (extension != ".obj") return "";
+  if (extension_of(file) != ".obj") return "";
   const std::string text = read_file(file);
   ObjCounts all = {};
   std::string line;
