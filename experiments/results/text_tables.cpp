@@ -300,15 +300,13 @@ CaptionedTable difference_text_table(const Experiment& experiment,
   return result;
 }
 
-std::vector<CaptionedTable> paper_tables(const ExperimentResult& result) {
-  const Experiment& experiment = result.experiment;
+/// The tables of each highlighted cell. From the second cell on, labels end with its number.
+template <typename TablesOf>
+static std::vector<CaptionedTable> of_highlights(const Experiment& experiment,
+                                                 const TablesOf& tables_of) {
   std::vector<CaptionedTable> tables;
   for (std::size_t i = 0; i < experiment.highlights.size(); ++i) {
-    const noise::NoiseCell& cell = experiment.highlights[i];
-    std::vector<CaptionedTable> of_cell =
-        paper_tables(experiment, in_cell(result.scores, cell), how_scored(experiment, cell));
-    of_cell.push_back(difference_text_table(experiment, in_cell(result.differences, cell)));
-    of_cell.back().caption += setup_caption(experiment);
+    std::vector<CaptionedTable> of_cell = tables_of(experiment.highlights[i]);
     for (CaptionedTable& table : of_cell) {
       if (i > 0) table.label += fmt::format("_{}", i + 1);
       tables.push_back(std::move(table));
@@ -317,17 +315,24 @@ std::vector<CaptionedTable> paper_tables(const ExperimentResult& result) {
   return tables;
 }
 
+std::vector<CaptionedTable> paper_tables(const ExperimentResult& result) {
+  const Experiment& experiment = result.experiment;
+  return of_highlights(experiment, [&](const noise::NoiseCell& cell) {
+    std::vector<CaptionedTable> tables =
+        paper_tables(experiment, in_cell(result.scores, cell), how_scored(experiment, cell));
+    tables.push_back(difference_text_table(experiment, in_cell(result.differences, cell)));
+    tables.back().caption += setup_caption(experiment);
+    return tables;
+  });
+}
+
 std::vector<CaptionedTable> accuracy_tables(const ExperimentResult& result) {
   const Experiment& experiment = result.experiment;
-  std::vector<CaptionedTable> tables;
-  for (std::size_t i = 0; i < experiment.highlights.size(); ++i) {
-    const noise::NoiseCell& cell = experiment.highlights[i];
-    tables.push_back(
-        {"Accuracy and false takeoffs. " + how_scored(experiment, cell),
-         i > 0 ? fmt::format("accuracy_{}", i + 1) : "accuracy",
-         accuracy_table(experiment, result.summaries, result.scores, cell, experiment.simulators)});
-  }
-  return tables;
+  return of_highlights(experiment, [&](const noise::NoiseCell& cell) {
+    return std::vector<CaptionedTable>{
+        {"Accuracy and false takeoffs. " + how_scored(experiment, cell), "accuracy",
+         accuracy_table(experiment, result.summaries, result.scores, cell, experiment.simulators)}};
+  });
 }
 
 std::string to_text(const CaptionedTable& table) {
