@@ -43,10 +43,11 @@ std::vector<std::string> neighbours_of(const std::filesystem::path& path) {
 /// A suggestion where the folder of a path has no such file, because the folder was renamed: the
 /// program's own file of the same name.
 std::string same_name_elsewhere(const std::filesystem::path& path) {
+  const std::vector<std::filesystem::path> places = roots();
   for (const char* folder : {"experiments", "models", "noise/profiles", "scenarios"}) {
     const std::filesystem::path candidate = folder / path.filename();
     std::error_code ignored;
-    for (const std::filesystem::path& root : roots()) {
+    for (const std::filesystem::path& root : places) {
       if (!std::filesystem::is_regular_file(root / candidate, ignored)) continue;
       return fmt::format(" (did you mean '{}'?)", candidate.string());
     }
@@ -124,13 +125,11 @@ std::filesystem::path find_resource(const std::filesystem::path& path) {
 
 std::filesystem::path find_program_file(const std::filesystem::path& path) {
   std::error_code ignored;
-  for (const std::filesystem::path& root : roots()) {
-    const std::filesystem::path own = root / path;
-    if (root == "." || !std::filesystem::is_regular_file(own, ignored)) continue;
-    // In the program's own folder the short name stays.
-    return std::filesystem::equivalent(own, path, ignored) ? path : own;
-  }
-  return find_resource(path);
+  const std::filesystem::path folder = program_files().folder;
+  const std::filesystem::path own = folder / path;
+  if (folder.empty() || !std::filesystem::is_regular_file(own, ignored)) return find_resource(path);
+  // In the program's own folder the short name stays.
+  return std::filesystem::equivalent(own, path, ignored) ? path : own;
 }
 
 void require_file(const std::filesystem::path& path) {
