@@ -1,11 +1,10 @@
-#include "apps/viewer/film.hpp"
-
 #include <cmath>
 #include <cstdlib>
 
 #include <fmt/format.h>
 #include <opencv2/core/utils/logger.hpp>
 
+#include "apps/viewer/log_window.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 

@@ -2,12 +2,15 @@
 
 #include <atomic>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/viewer/film.hpp"
+#include <opencv2/core.hpp>
+#include <opencv2/videoio.hpp>
+
 #include "apps/viewer/label_editor.hpp"
 #include "apps/viewer/panel.hpp"
 #include "apps/viewer/screen.hpp"
@@ -32,6 +35,32 @@ struct LogAreas {
   static constexpr int lane_top(std::size_t wheel) {
     return ruler + static_cast<int>(wheel) * (lane_height + sure);
   }
+};
+
+/// A person's film of a log, picture by picture.
+class Film {
+ public:
+  /// Errors: `InputError` for a file that is no film.
+  explicit Film(const std::filesystem::path& path);
+
+  double frame_period() const { return 1.0 / rate_; }  ///< s
+  cv::Size size() const { return size_; }
+
+  /// The picture that is shown at a time of the film (s), valid until the next call; an empty one
+  /// before its start and after its end. Pictures that follow the last one soon are decoded on the
+  /// way, others are sought.
+  const cv::Mat& at(double time);
+
+ private:
+  const cv::Mat& frame(long number);
+
+  std::string name_;
+  cv::VideoCapture capture_;
+  double rate_ = 0.0;  ///< pictures per second
+  cv::Size size_;
+  long count_ = 0;
+  long decoded_ = -1;  ///< the number of `picture_`
+  cv::Mat picture_, none_;
 };
 
 /// The window that plays a log: scene, panel, time line and curves; with labels the lanes in which

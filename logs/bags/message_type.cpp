@@ -1,5 +1,3 @@
-#include "logs/bags/message_type.hpp"
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -10,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "logs/bags/cdr.hpp"
+#include "logs/bags/topic_rows.hpp"
 
 namespace touchdown::logs {
 

@@ -1,9 +1,8 @@
-#include "apps/viewer/film.hpp"
-
 #include <random>
 
 #include <gtest/gtest.h>
 
+#include "apps/viewer/log_window.hpp"
 #include "core/error.hpp"
 #include "tests/scratch_folder.hpp"
 
