@@ -9,8 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "program.hpp"
-#include "result_files.hpp"
+#include "tests/cli/program.hpp"
+#include "tests/cli/result_files.hpp"
 
 namespace touchdown::cli {
 namespace {
