@@ -44,19 +44,10 @@ constexpr bool is_used(SignalStatus status) noexcept {
 
 /// "good", "invalid", "gap", "frozen", "degraded".
 constexpr std::string_view to_text(SignalStatus status) noexcept {
-  switch (status) {
-    case SignalStatus::good:
-      return "good";
-    case SignalStatus::invalid:
-      return "invalid";
-    case SignalStatus::gap:
-      return "gap";
-    case SignalStatus::frozen:
-      return "frozen";
-    case SignalStatus::degraded:
-      return "degraded";
-  }
-  return "";
+  constexpr std::array<std::string_view, 5> texts = {"good", "invalid", "gap", "frozen",
+                                                     "degraded"};
+  const auto index = static_cast<std::size_t>(status);
+  return index < texts.size() ? texts[index] : "";
 }
 
 /// An estimator's belief about the robot after one step.

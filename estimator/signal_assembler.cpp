@@ -31,29 +31,11 @@ JointSignals& joint_of(Signals& signals, std::size_t i) noexcept {
 }  // namespace
 
 std::string_view to_text(RecordFault fault) noexcept {
-  switch (fault) {
-    case RecordFault::joint_missing:
-      return "joint missing";
-    case RecordFault::joint_stale:
-      return "joint stale";
-    case RecordFault::orientation_missing:
-      return "orientation missing";
-    case RecordFault::upside_down:
-      return "upside down";
-    case RecordFault::acceleration_missing:
-      return "acceleration missing";
-    case RecordFault::clock_missing:
-      return "clock missing";
-    case RecordFault::clock_back:
-      return "clock back";
-    case RecordFault::clock_gap:
-      return "clock gap";
-    case RecordFault::clock_rate:
-      return "clock rate";
-    case RecordFault::signal_stopped:
-      return "signal stopped";
-  }
-  return "";
+  static constexpr std::array<std::string_view, record_fault_count> texts = {
+      "joint missing", "joint stale", "orientation missing", "upside down", "acceleration missing",
+      "clock missing", "clock back",  "clock gap",           "clock rate",  "signal stopped"};
+  const auto index = static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(fault)));
+  return index < texts.size() ? texts[index] : "";
 }
 
 SignalAssembler::SignalAssembler(const AssemblyConfig& config)

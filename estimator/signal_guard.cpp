@@ -7,14 +7,8 @@
 #include "core/error.hpp"
 
 namespace touchdown {
-namespace {
-
-constexpr int never = std::numeric_limits<int>::max();
-
-}  // namespace
-
 SignalGuard::SignalGuard(const SignalGuardConfig& config, double sample_rate)
-    : config_(config), time_step_(1.0 / sample_rate), steps_to_frozen_(never) {
+    : config_(config), time_step_(1.0 / sample_rate), acceleration_(config, sample_rate) {
   if (!(std::isfinite(sample_rate) && sample_rate > 0.0)) {
     throw InputError("signal guard: the sample rate must be positive (Hz)");
   }
@@ -27,13 +21,11 @@ SignalGuard::SignalGuard(const SignalGuardConfig& config, double sample_rate)
   if (!(config.maximum_gap >= 0.0 && config.frozen_after >= 0.0)) {
     throw InputError("signal guard: maximum_gap and frozen_after must not be negative (s)");
   }
-  const double steps = std::ceil(config.frozen_after * sample_rate);
-  if (steps > 0.0 && steps < never) steps_to_frozen_ = static_cast<int>(steps);
 }
 
 void SignalGuard::reset() noexcept {
   started_ = false;
-  repetitions_ = 0;
+  acceleration_.reset();
 }
 
 SignalGuard::Verdict SignalGuard::check(double time, double vertical_acceleration) noexcept {
@@ -53,19 +45,14 @@ SignalGuard::Verdict SignalGuard::check(double time, double vertical_acceleratio
     }
   }
   time_ = time;
-
+  started_ = true;
   // Written so that NaN fails.
   if (!(std::abs(vertical_acceleration) <= config_.largest_acceleration)) {
     verdict.status = SignalStatus::invalid;
     verdict.acceleration_good = false;
-    started_ = true;
     return verdict;
   }
-  const bool repeated = started_ && vertical_acceleration == acceleration_;
-  repetitions_ = repeated ? std::min(repetitions_ + 1, never - 1) : 0;
-  acceleration_ = vertical_acceleration;
-  started_ = true;
-  if (repetitions_ >= steps_to_frozen_) {
+  if (acceleration_.update({vertical_acceleration})) {
     verdict.status = SignalStatus::frozen;
     verdict.acceleration_good = false;
     verdict.restart = true;

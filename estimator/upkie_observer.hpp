@@ -42,8 +42,6 @@ class WheelContactObserver {
   [[nodiscard]] bool contact() const noexcept { return contact_; }
   /// Low-passed |torque| / |acceleration| (kg·m²); 0 until the wheel has accelerated.
   [[nodiscard]] double inertia() const noexcept { return inertia_; }
-  [[nodiscard]] double abs_torque() const noexcept { return abs_torque_; }
-  [[nodiscard]] double abs_acceleration() const noexcept { return abs_acceleration_; }
 
  private:
   WheelContactConfig config_;

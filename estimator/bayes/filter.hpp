@@ -55,7 +55,7 @@ class BayesFilter : public ContactEstimator {
     return measurement_[static_cast<std::size_t>(side)];
   }
 
- private:
+ protected:
   const Belief& estimate(const Signals& signals) noexcept override;
 
   BayesFilterConfig config_;

@@ -26,34 +26,7 @@ void check_grid(std::span<const double> grid, std::size_t expected, const char* 
   }
 }
 
-std::vector<double> in_wheel_rows(std::span<const double> values, const Axis& knee,
-                                  const Axis& wheel, GridRows rows) {
-  if (rows == GridRows::wheel || values.size() != cell_count(knee, wheel)) {
-    return {values.begin(), values.end()};
-  }
-  const auto knees = static_cast<std::size_t>(knee.count);
-  const auto wheels = static_cast<std::size_t>(wheel.count);
-  std::vector<double> turned(values.size());
-  for (std::size_t i = 0; i < wheels; ++i) {
-    for (std::size_t j = 0; j < knees; ++j) turned[i * knees + j] = values[j * wheels + i];
-  }
-  return turned;
-}
-
 }  // namespace
-
-LikelihoodGrids likelihood_grids(std::span<const double> knee_points,
-                                 std::span<const double> wheel_points,
-                                 std::span<const double> contact,
-                                 std::span<const double> no_contact, GridRows rows) {
-  const Axis knee = axis_from_points(knee_points);
-  const Axis wheel = axis_from_points(wheel_points);
-  LikelihoodGrids grids{knee, wheel, in_wheel_rows(contact, knee, wheel, rows),
-                        in_wheel_rows(no_contact, knee, wheel, rows)};
-  check_grid(grids.contact, cell_count(knee, wheel), "contact");
-  check_grid(grids.no_contact, cell_count(knee, wheel), "no-contact");
-  return grids;
-}
 
 std::vector<double> contact_probability(const LikelihoodGrids& grids) {
   std::vector<double> probability(grids.contact.size());

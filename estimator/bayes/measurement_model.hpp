@@ -32,17 +32,6 @@ struct LikelihoodGrids {
   std::vector<double> no_contact;
 };
 
-/// Which axis the rows of an external grid follow.
-enum class GridRows : int { wheel, knee };
-
-/// Grids from axes given point by point and values in either axis order.
-/// Throws InputError unless the axes are regular and the sizes agree.
-LikelihoodGrids likelihood_grids(std::span<const double> knee_points,
-                                 std::span<const double> wheel_points,
-                                 std::span<const double> contact,
-                                 std::span<const double> no_contact,
-                                 GridRows rows = GridRows::wheel);
-
 /// P(contact) at every grid point with a flat prior: contact / (contact + no contact), one half
 /// where both are zero.
 std::vector<double> contact_probability(const LikelihoodGrids& grids);

@@ -3,31 +3,11 @@
 #include <utility>
 
 namespace touchdown {
-namespace {
-
-SignalGuardConfig without_accelerometer(SignalGuardConfig config) {
-  config.frozen_after = 0.0;
-  return config;
-}
-
-}  // namespace
-
-MeasurementOnly::MeasurementOnly(MeasurementModel model, const BayesFilterConfig& config)
-    : config_(config),
-      model_(std::move(model), config.measurement),
-      torques_(config.measurement, config.sample_rate),
-      guard_(without_accelerometer(config.guard), config.sample_rate) {
-  check_measurement_config(config.measurement, config.threshold);
-  reset();
-}
-
-void MeasurementOnly::reset() noexcept {
-  guard_.reset();
-  torques_.reset();
-  measurement_ = {};
-  belief_ = Belief{};
-  apply_threshold(belief_, config_.threshold);
-}
+MeasurementOnly::MeasurementOnly(MeasurementModel model, BayesFilterConfig config)
+    : BayesFilter(std::move(model), [&] {
+        config.guard.frozen_after = 0.0;  // there is no accelerometer
+        return config;
+      }()) {}
 
 const Belief& MeasurementOnly::estimate(const Signals& signals) noexcept {
   const SignalGuard::Verdict verdict = guard_.check(signals.time, 0.0);

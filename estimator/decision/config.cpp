@@ -54,11 +54,12 @@ void check_decision_config(const DecisionConfig& config) {
         "decision: wheel_inertia (kg·m²), difference (s) and smoothing (s per N·m) must "
         "not be negative");
   }
-  if (!(config.leave_below > 0.0 && config.leave_below <= config.return_above &&
-        config.return_above < 1.0)) {
+  const OperatingPoint& point = config.point;
+  if (!(point.leave_below > 0.0 && point.leave_below <= point.return_above &&
+        point.return_above < 1.0)) {
     throw InputError("decision: leave_below and return_above must be probabilities in this order");
   }
-  if (!(config.settle_at > 0.0 && config.settle_at < 1.0 && is_level(config.settle_after))) {
+  if (!(point.settle_at > 0.0 && point.settle_at < 1.0 && is_level(point.settle_after))) {
     throw InputError(
         "decision: settle_at must be a probability, and settle_after (s) must not be negative");
   }

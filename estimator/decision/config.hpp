@@ -57,19 +57,11 @@ struct DecisionConfig {
   bool servo_load = false;
   /// Time constant of the logit's low-pass per N·m of estimated torque noise (s).
   double smoothing = 1e-3;
-  /// The operating point.
-  double leave_below = balanced_point.leave_below;
-  double return_above = balanced_point.return_above;
-  double settle_at = balanced_point.settle_at;
-  double settle_after = balanced_point.settle_after;  ///< s
+  OperatingPoint point = balanced_point;
   SignalGuardConfig guard = {};
 
   bool operator==(const DecisionConfig&) const = default;
 };
-
-[[nodiscard]] inline OperatingPoint point_of(const DecisionConfig& config) noexcept {
-  return {config.leave_below, config.return_above, config.settle_at, config.settle_after};
-}
 
 /// Throw InputError for invalid values.
 void check_decision_fit_config(const DecisionFitConfig& config);

@@ -22,7 +22,7 @@ Inputs inputs_at(const auto& columns, const std::vector<RowPlace>& places, Eigen
 }
 
 template <typename Inputs>
-std::vector<float> values_of(std::size_t input, const auto& columns,
+std::vector<float> values_at(std::size_t input, const auto& columns,
                              const std::vector<RowPlace>& places, Eigen::Index count) {
   // Where the other wheel has this input in a column, and with which sign.
   Inputs numbers;
@@ -50,12 +50,10 @@ ServoLoadInputs DecisionRows::servo_load_of(Eigen::Index row) const {
   return has_servo_load() ? inputs_at<ServoLoadInputs>(servo, places, row) : ServoLoadInputs{};
 }
 
-std::vector<float> DecisionRows::values_of_input(std::size_t input) const {
-  return values_of<DecisionInputs>(input, inputs, places, count());
-}
-
-std::vector<float> DecisionRows::values_of_servo_load(std::size_t input) const {
-  return values_of<ServoLoadInputs>(input, servo, places, count());
+std::vector<float> DecisionRows::values_of(std::size_t input) const {
+  return input < decision_inputs
+             ? values_at<DecisionInputs>(input, inputs, places, count())
+             : values_at<ServoLoadInputs>(input - decision_inputs, servo, places, count());
 }
 
 }  // namespace touchdown

@@ -42,9 +42,8 @@ struct DecisionRows {
   [[nodiscard]] DecisionInputs inputs_of(Eigen::Index row) const;
   /// Zeros without the optional channel.
   [[nodiscard]] ServoLoadInputs servo_load_of(Eigen::Index row) const;
-  /// One of the inputs, of all rows.
-  [[nodiscard]] std::vector<float> values_of_input(std::size_t input) const;
-  [[nodiscard]] std::vector<float> values_of_servo_load(std::size_t input) const;
+  /// One of the inputs, of all rows; those of the optional channel come last.
+  [[nodiscard]] std::vector<float> values_of(std::size_t input) const;
 };
 
 /// One step of Adam (Kingma, Ba 2015) with decoupled weight decay. The learning rate falls to zero

@@ -166,11 +166,18 @@ void FeatureExtractor::dropout(double seconds) noexcept {
 
 // The next functions are inline, because position-independent code calls all others.
 
+/// Whether a source is frozen. One that reports only zeros may not exist.
+template <std::size_t count>
+inline bool is_frozen(Repetition<count>& source, const std::array<double, count>& values) noexcept {
+  return source.update(values) && values != std::array<double, count>{};
+}
+
 /// Whether the leg's bus hangs: all its servos repeat themselves. A single servo may be at rest.
 inline bool FeatureExtractor::is_frozen(const LegSignals& leg, std::size_t side) noexcept {
-  return leg_repetition_[side].update({leg.hip.position, leg.hip.velocity, leg.hip.torque,
-                                       leg.knee.position, leg.knee.velocity, leg.knee.torque,
-                                       leg.wheel.position, leg.wheel.velocity, leg.wheel.torque});
+  return touchdown::is_frozen<9>(
+      leg_repetition_[side],
+      {leg.hip.position, leg.hip.velocity, leg.hip.torque, leg.knee.position, leg.knee.velocity,
+       leg.knee.torque, leg.wheel.position, leg.wheel.velocity, leg.wheel.torque});
 }
 
 /// After a dropout longer than a gap, the present input counts for all of it.
@@ -258,7 +265,8 @@ FeatureExtractor::Step FeatureExtractor::update(const Signals& signals) noexcept
     if (frozen) report(SignalStatus::frozen);
   }
   const Eigen::Vector3d& turn = signals.angular_velocity;
-  const bool is_gyro_frozen = gyro_repetition_.update({turn.x(), turn.y(), turn.z()});
+  const bool is_gyro_frozen =
+      touchdown::is_frozen<3>(gyro_repetition_, {turn.x(), turn.y(), turn.z()});
   const bool has_roll_rate = std::isfinite(turn.x()) && !is_gyro_frozen;
   if (is_gyro_frozen) report(SignalStatus::frozen);
   if (!std::isfinite(turn.x())) step.status = SignalStatus::invalid;

@@ -11,8 +11,8 @@ const Belief& DecisionNetwork::estimate(const Signals& signals) noexcept {
   const std::array<bool, 2>& is_valid = decision_.update(signals);
   std::array<float, 2> logits{};
   if (is_valid[0] || is_valid[1]) {
-    decision_.compute_pair_inputs();
-    logits = network_.logits(decision_.pair_inputs());
+    decision_.features().compute_pair_inputs();
+    logits = network_.logits(decision_.features().pair_inputs());
   }
   return decision_.decide({logits[0], logits[1]});
 }

@@ -16,48 +16,14 @@ namespace {
 constexpr int input_count = static_cast<int>(decision_inputs);
 constexpr int first_count = static_cast<int>(decision_first);
 constexpr int second_count = static_cast<int>(decision_second);
+constexpr int servo_count = static_cast<int>(std::tuple_size_v<ServoLoadInputs>);
 
-// A model's weights as a matrix, outputs × inputs, in the order in which they are stored.
-template <typename Model>
-auto weights_of_first(Model& model) {
-  using Matrix = Eigen::Matrix<float, first_count, input_count>;
-  return Eigen::Map<std::conditional_t<std::is_const_v<Model>, const Matrix, Matrix>>(
-      model.first_weight.data());
-}
-template <typename Model>
-auto weights_of_second(Model& model) {
-  using Matrix = Eigen::Matrix<float, second_count, first_count>;
-  return Eigen::Map<std::conditional_t<std::is_const_v<Model>, const Matrix, Matrix>>(
-      model.second_weight.data());
-}
-template <typename Model>
-auto weights_of_servo(Model& model) {
-  using Matrix =
-      Eigen::Matrix<float, first_count, static_cast<int>(std::tuple_size_v<ServoLoadInputs>)>;
-  return Eigen::Map<std::conditional_t<std::is_const_v<Model>, const Matrix, Matrix>>(
-      model.servo_weight.data());
-}
-template <std::size_t size>
-Eigen::Map<const Eigen::Matrix<float, static_cast<int>(size), 1>> column(
-    const std::array<float, size>& values) {
-  return Eigen::Map<const Eigen::Matrix<float, static_cast<int>(size), 1>>(values.data());
-}
-template <std::size_t size>
-Eigen::Map<Eigen::Matrix<float, static_cast<int>(size), 1>> column(
-    std::array<float, size>& values) {
-  return Eigen::Map<Eigen::Matrix<float, static_cast<int>(size), 1>>(values.data());
-}
-
-/// Calls `part` with the same parameters of all models, part by part.
-template <typename Part, typename... Models>
-void for_each_part(const Part& part, Models&... models) {
-  part(std::span(models.first_weight)...);
-  part(std::span(models.first_bias)...);
-  part(std::span(models.second_weight)...);
-  part(std::span(models.second_bias)...);
-  part(std::span(models.last_weight)...);
-  part(std::span(&models.last_bias, 1)...);
-  part(std::span(models.servo_weight)...);
+/// Weights as a matrix, outputs × inputs, in the order in which they are stored.
+template <int outputs, int inputs = 1, typename Numbers>
+auto matrix_of(Numbers& weights) {
+  using Matrix = Eigen::Matrix<float, outputs, inputs>;
+  return Eigen::Map<std::conditional_t<std::is_const_v<Numbers>, const Matrix, Matrix>>(
+      weights.data());
 }
 
 /// He's rule: the outputs of a rectified layer keep the size of its inputs.
@@ -105,13 +71,16 @@ std::array<double, 2> class_weights(const DecisionRows& rows, double exponent) {
 double decision_loss(const DecisionModel& model, const DecisionRows& rows,
                      DecisionModel* gradient) {
   using Values = Eigen::MatrixXf;
-  Values h1 = (weights_of_first(model) * rows.inputs).colwise() + column(model.first_bias);
-  if (rows.has_servo_load()) h1 += weights_of_servo(model) * rows.servo;
+  Values h1 = (matrix_of<first_count, input_count>(model.first_weight) * rows.inputs).colwise() +
+              matrix_of<first_count>(model.first_bias);
+  if (rows.has_servo_load())
+    h1 += matrix_of<first_count, servo_count>(model.servo_weight) * rows.servo;
   h1 = h1.cwiseMax(0.0F);
-  const Values h2 =
-      ((weights_of_second(model) * h1).colwise() + column(model.second_bias)).cwiseMax(0.0F);
+  const Values h2 = ((matrix_of<second_count, first_count>(model.second_weight) * h1).colwise() +
+                     matrix_of<second_count>(model.second_bias))
+                        .cwiseMax(0.0F);
   const Eigen::RowVectorXf logit =
-      (column(model.last_weight).transpose() * h2).array() + model.last_bias;
+      (matrix_of<second_count>(model.last_weight).transpose() * h2).array() + model.last_bias;
   const float all = rows.weight.sum();
   // log(1 + e^z) − y z, for any z.
   const Eigen::RowVectorXf tail = (-logit.array().abs()).exp();
@@ -126,16 +95,18 @@ double decision_loss(const DecisionModel& model, const DecisionRows& rows,
       (logit.array() >= 0.0F).select(1.0F, tail.array()) / (tail.array() + 1.0F);
   const Eigen::RowVectorXf to_logit = (p - rows.is_contact).cwiseProduct(rows.weight) / all;
   gradient->last_bias = to_logit.sum();
-  column(gradient->last_weight) = h2 * to_logit.transpose();
-  const Values to_second = (column(model.last_weight) * to_logit)
+  matrix_of<second_count>(gradient->last_weight) = h2 * to_logit.transpose();
+  const Values to_second = (matrix_of<second_count>(model.last_weight) * to_logit)
                                .cwiseProduct((h2.array() > 0.0F).cast<float>().matrix());
-  column(gradient->second_bias) = to_second.rowwise().sum();
-  weights_of_second(*gradient) = to_second * h1.transpose();
-  const Values to_first = (weights_of_second(model).transpose() * to_second)
-                              .cwiseProduct((h1.array() > 0.0F).cast<float>().matrix());
-  column(gradient->first_bias) = to_first.rowwise().sum();
-  weights_of_first(*gradient) = to_first * rows.inputs.transpose();
-  if (rows.has_servo_load()) weights_of_servo(*gradient) = to_first * rows.servo.transpose();
+  matrix_of<second_count>(gradient->second_bias) = to_second.rowwise().sum();
+  matrix_of<second_count, first_count>(gradient->second_weight) = to_second * h1.transpose();
+  const Values to_first =
+      (matrix_of<second_count, first_count>(model.second_weight).transpose() * to_second)
+          .cwiseProduct((h1.array() > 0.0F).cast<float>().matrix());
+  matrix_of<first_count>(gradient->first_bias) = to_first.rowwise().sum();
+  matrix_of<first_count, input_count>(gradient->first_weight) = to_first * rows.inputs.transpose();
+  if (rows.has_servo_load())
+    matrix_of<first_count, servo_count>(gradient->servo_weight) = to_first * rows.servo.transpose();
   return loss;
 }
 
@@ -150,7 +121,8 @@ DecisionModel train_decision_model(const DecisionRows& rows, const DecisionFitCo
   descend(rows, config, draws, before_step,
           [&](const DecisionRows& batch, const AdamStep& adam_step) {
             static_cast<void>(decision_loss(model, batch, &gradient));
-            for_each_part(adam_step, model, gradient, mean, square);
+            for_each_part([&](const char*, auto... numbers) { adam_step(numbers...); }, model,
+                          gradient, mean, square);
           });
   return model;
 }
@@ -170,7 +142,7 @@ DecisionRows decision_rows(std::span<const LabelledRun> runs, const DecisionConf
   DecisionRows rows;
   rows.inputs.resize(static_cast<int>(decision_inputs), static_cast<Eigen::Index>(most));
   if (config.servo_load) {
-    rows.servo.resize(static_cast<int>(std::tuple_size_v<ServoLoadInputs>), rows.inputs.cols());
+    rows.servo.resize(servo_count, rows.inputs.cols());
   }
   rows.places.reserve(2 * most);
   rows.is_contact.resize(2 * rows.inputs.cols());

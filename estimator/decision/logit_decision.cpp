@@ -36,7 +36,6 @@ const Belief& LogitDecision::decide(const std::array<double, 2>& logit) noexcept
   constexpr double surest = 30.0;
   const double steps = config_.smoothing * features_.torque_noise() * config_.sample_rate;
   const double gain = 1.0 / (1.0 + steps);
-  const OperatingPoint point = point_of(config_);
   for (std::size_t side = 0; side < 2; ++side) {
     WheelBelief& wheel = belief_.wheel[side];
     if (step_.is_valid[side]) {
@@ -44,7 +43,8 @@ const Belief& LogitDecision::decide(const std::array<double, 2>& logit) noexcept
       logit_[side] = is_started_[side] ? logit_[side] + gain * (now - logit_[side]) : now;
       is_started_[side] = true;
       wheel.p_contact = 1.0 / (1.0 + exponential(-logit_[side]));
-      wheel.contact = decision_[side].update(wheel.contact, wheel.p_contact, step_.elapsed, point);
+      wheel.contact =
+          decision_[side].update(wheel.contact, wheel.p_contact, step_.elapsed, config_.point);
     } else {  // the last decision stands
       wheel.p_contact = features_.relaxed(wheel.p_contact, step_.elapsed);
       is_started_[side] = false;

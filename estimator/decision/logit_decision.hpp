@@ -28,24 +28,10 @@ class LogitDecision {
 
   /// Takes the signals of one step. Returns whether it has inputs: left, right wheel.
   const std::array<bool, 2>& update(const Signals& signals) noexcept;
-  /// Computes the step's inputs: of the left wheel, which are those of the right one in another
-  /// order; of both.
-  void compute_inputs() noexcept { features_.compute_inputs(); }
-  void compute_pair_inputs() noexcept { features_.compute_pair_inputs(); }
-  /// The inputs as last computed.
-  [[nodiscard]] const DecisionInputs& left_inputs() const noexcept {
-    return features_.left_inputs();
-  }
-  [[nodiscard]] const DecisionPairInputs& pair_inputs() const noexcept {
-    return features_.pair_inputs();
-  }
-  [[nodiscard]] const ServoLoadInputs& left_servo_load() const noexcept {
-    return features_.left_servo_load();
-  }
-  /// As `FeatureExtractor::is_servo_load_muted`.
-  [[nodiscard]] bool is_servo_load_muted() const noexcept {
-    return features_.is_servo_load_muted();
-  }
+  /// The features of the step; its inputs have to be computed first.
+  [[nodiscard]] FeatureExtractor& features() noexcept { return features_; }
+  [[nodiscard]] const FeatureExtractor& features() const noexcept { return features_; }
+
   /// The belief, given ln P(contact) / P(no contact) of each wheel that has inputs.
   const Belief& decide(const std::array<double, 2>& logit) noexcept;
 

@@ -9,34 +9,6 @@
 
 namespace touchdown {
 
-namespace {
-
-template <std::size_t inputs, std::size_t outputs>
-using Layer =
-    Eigen::Map<const Eigen::Matrix<float, static_cast<int>(outputs), static_cast<int>(inputs)>>;
-
-/// One rectified layer.
-template <std::size_t inputs, std::size_t outputs>
-std::array<float, outputs> rectified(const std::array<float, inputs * outputs>& weight,
-                                     const std::array<float, outputs>& bias,
-                                     const std::array<float, inputs>& x) noexcept {
-  constexpr auto rows = static_cast<int>(outputs);
-  constexpr auto columns = static_cast<int>(inputs);
-  std::array<float, outputs> values = bias;
-  Eigen::Map<Eigen::Matrix<float, rows, 1>> sums(values.data());
-  sums.noalias() += Eigen::Map<const Eigen::Matrix<float, rows, columns>>(weight.data()) *
-                    Eigen::Map<const Eigen::Matrix<float, columns, 1>>(x.data());
-  sums = sums.cwiseMax(0.0F);
-  return values;
-}
-
-template <typename Numbers>
-bool is_finite(const Numbers& numbers) {
-  return std::all_of(numbers.begin(), numbers.end(), [](float x) { return std::isfinite(x); });
-}
-
-}  // namespace
-
 DecisionInputs of_other_wheel(const DecisionInputs& inputs) noexcept {
   constexpr std::size_t of_legs = DecisionPairInputs::of_legs;
   constexpr std::size_t roll = 2 * of_legs + decision_scales;
@@ -51,22 +23,6 @@ ServoLoadInputs of_other_wheel(const ServoLoadInputs& inputs) noexcept {
   ServoLoadInputs other = inputs;
   std::rotate(other.begin(), other.begin() + decision_scales, other.end());
   return other;
-}
-
-float decision_logit(const DecisionModel& model, const DecisionInputs& inputs,
-                     const ServoLoadInputs& servo) noexcept {
-  std::array<float, decision_first> bias = model.first_bias;
-  if (!model.servo_weight.empty()) {
-    constexpr std::size_t count = std::tuple_size_v<ServoLoadInputs>;
-    Layer<1, decision_first>::PlainObject sums =
-        Layer<count, decision_first>(model.servo_weight.data()) * Layer<1, count>(servo.data());
-    for (std::size_t k = 0; k < bias.size(); ++k) bias[k] += sums[static_cast<Eigen::Index>(k)];
-  }
-  const auto first = rectified(model.first_weight, bias, inputs);
-  const auto second = rectified(model.second_weight, model.second_bias, first);
-  float logit = model.last_bias;
-  for (std::size_t k = 0; k < second.size(); ++k) logit += model.last_weight[k] * second[k];
-  return logit;
 }
 
 PairedDecisionNetwork::PairedDecisionNetwork(const DecisionModel& model) noexcept : model_(model) {
@@ -145,13 +101,12 @@ void check_decision_model(const DecisionModel& model) {
   if (!model.servo_weight.empty() && model.servo_weight.size() != servo_weights) {
     throw InputError("decision network: expected servo_weight of every input and unit, or none");
   }
-  if (is_finite(model.first_weight) && is_finite(model.first_bias) &&
-      is_finite(model.second_weight) && is_finite(model.second_bias) &&
-      is_finite(model.last_weight) && is_finite(model.servo_weight) &&
-      std::isfinite(model.last_bias)) {
-    return;
-  }
-  throw InputError("decision network: its weights must be finite");
+  for_each_part(
+      [](const char* /*name*/, std::span<const float> numbers) {
+        if (std::ranges::all_of(numbers, [](float x) { return std::isfinite(x); })) return;
+        throw InputError("decision network: its weights must be finite");
+      },
+      model);
 }
 
 }  // namespace touchdown

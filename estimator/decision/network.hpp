@@ -44,11 +44,19 @@ struct DecisionModel {
   bool operator==(const DecisionModel&) const = default;
 };
 
-inline constexpr std::size_t servo_weights = std::tuple_size_v<ServoLoadInputs> * decision_first;
+/// Calls `part(name, numbers...)` with the same parameters of all models, part by part.
+template <typename Part, typename... Models>
+void for_each_part(const Part& part, Models&... models) {
+  part("first_weight", std::span(models.first_weight)...);
+  part("first_bias", std::span(models.first_bias)...);
+  part("second_weight", std::span(models.second_weight)...);
+  part("second_bias", std::span(models.second_bias)...);
+  part("last_weight", std::span(models.last_weight)...);
+  part("last_bias", std::span(&models.last_bias, 1)...);
+  part("servo_weight", std::span(models.servo_weight)...);
+}
 
-/// ln P(contact) / P(no contact) of one wheel.
-[[nodiscard]] float decision_logit(const DecisionModel& model, const DecisionInputs& inputs,
-                                   const ServoLoadInputs& servo = {}) noexcept;
+inline constexpr std::size_t servo_weights = std::tuple_size_v<ServoLoadInputs> * decision_first;
 
 /// The inputs of both wheels, split into a common part and a difference: for each channel of a leg
 /// the sum and the difference, left − right, of both legs.
@@ -75,7 +83,7 @@ class PairedDecisionNetwork {
  public:
   explicit PairedDecisionNetwork(const DecisionModel& model) noexcept;
 
-  /// `decision_logit` of the left and of the right wheel, up to rounding.
+  /// ln P(contact) / P(no contact) of the left and of the right wheel.
   [[nodiscard]] std::array<float, 2> logits(const DecisionPairInputs& inputs) const noexcept;
 
  private:

@@ -59,12 +59,10 @@ struct EvidenceCurveSets {
 [[nodiscard]] inline std::size_t curve_count(const EvidenceModel& model) noexcept {
   return decision_inputs + model.servo_curve.size();
 }
-[[nodiscard]] inline const EvidenceCurve& curve_of(const EvidenceModel& model,
-                                                   std::size_t i) noexcept {
+[[nodiscard]] inline auto& curve_of(auto& model, std::size_t i) noexcept {
   return i < decision_inputs ? model.curve[i] : model.servo_curve[i - decision_inputs];
 }
-[[nodiscard]] inline const std::array<float, 2>& seen_by(const EvidenceModel& model,
-                                                         std::size_t i) noexcept {
+[[nodiscard]] inline auto& seen_by(auto& model, std::size_t i) noexcept {
   return i < decision_inputs ? model.seen[i] : model.servo_seen[i - decision_inputs];
 }
 

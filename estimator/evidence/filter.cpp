@@ -60,15 +60,12 @@ EvidenceCurves::EvidenceCurves(const EvidenceCurveSets& sets, const DecisionConf
 
 Evidence EvidenceCurves::evidence() const noexcept {
   const EvidenceModel& model = lacks_targets() ? *sets_.without_targets : sets_.usual;
+  const FeatureExtractor& features = decision_.features();
   Evidence evidence;
-  if (has_inputs_[0]) {
-    evidence.contributions[0] =
-        evidence_contributions(model, decision_.left_inputs(), decision_.left_servo_load());
-  }
-  if (has_inputs_[1]) {
-    evidence.contributions[1] =
-        evidence_contributions(model, of_other_wheel(decision_.left_inputs()),
-                               of_other_wheel(decision_.left_servo_load()));
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (!has_inputs_[side]) continue;
+    evidence.contributions[side] =
+        evidence_contributions(model, features.inputs(side), features.servo_load(side));
   }
   return evidence;
 }
@@ -77,9 +74,10 @@ const Belief& EvidenceCurves::estimate(const Signals& signals) noexcept {
   has_inputs_ = decision_.update(signals);
   std::array<float, 2> logits{};
   if (has_inputs_[0] || has_inputs_[1]) {
-    decision_.compute_inputs();
+    FeatureExtractor& features = decision_.features();
+    features.compute_inputs();
     const PairedEvidence& evidence = lacks_targets() ? *without_targets_ : usual_;
-    logits = evidence.logits(decision_.left_inputs(), decision_.left_servo_load());
+    logits = evidence.logits(features.left_inputs(), features.left_servo_load());
   }
   return decision_.decide({logits[0], logits[1]});
 }

@@ -42,7 +42,7 @@ class EvidenceCurves : public ContactEstimator {
  private:
   const Belief& estimate(const Signals& signals) noexcept override;
   [[nodiscard]] bool lacks_targets() const noexcept {
-    return without_targets_ && decision_.is_servo_load_muted();
+    return without_targets_ && decision_.features().is_servo_load_muted();
   }
 
   EvidenceCurveSets sets_;

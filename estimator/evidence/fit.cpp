@@ -25,25 +25,21 @@ void add(auto& values, const EvidencePosition& at, float amount) {
 /// Calls `part` with the same fitted numbers of all models, part by part.
 template <typename Part, typename... Models>
 void for_each_number(const Part& part, Models&... models) {
-  for (std::size_t i = 0; i < decision_inputs; ++i) part(std::span(models.curve[i])...);
-  const std::size_t servo = std::min({models.servo_curve.size()...});
-  for (std::size_t i = 0; i < servo; ++i) part(std::span(models.servo_curve[i])...);
+  const std::size_t count = std::min({curve_count(models)...});
+  for (std::size_t i = 0; i < count; ++i) part(std::span(curve_of(models, i))...);
   part(std::span(&models.bias, 1)...);
 }
 
 /// Adds the gradient of `cost`/2 times the squared differences of neighbouring knots.
 void add_smoothness(const EvidenceModel& model, float cost, EvidenceModel& gradient) {
-  const auto between = [cost](const auto& values, auto& slopes, std::size_t a, std::size_t b) {
-    const float slope = cost * (values[b] - values[a]);
-    slopes[a] -= slope;
-    slopes[b] += slope;
-  };
-  const auto along = [&](const EvidenceCurve& curve, EvidenceCurve& slopes) {
-    for (std::size_t k = 0; k + 1 < evidence_knots; ++k) between(curve, slopes, k, k + 1);
-  };
-  for (std::size_t i = 0; i < decision_inputs; ++i) along(model.curve[i], gradient.curve[i]);
-  for (std::size_t i = 0; i < model.servo_curve.size(); ++i) {
-    along(model.servo_curve[i], gradient.servo_curve[i]);
+  for (std::size_t i = 0; i < curve_count(model); ++i) {
+    const EvidenceCurve& curve = curve_of(model, i);
+    EvidenceCurve& slopes = curve_of(gradient, i);
+    for (std::size_t k = 0; k + 1 < evidence_knots; ++k) {
+      const float slope = cost * (curve[k + 1] - curve[k]);
+      slopes[k] -= slope;
+      slopes[k + 1] += slope;
+    }
   }
 }
 
@@ -81,41 +77,29 @@ float centred(Values& values, const std::vector<double>& weight) {
 /// Centres every curve over the rows and adds the means to the bias.
 void centre(EvidenceModel& model, const DecisionRows& rows) {
   std::vector<double> weight(evidence_knots);
-  const auto centre_curve = [&](EvidenceCurve& curve, const std::vector<float>& inputs) {
+  for (std::size_t i = 0; i < curve_count(model); ++i) {
+    const std::vector<float> inputs = rows.values_of(i);
     std::fill(weight.begin(), weight.end(), 0.0);
     for (std::size_t row = 0; row < inputs.size(); ++row) {
       add(weight, evidence_position(inputs[row]), rows.weight[static_cast<Eigen::Index>(row)]);
     }
-    model.bias += centred(curve, weight);
-  };
-  for (std::size_t i = 0; i < decision_inputs; ++i) {
-    centre_curve(model.curve[i], rows.values_of_input(i));
-  }
-  for (std::size_t i = 0; i < model.servo_curve.size(); ++i) {
-    centre_curve(model.servo_curve[i], rows.values_of_servo_load(i));
+    model.bias += centred(curve_of(model, i), weight);
   }
 }
 
 /// Sets for each input the range that holds all but two in a thousand rows.
 void set_seen_ranges(EvidenceModel& model, const DecisionRows& rows) {
   const auto count = static_cast<std::size_t>(rows.count());
-  const auto range_of = [&](std::vector<float> values) {
-    std::array<float, 2> range{};
-    const std::size_t beyond = count / 1000;
+  const std::size_t beyond = count / 1000;
+  model.servo_seen.resize(model.servo_curve.size());
+  for (std::size_t input = 0; input < curve_count(model); ++input) {
+    std::vector<float> values = rows.values_of(input);
     for (const bool upper : {false, true}) {
       const auto nth =
           values.begin() + static_cast<std::ptrdiff_t>(upper ? count - 1 - beyond : beyond);
       std::nth_element(values.begin(), nth, values.end());
-      range[upper ? 1 : 0] = *nth;
+      seen_by(model, input)[upper ? 1 : 0] = *nth;
     }
-    return range;
-  };
-  for (std::size_t i = 0; i < decision_inputs; ++i) {
-    model.seen[i] = range_of(rows.values_of_input(i));
-  }
-  model.servo_seen.clear();
-  for (std::size_t i = 0; i < model.servo_curve.size(); ++i) {
-    model.servo_seen.push_back(range_of(rows.values_of_servo_load(i)));
   }
 }
 

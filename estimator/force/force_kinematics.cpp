@@ -54,7 +54,7 @@ double exponent_ratio(const ForceKinematicsModel& model,
 
 }  // namespace
 
-AxleMotion::AxleMotion(const AxleMotionConfig& config) noexcept
+AxleMotion::AxleMotion(const ForceKinematicsConfig& config) noexcept
     : geometry_(config.geometry),
       time_step_(1.0 / config.sample_rate),
       leak_(exact_low_pass_gain(config.leak, config.sample_rate)) {}
@@ -76,9 +76,7 @@ void AxleMotion::update(const Signals& signals, double acceleration) noexcept {
 }
 
 WheelObservations::WheelObservations(const ForceKinematicsConfig& config)
-    : loads_(loads_of(config)),
-      motion_(
-          {.sample_rate = config.sample_rate, .geometry = config.geometry, .leak = config.leak}) {}
+    : loads_(loads_of(config)), motion_(config) {}
 
 void WheelObservations::reset() noexcept {
   loads_.reset();

@@ -230,10 +230,10 @@ void visit_members(Visit& visit, Config& config) {
   }
   visit("difference", config.difference);
   visit("smoothing", config.smoothing);
-  visit("leave_below", config.leave_below);
-  visit("return_above", config.return_above);
-  visit("settle_at", config.settle_at);
-  visit("settle_after", config.settle_after);
+  visit("leave_below", config.point.leave_below);
+  visit("return_above", config.point.return_above);
+  visit("settle_at", config.point.settle_at);
+  visit("settle_after", config.point.settle_after);
   visit_guard(visit, config.guard);
 }
 
@@ -269,7 +269,7 @@ void configure(ForceKinematicsConfig& config, const ConfigurationText& text) { r
 void configure(DecisionConfig& config, const ConfigurationText& text) {
   // In older files thresholds alone decide.
   if (text.contains("return_above") && !text.contains("settle_after")) {
-    config.settle_after = 0.0;
+    config.point.settle_after = 0.0;
   }
   read(config, text);
 }

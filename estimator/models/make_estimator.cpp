@@ -102,12 +102,7 @@ Recipe of_phases(std::string_view name) {
 /// the same for all points.
 template <typename Estimator, auto model_of>
 Recipe of_decisions(std::string_view name, std::string_view fit, const OperatingPoint& point) {
-  return recipe_of<Estimator, of_parameters<model_of>>(
-      name, fit,
-      DecisionConfig{.leave_below = point.leave_below,
-                     .return_above = point.return_above,
-                     .settle_at = point.settle_at,
-                     .settle_after = point.settle_after});
+  return recipe_of<Estimator, of_parameters<model_of>>(name, fit, DecisionConfig{.point = point});
 }
 
 const std::vector<Recipe>& recipes() {

@@ -142,7 +142,9 @@ bool is_same_rate(double rate, double other) {
   return std::abs(rate - other) <= tolerance * other;
 }
 
-ServedRates served_rates(const ModelMetadata& metadata) {
+/// The lowest and the highest rate at which a model may be used (Hz): those that its estimator was
+/// measured at (docs/results.md), and the fitted one.
+static std::pair<double, double> served_rates(const ModelMetadata& metadata) {
   const double fitted = metadata.sample_rate;
   // The features of evidence curves last as long at any rate.
   constexpr double measured_fit = 1000.0;  // Hz

@@ -57,18 +57,10 @@ struct ModelUse {
 /// Errors: `InputError` for a rate that is neither 0 nor a positive finite number.
 void check_sample_rate(const ModelUse& use);
 
-/// The rates at which a model may be used (Hz): those that its estimator was measured at
-/// (docs/results.md), and the fitted one. Rates that differ by less than 1 % are equal.
-struct ServedRates {
-  double lowest = 0.0;
-  double highest = 0.0;
-};
-ServedRates served_rates(const ModelMetadata& metadata);
-
 /// Whether two rates are equal: clocks of one robot differ from day to day.
 bool is_same_rate(double rate, double other);
 
-/// Errors: `InputError` as above, if the required rate is not one of `served_rates`, or the robot
+/// Errors: `InputError` as above, if the model does not serve the required rate, or the robot
 /// differs from the model's; the message names both. A model without a robot fits any robot.
 void check_use(const ModelMetadata& metadata, const ModelUse& use);
 

@@ -89,10 +89,10 @@ ModelArray points(const Axis& axis) {
 MeasurementModel measurement_model_of(const ModelArrays& arrays) {
   require_arrays(arrays, "measurement model",
                  {"wheel_torque", "knee_torque", "contact_likelihood", "no_contact_likelihood"});
-  const std::vector<double>& contact = grid(arrays, "contact_likelihood");
-  const std::vector<double>& no_contact = grid(arrays, "no_contact_likelihood");
-  return MeasurementModel(likelihood_grids(arrays.at("knee_torque").data,
-                                           arrays.at("wheel_torque").data, contact, no_contact));
+  return MeasurementModel(LikelihoodGrids{axis_from_points(arrays.at("knee_torque").data),
+                                          axis_from_points(arrays.at("wheel_torque").data),
+                                          grid(arrays, "contact_likelihood"),
+                                          grid(arrays, "no_contact_likelihood")});
 }
 
 ModelArrays arrays_of(const MeasurementModel& model) {
@@ -138,18 +138,11 @@ ModelArray to_array(const Eigen::MatrixXf& matrix, bool is_vector) {
 
 }  // namespace
 
-std::vector<std::string> neural_array_names() {
-  std::vector<std::string> names;
-  names.emplace_back("period");
-  NeuralNetwork network;
-  for_each_array(network,
-                 [&](const std::string& name, const auto& /*matrix*/) { names.push_back(name); });
-  return names;
-}
-
 NeuralNetwork neural_network_of(const ModelArrays& arrays) {
   NeuralNetwork network;
-  require_arrays(arrays, "neural measurement network", neural_array_names());
+  std::vector<std::string> names = {"period"};
+  for_each_array(network, [&](const std::string& name, const auto&) { names.push_back(name); });
+  require_arrays(arrays, "neural measurement network", names);
   for_each_array(network, [&]<typename Matrix>(const std::string& name, Matrix& matrix) {
     const ModelArray& array = arrays.at(name);
     constexpr std::size_t axes = Matrix::ColsAtCompileTime == 1 ? 1 : 2;

@@ -48,12 +48,10 @@ MeasurementModel measurement_model_of(const ModelArrays& arrays);
 /// The inverse, `P_contact` included: contact over the sum of both, ½ where both are zero.
 ModelArrays arrays_of(const MeasurementModel& model);
 
-/// The arrays of a neural measurement network: `period`, `input_mean`, `input_scale` and, for
-/// `gru_input`, `gru_hidden`, `first`, `second` and `heads`, `<layer>_weight` and `<layer>_bias`.
-std::vector<std::string> neural_array_names();
-
-/// Errors: `InputError` for missing arrays (lists them all), shapes that do not fit, and numbers
-/// that are not finite.
+/// Reads a neural measurement network: `period`, `input_mean`, `input_scale` and, for `gru_input`,
+/// `gru_hidden`, `first`, `second` and `heads`, `<layer>_weight` and `<layer>_bias`. Errors:
+/// `InputError` for missing arrays (lists them all), shapes that do not fit, and numbers that are
+/// not finite.
 NeuralNetwork neural_network_of(const ModelArrays& arrays);
 
 /// The inverse. It keeps every bit of single precision.

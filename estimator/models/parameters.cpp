@@ -24,27 +24,20 @@ constexpr std::array<StateParameter, 4> state_parameters = {
      {"axle_deviation", &WheelState::axle_deviation},
      {"leaving_rate", &WheelState::leaving_rate}}};
 
-/// Calls `part(name, numbers)` for each part of a network.
-template <typename Model, typename Part>
-void for_each_part(Model& model, const Part& part) {
-  part("first_weight", std::span(model.first_weight));
-  part("first_bias", std::span(model.first_bias));
-  part("second_weight", std::span(model.second_weight));
-  part("second_bias", std::span(model.second_bias));
-  part("last_weight", std::span(model.last_weight));
-  part("last_bias", std::span(&model.last_bias, 1));
-}
-
 /// Calls `part(name, first, count)` for each group of inputs with one parameter for their curves:
 /// the time scales of a channel, or a noise level.
 template <typename Part>
-void for_each_channel(const Part& part) {
+void for_each_channel(const EvidenceModel& model, const Part& part) {
   std::size_t first = 0;
-  for (const EvidenceChannel& channel : evidence_channels) {
-    part(channel.name, first, decision_scales);
-    first += decision_scales;
-  }
+  const auto with_scales = [&](const auto& channels) {
+    for (const EvidenceChannel& channel : channels) {
+      part(channel.name, first, decision_scales);
+      first += decision_scales;
+    }
+  };
+  with_scales(evidence_channels);
   for (const char* const name : evidence_noise_names) part(name, first++, std::size_t{1});
+  if (!model.servo_curve.empty()) with_scales(servo_load_channels);
 }
 
 /// Converts values back to the floats that they came from.
@@ -72,18 +65,6 @@ void check_feature_set(const Parameters& parameters) {
       "fit it again");
 }
 
-/// Calls `part(name, first)` for the channels of `ServoLoadInputs`.
-template <typename Part>
-void for_each_servo_channel(const Part& part) {
-  std::size_t first = 0;
-  for (const EvidenceChannel& channel : servo_load_channels) {
-    part(channel.name, first);
-    first += decision_scales;
-  }
-}
-
-constexpr const char* servo_weight_name = "servo_weight";
-
 /// Before the names of the second set's parameters.
 constexpr const char* of_muted_steps = "without_targets_";
 
@@ -98,45 +79,31 @@ std::string seen_name(const std::string& set, const char* channel) {
 /// Adds the parameters of one set of curves. Their names begin with `set`.
 void add_curves(const EvidenceModel& model, const std::string& set, Parameters& parameters) {
   parameters[bias_name(set)] = {model.bias};
-  const auto put = [&](const char* name, const EvidenceCurve* curve,
-                       const std::array<float, 2>* seen_of, std::size_t count) {
+  for_each_channel(model, [&](const char* name, std::size_t first, std::size_t count) {
     std::vector<double>& curves = parameters[curves_name(set, name)];
     std::vector<double>& seen = parameters[seen_name(set, name)];
-    for (std::size_t i = 0; i < count; ++i) {
-      curves.insert(curves.end(), curve[i].begin(), curve[i].end());
-      seen.insert(seen.end(), seen_of[i].begin(), seen_of[i].end());
+    for (std::size_t i = first; i < first + count; ++i) {
+      curves.insert(curves.end(), curve_of(model, i).begin(), curve_of(model, i).end());
+      seen.insert(seen.end(), seen_by(model, i).begin(), seen_by(model, i).end());
     }
-  };
-  for_each_channel([&](const char* name, std::size_t first, std::size_t count) {
-    put(name, model.curve.data() + first, model.seen.data() + first, count);
-  });
-  if (model.servo_curve.empty()) return;
-  for_each_servo_channel([&](const char* name, std::size_t first) {
-    put(name, model.servo_curve.data() + first, model.servo_seen.data() + first, decision_scales);
   });
 }
 
 EvidenceModel curves_of(const Parameters& parameters, const std::string& set) {
   EvidenceModel model;
   model.bias = static_cast<float>(parameter(parameters, bias_name(set)));
-  const auto read = [&](const char* name, EvidenceCurve* curve, std::array<float, 2>* seen_of,
-                        std::size_t count) {
+  if (parameters.contains(curves_name(set, servo_load_channels[0].name))) {
+    model.servo_curve.resize(std::tuple_size_v<ServoLoadInputs>);
+    model.servo_seen.resize(model.servo_curve.size());
+  }
+  for_each_channel(model, [&](const char* name, std::size_t first, std::size_t count) {
     const std::vector<double>& curves =
         parameter(parameters, curves_name(set, name), count * evidence_knots);
     const std::vector<double>& seen = parameter(parameters, seen_name(set, name), 2 * count);
     for (std::size_t i = 0; i < count; ++i) {
-      take(curves.data() + i * evidence_knots, curve[i]);
-      take(seen.data() + 2 * i, seen_of[i]);
+      take(curves.data() + i * evidence_knots, curve_of(model, first + i));
+      take(seen.data() + 2 * i, seen_by(model, first + i));
     }
-  };
-  for_each_channel([&](const char* name, std::size_t first, std::size_t count) {
-    read(name, model.curve.data() + first, model.seen.data() + first, count);
-  });
-  if (!parameters.contains(curves_name(set, servo_load_channels[0].name))) return model;
-  model.servo_curve.resize(std::tuple_size_v<ServoLoadInputs>);
-  model.servo_seen.resize(model.servo_curve.size());
-  for_each_servo_channel([&](const char* name, std::size_t first) {
-    read(name, model.servo_curve.data() + first, model.servo_seen.data() + first, decision_scales);
   });
   return model;
 }
@@ -203,25 +170,21 @@ ForceKinematicsModel force_kinematics_model_of(const Parameters& parameters) {
 Parameters parameters_of(const DecisionModel& model) {
   Parameters parameters;
   add_feature_set(parameters);
-  for_each_part(model, [&](const char* name, auto numbers) {
-    parameters[name].assign(numbers.begin(), numbers.end());
-  });
-  if (!model.servo_weight.empty()) {
-    parameters[servo_weight_name].assign(model.servo_weight.begin(), model.servo_weight.end());
-  }
+  const auto put = [&](const char* name, std::span<const float> numbers) {
+    if (!numbers.empty()) parameters[name].assign(numbers.begin(), numbers.end());
+  };
+  for_each_part(put, model);
   return parameters;
 }
 
 DecisionModel decision_model_of(const Parameters& parameters) {
   check_feature_set(parameters);
   DecisionModel model;
-  for_each_part(model, [&](const char* name, auto numbers) {
-    const std::vector<double>& values = parameter(parameters, name, numbers.size());
-    take(values.data(), numbers);
-  });
-  if (!parameters.contains(servo_weight_name)) return model;
-  model.servo_weight.resize(servo_weights);
-  take(parameter(parameters, servo_weight_name, servo_weights).data(), model.servo_weight);
+  if (parameters.contains("servo_weight")) model.servo_weight.resize(servo_weights);
+  const auto read = [&](const char* name, std::span<float> numbers) {
+    if (!numbers.empty()) take(parameter(parameters, name, numbers.size()).data(), numbers);
+  };
+  for_each_part(read, model);
   return model;
 }
 

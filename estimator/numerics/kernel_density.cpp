@@ -112,21 +112,16 @@ class KernelSums {
     count_ += x.size();
   }
 
-  /// Of one pair of axes; all pairs with the first axis along x come first.
-  [[nodiscard]] std::vector<double> density(std::size_t pair) const {
-    if (count_ == 0) throw InputError("a kernel density needs at least 1 sample, got 0");
-    const AxisKernels& along_x = x_[pair / y_.size()];
-    const AxisKernels& along_y = y_[pair % y_.size()];
-    const Matrix density = sums_[pair] / (static_cast<double>(count_) * 2.0 * std::numbers::pi *
-                                          along_x.bandwidth() * along_y.bandwidth());
-    return {density.data(), density.data() + density.size()};
-  }
-
-  /// Of all pairs. Each frees its sums: together they would take twice the memory.
+  /// Of all pairs of axes, those with the first axis along x first. Each frees its sums: together
+  /// they would take twice the memory.
   [[nodiscard]] std::vector<std::vector<double>> take_densities() && {
     std::vector<std::vector<double>> all;
     for (std::size_t pair = 0; pair < sums_.size(); ++pair) {
-      all.push_back(density(pair));
+      const AxisKernels& along_x = x_[pair / y_.size()];
+      const AxisKernels& along_y = y_[pair % y_.size()];
+      const Matrix density = sums_[pair] / (static_cast<double>(count_) * 2.0 * std::numbers::pi *
+                                            along_x.bandwidth() * along_y.bandwidth());
+      all.emplace_back(density.data(), density.data() + density.size());
       sums_[pair] = Matrix();
     }
     return all;
@@ -190,46 +185,6 @@ std::vector<std::vector<double>> kernel_densities(std::span<const double> x,
     sums.add(x.subspan(first, count), y.subspan(first, count));
   }
   return std::move(sums).take_densities();
-}
-
-struct KernelDensityGrid::Sums {
-  KernelSums of_blocks;
-  std::vector<double> x;  ///< samples that are not in the sums yet
-  std::vector<double> y;
-
-  void add_block() {
-    of_blocks.add(x, y);
-    x.clear();
-    y.clear();
-  }
-};
-
-KernelDensityGrid::KernelDensityGrid(double x_bandwidth, double y_bandwidth, const Axis& x_axis,
-                                     const Axis& y_axis) {
-  const KernelAxis along_x{x_bandwidth, x_axis};
-  const KernelAxis along_y{y_bandwidth, y_axis};
-  sums_ = std::make_unique<Sums>(Sums{KernelSums({&along_x, 1}, {&along_y, 1}), {}, {}});
-  sums_->x.reserve(block);
-  sums_->y.reserve(block);
-}
-
-KernelDensityGrid::~KernelDensityGrid() = default;
-KernelDensityGrid::KernelDensityGrid(KernelDensityGrid&&) noexcept = default;
-KernelDensityGrid& KernelDensityGrid::operator=(KernelDensityGrid&&) noexcept = default;
-
-void KernelDensityGrid::add(double x, double y) {
-  if (!std::isfinite(x) || !std::isfinite(y)) {
-    throw InputError("a kernel density needs finite samples, got (" + std::to_string(x) + ", " +
-                     std::to_string(y) + ")");
-  }
-  sums_->x.push_back(x);
-  sums_->y.push_back(y);
-  if (sums_->x.size() == block) sums_->add_block();
-}
-
-std::vector<double> KernelDensityGrid::density() {
-  if (!sums_->x.empty()) sums_->add_block();
-  return sums_->of_blocks.density(0);
 }
 
 }  // namespace touchdown

@@ -48,28 +48,4 @@ std::vector<std::vector<double>> kernel_densities(std::span<const double> x,
                                                   std::span<const KernelAxis> x_axes,
                                                   std::span<const KernelAxis> y_axes);
 
-/// `kernel_density` in two dimensions for samples that arrive one by one. It does not keep them:
-/// its memory is that of the grid.
-class KernelDensityGrid {
- public:
-  /// Throws InputError for a bandwidth that is not positive and finite, or a bad axis.
-  KernelDensityGrid(double x_bandwidth, double y_bandwidth, const Axis& x_axis, const Axis& y_axis);
-  ~KernelDensityGrid();
-  KernelDensityGrid(KernelDensityGrid&&) noexcept;
-  KernelDensityGrid& operator=(KernelDensityGrid&&) noexcept;
-  KernelDensityGrid(const KernelDensityGrid&) = delete;
-  KernelDensityGrid& operator=(const KernelDensityGrid&) = delete;
-
-  /// Throws InputError for a sample that is not finite.
-  void add(double x, double y);
-
-  /// The density of the samples so far. Throws InputError if there are none.
-  [[nodiscard]] std::vector<double> density();
-
- private:
-  // Hides Eigen's processor-dependent alignment from callers.
-  struct Sums;
-  std::unique_ptr<Sums> sums_;
-};
-
 }  // namespace touchdown

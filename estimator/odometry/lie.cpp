@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 
 namespace touchdown::odometry {
 
@@ -42,24 +42,10 @@ Eigen::Matrix3d exp_so3(const Eigen::Vector3d& angle) noexcept {
   return Eigen::Matrix3d::Identity() + c.sine * cross + c.cosine * cross * cross;
 }
 
-Eigen::Vector3d log_so3(const Eigen::Matrix3d& rotation) noexcept {
-  const Eigen::AngleAxisd turn(rotation);  // via the quaternion: accurate near half a turn, too
-  return turn.angle() * turn.axis();
-}
-
 Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& angle) noexcept {
   const Coefficients c = coefficients(angle.norm());
   const Eigen::Matrix3d cross = hat(angle);
   return Eigen::Matrix3d::Identity() + c.cosine * cross + c.angle_excess * cross * cross;
-}
-
-Eigen::Matrix3d inverse_left_jacobian(const Eigen::Vector3d& angle) noexcept {
-  const double square = angle.squaredNorm();
-  const Coefficients c = coefficients(std::sqrt(square));
-  // (1 − (θ/2) cot(θ/2)) / θ² = (½ (1 − cos θ)/θ² − ½ sin θ/θ + …)/…: from the two others.
-  const double last = square < 1e-8 ? 1.0 / 12.0 : (1.0 - 0.5 * c.sine / c.cosine) / square;
-  const Eigen::Matrix3d cross = hat(angle);
-  return Eigen::Matrix3d::Identity() - 0.5 * cross + last * cross * cross;
 }
 
 ExtendedPose operator*(const ExtendedPose& a, const ExtendedPose& b) noexcept {
@@ -67,33 +53,10 @@ ExtendedPose operator*(const ExtendedPose& a, const ExtendedPose& b) noexcept {
           a.rotation * b.position + a.position};
 }
 
-ExtendedPose inverse(const ExtendedPose& x) noexcept {
-  const Eigen::Matrix3d back = x.rotation.transpose();
-  return {back, -back * x.velocity, -back * x.position};
-}
-
 ExtendedPose exp_se23(const Vector9& xi) noexcept {
   const Eigen::Vector3d angle = xi.head<3>();
   const Eigen::Matrix3d jacobian = left_jacobian(angle);
   return {exp_so3(angle), jacobian * xi.segment<3>(3), jacobian * xi.tail<3>()};
-}
-
-Vector9 log_se23(const ExtendedPose& x) noexcept {
-  const Eigen::Vector3d angle = log_so3(x.rotation);
-  const Eigen::Matrix3d jacobian = inverse_left_jacobian(angle);
-  Vector9 xi;
-  for (int i = 0; i < 3; ++i) xi[i] = angle[i];
-  xi.segment<3>(3) = jacobian * x.velocity;
-  xi.tail<3>() = jacobian * x.position;
-  return xi;
-}
-
-Matrix9 adjoint(const ExtendedPose& x) noexcept {
-  Matrix9 matrix = Matrix9::Zero();
-  matrix.block<3, 3>(0, 0) = matrix.block<3, 3>(3, 3) = matrix.block<3, 3>(6, 6) = x.rotation;
-  matrix.block<3, 3>(3, 0) = hat(x.velocity) * x.rotation;
-  matrix.block<3, 3>(6, 0) = hat(x.position) * x.rotation;
-  return matrix;
 }
 
 }  // namespace touchdown::odometry

@@ -9,18 +9,15 @@ namespace touchdown::odometry {
 // docs/explanation/odometry.md.
 
 using Vector9 = Eigen::Matrix<double, 9, 1>;
-using Matrix9 = Eigen::Matrix<double, 9, 9>;
 
 /// The cross product matrix: hat(v) w = v × w.
 [[nodiscard]] Eigen::Matrix3d hat(const Eigen::Vector3d& v) noexcept;
 
-/// Rotation about `angle` by its length (rad), and its inverse, the shortest such vector.
+/// Rotation about `angle` by its length (rad).
 [[nodiscard]] Eigen::Matrix3d exp_so3(const Eigen::Vector3d& angle) noexcept;
-[[nodiscard]] Eigen::Vector3d log_so3(const Eigen::Matrix3d& rotation) noexcept;
 
-/// J of exp(φ + δ) ≈ exp(J δ) exp(φ), and its inverse, which is undefined at a full turn.
+/// J of exp(φ + δ) ≈ exp(J δ) exp(φ).
 [[nodiscard]] Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& angle) noexcept;
-[[nodiscard]] Eigen::Matrix3d inverse_left_jacobian(const Eigen::Vector3d& angle) noexcept;
 
 /// An element of SE₂(3): orientation, velocity and position of a body in the world.
 struct ExtendedPose {
@@ -30,10 +27,6 @@ struct ExtendedPose {
 };
 
 [[nodiscard]] ExtendedPose operator*(const ExtendedPose& a, const ExtendedPose& b) noexcept;
-[[nodiscard]] ExtendedPose inverse(const ExtendedPose& x) noexcept;
 [[nodiscard]] ExtendedPose exp_se23(const Vector9& xi) noexcept;
-[[nodiscard]] Vector9 log_se23(const ExtendedPose& x) noexcept;
-/// Ad of x exp(ξ) = exp(Ad ξ) x.
-[[nodiscard]] Matrix9 adjoint(const ExtendedPose& x) noexcept;
 
 }  // namespace touchdown::odometry

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "tests/odometry/lie.hpp"
 #include "tests/odometry/rolling_robot.hpp"
 
 namespace touchdown::odometry {
@@ -16,6 +17,10 @@ namespace {
 
 using Eigen::Vector3d;
 using Vector15 = Eigen::Matrix<double, 15, 1>;
+using test::adjoint;
+using test::inverse;
+using test::log_se23;
+using test::log_so3;
 using test::RollingRobot;
 
 OdometryState at(const ExtendedPose& pose) {

@@ -69,24 +69,6 @@ TEST(MeasurementModel, ReturnsItsGrids) {
   EXPECT_EQ(back.no_contact, grids.no_contact);
 }
 
-TEST(MeasurementModel, ReadsEitherAxisOrder) {
-  const LikelihoodGrids grids = planes();
-  std::vector<double> knees;
-  std::vector<double> wheels;
-  for (int j = 0; j < grids.knee.count; ++j) knees.push_back(grids.knee[j]);
-  for (int i = 0; i < grids.wheel.count; ++i) wheels.push_back(grids.wheel[i]);
-  std::vector<double> turned;
-  for (const double knee : knees) {
-    for (const double wheel : wheels) {
-      turned.push_back(contact_plane(knee, wheel));
-    }
-  }
-  const LikelihoodGrids a = likelihood_grids(knees, wheels, grids.contact, grids.no_contact);
-  const LikelihoodGrids b = likelihood_grids(knees, wheels, turned, turned, GridRows::knee);
-  EXPECT_EQ(a.contact, b.contact);
-  EXPECT_EQ(a.no_contact, grids.no_contact);
-}
-
 TEST(MeasurementModel, RefusesGridsThatAreNotLikelihoods) {
   LikelihoodGrids grids = planes();
   grids.contact.pop_back();

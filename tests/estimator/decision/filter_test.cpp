@@ -138,10 +138,10 @@ TEST(DecisionNetwork, RefusesInvalidValues) {
   refused({.geometry = {.wheel_inertia = -1.0}});
   refused({.geometry = {.robot_mass = 0.0}});
   refused({.smoothing = std::numeric_limits<double>::quiet_NaN()});
-  refused({.leave_below = 0.9, .return_above = 0.5});
-  refused({.leave_below = 0.0});
-  refused({.settle_at = 1.0});
-  refused({.settle_after = -0.02});
+  refused({.point = {.leave_below = 0.9, .return_above = 0.5}});
+  refused({.point = {.leave_below = 0.0}});
+  refused({.point = {.settle_at = 1.0}});
+  refused({.point = {.settle_after = -0.02}});
   DecisionModel broken;
   broken.last_bias = std::numeric_limits<float>::infinity();
   EXPECT_THROW(DecisionNetwork{broken}, InputError);

@@ -8,11 +8,14 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "tests/estimator/decision/decision_logit.hpp"
 #include "tests/estimator/decision/random_model.hpp"
 #include "tests/estimator/random.hpp"
 
 namespace touchdown {
 namespace {
+
+using test::decision_logit;
 
 TEST(DecisionLogit, OfTwoWeightsMatchesAHandCalculation) {
   DecisionModel model;

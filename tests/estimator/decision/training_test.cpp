@@ -5,11 +5,14 @@
 #include <gtest/gtest.h>
 
 #include "estimator/decision/fit.hpp"
+#include "tests/estimator/decision/decision_logit.hpp"
 #include "tests/estimator/decision/random_model.hpp"
 #include "tests/estimator/random.hpp"
 
 namespace touchdown {
 namespace {
+
+using test::decision_logit;
 
 /// Rows with random labels of P(contact) = 1 / (1 + exp(−logit)), a function of the inputs.
 struct Coins {

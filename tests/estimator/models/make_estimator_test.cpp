@@ -195,8 +195,8 @@ TEST(Configuration, ReadsBackFromItsText) {
   EXPECT_EQ(phase_read, phase);
   DecisionConfig decision;
   decision.geometry.wheel_inertia = 1.0 / 3e4;
-  decision.leave_below = 0.6;
-  decision.settle_after = 0.03;
+  decision.point.leave_below = 0.6;
+  decision.point.settle_after = 0.03;
   decision.geometry.upper_mass = 0.7;
   decision.geometry.robot_mass = 8.1;
   decision.guard.frozen_after = 0.0;
@@ -333,7 +333,7 @@ TEST(Parameters, OfModelsWithTheServoLoadReadBack) {
 OperatingPoint point_in(const ConfigurationText& configuration) {
   DecisionConfig config;
   configure(config, configuration);
-  return point_of(config);
+  return config.point;
 }
 
 TEST(EvidenceCurves, OfFilesWithoutATimeDecideByThresholdsAlone) {
@@ -358,11 +358,7 @@ TEST(EvidenceCurves, HaveTwoOperatingPointsOfOneModel) {
     const EvidenceCurveSets model = evidence_curve_sets_of(parameters_of(arrays));
     for (const std::string made : {"evidence_curves", "evidence_curves_quiet"}) {
       const OperatingPoint& point = made == "evidence_curves" ? balanced_point : quiet_point;
-      EvidenceCurves expected(model, {.geometry = legs,
-                                      .leave_below = point.leave_below,
-                                      .return_above = point.return_above,
-                                      .settle_at = point.settle_at,
-                                      .settle_after = point.settle_after});
+      EvidenceCurves expected(model, {.geometry = legs, .point = point});
       EXPECT_EQ(beliefs_of(*make_estimator(arrays, {.estimator = made})), beliefs_of(expected))
           << name << " as " << made;
     }
