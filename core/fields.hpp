@@ -145,6 +145,13 @@ class Fields {
     return (*this)(key, *value, limits...).fallback("none");
   }
 
+  /// The same for a value that is written only if it is set.
+  template <typename T, typename... Limits>
+  KeyNotes if_set(bool is_set, std::string_view key, T& value, Limits... limits) {
+    know(key);
+    return present(key, is_set) ? (*this)(key, value, limits...) : KeyNotes();
+  }
+
   /// An enumerator or a text, chosen from `names`. An enumerator's value is its index in `names`.
   KeyNotes choose(std::string_view key, const std::vector<std::string>& names, std::string& value);
   KeyNotes choose(std::string_view key, const std::vector<std::string>& names, std::size_t& index);
@@ -180,6 +187,13 @@ class Fields {
     if (!present(key, value.has_value())) return {};
     if (reading()) value.emplace();
     return section(key, *value).fallback("none");
+  }
+
+  /// A nested struct that is written only if it is set.
+  template <typename T>
+  KeyNotes section_if_set(bool is_set, std::string_view key, T& value) {
+    know(key);
+    return present(key, is_set) ? section(key, value) : KeyNotes();
   }
 
   /// A list of structs. The struct that is being read is the last of the list.

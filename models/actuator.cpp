@@ -20,19 +20,19 @@ void describe(Fields& fields, Actuator& actuator) {
   fields("torque_lag", actuator.torque_lag, 0.0, 1.0).doc("s", "Time constant of the torque.");
   fields("command_delay", actuator.command_delay, 0.0, 1.0)
       .doc("s", "Delay from the policy to the servo, in whole control steps.");
-  if (fields.reading() || std::isfinite(actuator.maximum_torque)) {
-    fields("maximum_torque", actuator.maximum_torque, 0.0, 1e3)
-        .doc("N·m", "Saturation of the torque, besides the limit of the MJCF.");
-  }
+  fields
+      .if_set(std::isfinite(actuator.maximum_torque), "maximum_torque", actuator.maximum_torque,
+              0.0, 1e3)
+      .doc("N·m", "Saturation of the torque, besides the limit of the MJCF.");
   fields("ripple", actuator.ripple, 0.0, 100.0).doc("N·m", "Amplitude of the torque ripple.");
   fields("ripple_cycles", actuator.ripple_cycles, 0.0, 1e3)
       .doc("1/rad", "Frequency of the ripple, as the factor on the joint angle in its sine.");
   fields("torque_error", actuator.torque_error, -0.9, 10.0)
       .doc("Relative error of the servo's torque constant.");
-  if (fields.reading() || actuator.position_resolution != Actuator{}.position_resolution) {
-    fields("position_resolution", actuator.position_resolution, 0.0, 1.0)
-        .doc("rad", "Step of the reported position, for estimators' load by the servo law.");
-  }
+  fields
+      .if_set(actuator.position_resolution != Actuator{}.position_resolution, "position_resolution",
+              actuator.position_resolution, 0.0, 1.0)
+      .doc("rad", "Step of the reported position, for estimators' load by the servo law.");
 }
 
 }  // namespace touchdown::models

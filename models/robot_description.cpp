@@ -54,12 +54,6 @@ static void describe(Fields& fields, HeldServo& servo) {
       .doc("N·m", "Largest torque.");
 }
 
-/// A name, written only if it is given.
-static KeyNotes describe_name(Fields& fields, const std::string& key, std::string& name) {
-  fields.know(key);
-  return fields.present(key, !name.empty()) ? fields(key, name) : KeyNotes();
-}
-
 static void check_held(const Fields& fields, const std::vector<std::string>& held) {
   fields.check(held.size() <= most_held, "held",
                "expected at most " + std::to_string(most_held) + " joints");
@@ -111,7 +105,7 @@ static void describe_parts(Fields& fields, PartNames& parts) {
         .within("joints",
                 [&](Fields& joints) {
                   for (std::size_t i = 0; i < servo_count; ++i) {
-                    describe_name(joints, std::string(servo_names[i]), parts.joint[i])
+                    joints.if_set(!parts.joint[i].empty(), servo_names[i], parts.joint[i])
                         .fallback("its key")
                         .doc("Joint of the MJCF.");
                   }
@@ -125,12 +119,9 @@ static void describe_parts(Fields& fields, PartNames& parts) {
         .doc("Whether legs have hips; `none` for legs of a knee and a wheel.");
   }
   parts.has_hips = hip == "joint";
-  fields.know("held");
-  if (fields.present("held", !parts.held.empty())) {
-    fields("held", parts.held)
-        .doc("Joints that servos keep at their reference, such as hip rolls.");
-    check_held(fields, parts.held);
-  }
+  fields.if_set(!parts.held.empty(), "held", parts.held)
+      .doc("Joints that servos keep at their reference, such as hip rolls.");
+  check_held(fields, parts.held);
   describe_loops(fields, parts);
   fields.know("tyres");
   if (fields.present("tyres",
@@ -138,10 +129,10 @@ static void describe_parts(Fields& fields, PartNames& parts) {
     fields
         .within("tyres",
                 [&](Fields& tyres) {
-                  describe_name(tyres, "left", parts.tyre[0])
+                  tyres.if_set(!parts.tyre[0].empty(), "left", parts.tyre[0])
                       .fallback("left_tire")
                       .doc("Geom of the left tyre, or a body with one round collider.");
-                  describe_name(tyres, "right", parts.tyre[1])
+                  tyres.if_set(!parts.tyre[1].empty(), "right", parts.tyre[1])
                       .fallback("right_tire")
                       .doc("Geom of the right tyre, or a body with one round collider.");
                   constexpr double largest = 1.0;
@@ -150,20 +141,17 @@ static void describe_parts(Fields& fields, PartNames& parts) {
                 })
         .doc("Names of the tyres in the MJCF.");
   }
-  fields.know("no_collision");
-  if (fields.present("no_collision", !parts.no_collision.empty())) {
-    fields("no_collision", parts.no_collision)
-        .doc("Colliders that touch nothing: geoms, or bodies with all of theirs.");
-  }
+  fields.if_set(!parts.no_collision.empty(), "no_collision", parts.no_collision)
+      .doc("Colliders that touch nothing: geoms, or bodies with all of theirs.");
   fields.know("forward");
   if (fields.present("forward", parts.forward != "auto")) {
     fields.choose("forward", {"auto", "x", "-x", "y", "-y"}, parts.forward)
         .doc("Axis of the base that faces forward; `auto`: across the wheels' axes.");
   }
-  describe_name(fields, "imu", parts.imu)
+  fields.if_set(!parts.imu.empty(), "imu", parts.imu)
       .fallback("imu")
       .doc("Site of the IMU, or a body that is fixed to the base.");
-  describe_name(fields, "base", parts.base)
+  fields.if_set(!parts.base.empty(), "base", parts.base)
       .fallback("the first link with a mass")
       .doc("Floating link of a URDF.");
 }
@@ -174,10 +162,9 @@ void describe(Fields& fields, RobotDescription& robot) {
   robot.mjcf = mjcf;
   describe_parts(fields, robot.parts);
   const HeldServo& servo = robot.held_servo;
-  fields.know("held_servo");
-  if (fields.present("held_servo", servo.kp || servo.kd || servo.maximum_torque)) {
-    fields.section("held_servo", robot.held_servo).doc("Servos of the held joints.");
-  }
+  fields
+      .section_if_set(servo.kp || servo.kd || servo.maximum_torque, "held_servo", robot.held_servo)
+      .doc("Servos of the held joints.");
   fields("mass", robot.mass, 0.01, 100.0).doc("Factor on mass and inertia of every body.");
   fields.optional("wheel_radius", robot.wheel_radius, 0.005, 1.0)
       .fallback("as in the MJCF")

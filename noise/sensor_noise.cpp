@@ -55,10 +55,8 @@ void describe(Fields& fields, NoiseGridConfig& noise) {
         .fallback("none")
         .doc("A second grid with separate levels for knees and wheels.");
   }
-  fields.know("hips");
-  if (fields.present("hips", noise.hips)) {
-    fields("hips", noise.hips).doc("Whether the hips have the torque noise of the knees.");
-  }
+  fields.if_set(noise.hips, "hips", noise.hips)
+      .doc("Whether the hips have the torque noise of the knees.");
   fields("joint_position", noise.joint_position, 0.0, 1e3)
       .doc("rad", "Noise on every joint position, in every cell.");
   fields("joint_velocity", noise.joint_velocity, 0.0, 1e3)

@@ -232,17 +232,16 @@ void describe_values(Fields& fields, SensorChannel& channel, const Sensor& senso
       .doc("First-order Gauss-Markov noise.");
   if (kind != SensorKind::attitude) describe_low_pass(fields, channel.low_pass);
   fields("white", channel.white, 0.0, largest).doc(unit, "Standard deviation of the white noise.");
-  if (fields.reading() || std::isfinite(channel.degrees_of_freedom)) {
-    fields("degrees_of_freedom", channel.degrees_of_freedom, 2.1, 1e6)
-        .fallback("none: a normal distribution")
-        .doc(
-            "Heavy tails: the white noise has Student's t distribution with these degrees of "
-            "freedom, scaled to the same standard deviation.");
-  }
+  fields
+      .if_set(std::isfinite(channel.degrees_of_freedom), "degrees_of_freedom",
+              channel.degrees_of_freedom, 2.1, 1e6)
+      .fallback("none: a normal distribution")
+      .doc(
+          "Heavy tails: the white noise has Student's t distribution with these degrees of "
+          "freedom, scaled to the same standard deviation.");
   if (kind == SensorKind::attitude) return;
-  if (fields.reading() || std::isfinite(channel.range)) {
-    fields("range", channel.range, 1e-9, 1e9).doc(unit, "Values are clipped to ± this.");
-  }
+  fields.if_set(std::isfinite(channel.range), "range", channel.range, 1e-9, 1e9)
+      .doc(unit, "Values are clipped to ± this.");
   fields("resolution", channel.resolution, 0.0, largest).doc(unit, "Step of the values; 0: none.");
 }
 

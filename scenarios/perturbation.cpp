@@ -49,12 +49,6 @@ KeyNotes describe_range(Fields& fields, std::string_view key, Range& range, doub
   return notes.type("list of low, high").range(range_text(low, high));
 }
 
-/// A half width that is written only if it is not zero.
-KeyNotes half_width_if_any(Fields& fields, std::string_view key, double& half_width, double most) {
-  if (!fields.reading() && half_width == 0.0) return {};
-  return fields(key, half_width, 0.0, most);
-}
-
 }  // namespace
 
 static void describe(Fields& fields, RandomDrive& drive) {
@@ -100,15 +94,20 @@ void describe(Fields& fields, Perturbation& perturbation) {
   fields("servo_gain_scale", perturbation.servo_gain_scale, 0.0, 0.9)
       .doc("Position and velocity gains of the legs' servos.");
   fields("force_scale", perturbation.force_scale, 0.0, 1.0).doc("Every external force.");
-  half_width_if_any(fields, "com_x", perturbation.com_x, 0.5)
+  fields.if_set(perturbation.com_x != 0.0, "com_x", perturbation.com_x, 0.0, 0.5)
       .doc("m", "Centre of mass of the base body, forward.");
-  half_width_if_any(fields, "com_z", perturbation.com_z, 0.5)
+  fields.if_set(perturbation.com_z != 0.0, "com_z", perturbation.com_z, 0.0, 0.5)
       .doc("m", "Centre of mass of the base body, upward.");
-  half_width_if_any(fields, "wheel_radius_scale", perturbation.wheel_radius_scale, 0.5)
+  fields
+      .if_set(perturbation.wheel_radius_scale != 0.0, "wheel_radius_scale",
+              perturbation.wheel_radius_scale, 0.0, 0.5)
       .doc("Radius of both wheels.");
-  half_width_if_any(fields, "actuator_friction_scale", perturbation.actuator_friction_scale, 1.0)
+  fields
+      .if_set(perturbation.actuator_friction_scale != 0.0, "actuator_friction_scale",
+              perturbation.actuator_friction_scale, 0.0, 1.0)
       .doc("Friction of every joint.");
-  half_width_if_any(fields, "torque_error", perturbation.torque_error, 0.5)
+  fields
+      .if_set(perturbation.torque_error != 0.0, "torque_error", perturbation.torque_error, 0.0, 0.5)
       .doc("Error of each servo's torque constant, independently.");
   fields.section("drive", perturbation.drive)
       .doc("Random drive commands instead of the scenario's own.");

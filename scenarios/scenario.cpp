@@ -80,9 +80,8 @@ static void describe(Fields& fields, Start& start) {
 
 static void describe(Fields& fields, End& end) {
   fields("duration", end.duration, 1e-3, 1e5).doc("s", "Longest duration of the run.");
-  if (fields.reading() || std::isfinite(end.x)) {
-    fields("x", end.x).doc("m", "Finish line of the base along the course.");
-  }
+  fields.if_set(std::isfinite(end.x), "x", end.x)
+      .doc("m", "Finish line of the base along the course.");
   fields("settle", end.settle, 0.0, 1e3)
       .doc("s", "The run ends this long after the base passed the finish line.");
   fields("fall_tilt", end.fall_tilt, 0.1, 3.2).doc("rad", "A larger tilt is a fall.");
@@ -123,21 +122,14 @@ static void describe(Fields& fields, Scenario& scenario, const policies::LqrGain
   fields.section("start", scenario.start).doc("Position and stance at the start.");
   fields.section("balancer", scenario.balancer, lqr)
       .doc("Gains of the balancer; otherwise the robot's own.");
-  fields.know("policy");
-  if (fields.present("policy", scenario.policy != policies::PolicyConfig{})) {
-    fields.section("policy", scenario.policy).doc("Control law and its contact source.");
-  }
+  fields.section_if_set(scenario.policy != policies::PolicyConfig{}, "policy", scenario.policy)
+      .doc("Control law and its contact source.");
   fields.list("velocity", scenario.velocity, scenario.velocity)
       .doc("Drive commands, each from its time on.");
   fields.list_if_any("crouch", scenario.crouch, scenario.crouch)
       .doc("Crouch commands, each from its time on.");
-  fields.know("clip_crouches");
-  if (fields.present("clip_crouches", scenario.clip_crouches)) {
-    fields("clip_crouches", scenario.clip_crouches)
-        .doc(
-            "Crouches beyond the ranges of the robot's joints end there, instead of being "
-            "refused.");
-  }
+  fields.if_set(scenario.clip_crouches, "clip_crouches", scenario.clip_crouches)
+      .doc("Crouches beyond the ranges of the robot's joints end there, instead of being refused.");
   fields.section("tether", scenario.tether).doc("A rope that holds the robot.");
   fields.list_if_any("guides", scenario.guides)
       .doc("Horizontal springs that keep the robot above a place.");
@@ -147,11 +139,8 @@ static void describe(Fields& fields, Scenario& scenario, const policies::LqrGain
            "Mass that forces, lifts and tyre are written for; they scale with the robot's mass.");
   fields("mass_scale", scenario.mass_scale, 0.01, 100.0)
       .doc("Factor on mass and inertia of every body.");
-  fields.know("deviations");
-  if (fields.present("deviations", scenario.deviations != Deviations{})) {
-    fields.section("deviations", scenario.deviations)
-        .doc("How the robot differs from its description.");
-  }
+  fields.section_if_set(scenario.deviations != Deviations{}, "deviations", scenario.deviations)
+      .doc("How the robot differs from its description.");
   fields.section("simulation", scenario.simulation).doc("Time steps and contact model.");
   fields.section("end", scenario.end).doc("When a run is over.");
   fields.section("perturbation", scenario.perturbation)
@@ -170,10 +159,6 @@ Scenario scenario_from_yaml(const YamlDocument& document, const Scenario& defaul
   describe(fields, scenario, lqr);
   fields.finish();
   return scenario;
-}
-
-Scenario load_scenario(const std::filesystem::path& path) {
-  return scenario_from_yaml(YamlDocument::load(path));
 }
 
 std::string robot_digest(const Scenario& scenario) {

@@ -83,7 +83,6 @@ struct Scenario {
 /// Errors: `InputError` with file:line:column.
 Scenario scenario_from_yaml(const YamlDocument& document, const Scenario& defaults = {},
                             const policies::LqrGains& lqr = {});
-Scenario load_scenario(const std::filesystem::path& path);
 
 /// The keys of a scenario file.
 std::vector<Key> scenario_keys();

@@ -13,7 +13,8 @@
 namespace touchdown::scenarios {
 
 inline Scenario scenario_called(const std::string& name) {
-  Scenario scenario = load_scenario(TOUCHDOWN_SOURCE_DIR "/scenarios/" + name + ".yaml");
+  Scenario scenario =
+      scenario_from_yaml(YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/scenarios/" + name + ".yaml"));
   scenario.robot = TOUCHDOWN_SOURCE_DIR "/models/upkie.xml";
   return scenario;
 }

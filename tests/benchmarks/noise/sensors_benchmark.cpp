@@ -18,8 +18,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 /// Simulates and applies sensors in turn under the same load; the fastest of each counts.
 void sensors(benchmark::State& state, const char* file) {
-  scenarios::Scenario scenario =
-      scenarios::load_scenario(TOUCHDOWN_SOURCE_DIR "/scenarios/stairs.yaml");
+  scenarios::Scenario scenario = scenarios::scenario_from_yaml(
+      YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/scenarios/stairs.yaml"));
   scenario.robot = TOUCHDOWN_SOURCE_DIR "/models/upkie.xml";
   const auto simulator = scenarios::make_simulator(scenario, "mujoco");
   const SensorProfile profile = find_sensor_profile(file);

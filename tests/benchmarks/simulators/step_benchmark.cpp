@@ -17,8 +17,8 @@ namespace touchdown::simulators {
 namespace {
 
 scenarios::Scenario stairs() {
-  scenarios::Scenario scenario =
-      scenarios::load_scenario(TOUCHDOWN_SOURCE_DIR "/scenarios/stairs.yaml");
+  scenarios::Scenario scenario = scenarios::scenario_from_yaml(
+      YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/scenarios/stairs.yaml"));
   scenario.robot = TOUCHDOWN_SOURCE_DIR "/models/upkie.xml";
   return scenario;
 }
