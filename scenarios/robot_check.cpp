@@ -27,10 +27,7 @@
 
 namespace touchdown::scenarios {
 
-namespace {
-
-/// An actuator after a text about it.
-std::string actuator_text(const models::Actuator& actuator, std::string text = {}) {
+std::string actuator_text(const models::Actuator& actuator, std::string text) {
   const auto add = [&](const char* what, double value) {
     if (value != 0.0) text += fmt::format("{}{} {:g}", text.empty() ? "" : ", ", what, value);
   };
@@ -39,6 +36,8 @@ std::string actuator_text(const models::Actuator& actuator, std::string text = {
   add("armature", actuator.armature);
   return text;
 }
+
+namespace {
 
 /// The motor that counts as a servo's in a closed leg; empty if it is on the servo's joint.
 std::string motor_text(const models::RobotModel& robot, std::size_t servo) {
@@ -99,7 +98,7 @@ std::vector<std::string> differences(const models::RobotModel& robot) {
 }
 
 /// The largest angle of a held joint from its reference during a run (rad).
-double given_way(const logs::Recording& recording, const std::vector<CheckedHeldJoint>& held) {
+double given_way(const logs::Recording& recording, const std::vector<models::HeldJoint>& held) {
   double largest = 0.0;
   for (const models::GroundTruth& truth : recording.truth) {
     for (std::size_t i = 0; i < std::min(held.size(), truth.held.size()); ++i) {
@@ -212,15 +211,7 @@ void read_robot(const Scenario& scenario, RobotCheck& check) {
   for (std::size_t i = 0; i < models::servo_count; ++i) {
     if (robot.has(i)) check.joints.push_back(checked(robot, *data, i));
   }
-  for (const models::HeldJoint& held : robot.held) {
-    check.held.push_back({.joint = held.name,
-                          .reference = held.reference,
-                          .kp = held.kp,
-                          .kd = held.kd,
-                          .torque_limit = held.effort,
-                          .kp_source = held.kp_source,
-                          .actuator = actuator_text(held.actuator)});
-  }
+  check.held = robot.held;
   check.hip = robot.has(0) ? scenario.start.hip : 0.0;
   check.knee = scenario.start.knee;
   check.lever = lever_of(robot, check.hip, check.knee);

@@ -10,6 +10,7 @@
 
 #include "logs/recording.hpp"
 #include "models/robot.hpp"
+#include "models/robot_model.hpp"
 #include "policies/servo_stability.hpp"
 #include "scenarios/scenario.hpp"
 
@@ -29,17 +30,6 @@ struct CheckedJoint {
   /// Friction, viscous friction and armature, and the motor of a closed leg if it is on another
   /// joint; empty if there are none.
   std::string actuator;
-};
-
-/// What was read about a held joint, and about its servo.
-struct CheckedHeldJoint {
-  std::string joint;          ///< the file's name
-  double reference = 0.0;     ///< rad
-  double kp = 0.0;            ///< N·m/rad
-  double kd = 0.0;            ///< N·m·s/rad
-  double torque_limit = 0.0;  ///< N·m
-  std::string kp_source;      ///< where kp is from
-  std::string actuator;       ///< friction, viscous friction and armature; empty if there are none
 };
 
 /// The robot standing still for two seconds in one engine, and dropped from 10 cm.
@@ -62,7 +52,7 @@ struct RobotCheck {
   double track = 0.0;                                     ///< between the tyres (m)
   Eigen::Vector3d imu = Eigen::Vector3d::Zero();          ///< in the base frame (m)
   std::vector<CheckedJoint> joints;
-  std::vector<CheckedHeldJoint> held;
+  std::vector<models::HeldJoint> held;
   double hip = 0.0;                      ///< stance, from straight legs (rad)
   double knee = 0.0;                     ///< likewise
   double lever = 0.0;                    ///< knee torque per newton of load in the stance (m)
@@ -79,6 +69,9 @@ struct RobotCheck {
 /// terrain at the end of a run, tyres left out, by the name of its geom or body. Empty unless the
 /// robot fell as a part other than a tyre touched the terrain.
 std::string part_on_terrain(const Scenario& scenario, const logs::Recording& recording);
+
+/// Friction, viscous friction and armature after a text; empty if there are none.
+std::string actuator_text(const models::Actuator& actuator, std::string text = {});
 
 /// Writes the YAML file about an MJCF or a URDF, with comments where it guesses
 /// (models/robot_draft.hpp), in the words of the robot's file. Returns the guesses that its user

@@ -37,7 +37,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-using scenarios::CheckedHeldJoint;
 using scenarios::CheckedJoint;
 using scenarios::CheckedStand;
 using scenarios::RobotCheck;
@@ -68,13 +67,14 @@ std::string joints_text(const RobotCheck& check) {
   return to_text(table);
 }
 
-std::string text_of(const CheckedHeldJoint& held) {
+std::string text_of(const models::HeldJoint& held) {
+  const std::string actuator = scenarios::actuator_text(held.actuator);
   return fmt::format(
       "held: joint '{}' at {:g} rad by a servo of {:g} N·m/rad (from {}), {:g} N·m·s/rad and at "
       "most "
       "{:g} N·m{}\n",
-      held.joint, rounded(held.reference), rounded(held.kp), held.kp_source, rounded(held.kd),
-      held.torque_limit, held.actuator.empty() ? "" : "; " + held.actuator);
+      held.name, rounded(held.reference), rounded(held.kp), held.kp_source, rounded(held.kd),
+      held.effort, actuator.empty() ? "" : "; " + actuator);
 }
 
 std::string text_of(const std::string& path, const RobotCheck& check) {
@@ -92,7 +92,7 @@ std::string text_of(const std::string& path, const RobotCheck& check) {
     text += fmt::format("servos: gain margin {:.2f} in flight, {:.2f} standing (unstable at 1)\n",
                         check.margins.flight, check.margins.standing);
   }
-  for (const CheckedHeldJoint& held : check.held) text += text_of(held);
+  for (const models::HeldJoint& held : check.held) text += text_of(held);
   for (const std::string& ignored : check.ignored) text += "ignored: " + ignored + "\n";
   for (const std::string& difference : check.differences) {
     text += "engines differ: " + difference + "\n";
@@ -124,11 +124,14 @@ Json json_of(const CheckedJoint& joint) {
   return json;
 }
 
-Json json_of(const CheckedHeldJoint& held) {
-  return {{"joint", held.joint},      {"reference_rad", rounded(held.reference)},
-          {"kp", rounded(held.kp)},   {"kp_source", held.kp_source},
-          {"kd", rounded(held.kd)},   {"torque_limit_nm", held.torque_limit},
-          {"actuator", held.actuator}};
+Json json_of(const models::HeldJoint& held) {
+  return {{"joint", held.name},
+          {"reference_rad", rounded(held.reference)},
+          {"kp", rounded(held.kp)},
+          {"kp_source", held.kp_source},
+          {"kd", rounded(held.kd)},
+          {"torque_limit_nm", held.effort},
+          {"actuator", scenarios::actuator_text(held.actuator)}};
 }
 
 Json json_of(const std::string& path, const RobotCheck& check) {
@@ -151,7 +154,7 @@ Json json_of(const std::string& path, const RobotCheck& check) {
   json["servo_gain_margin"] = {{"flight", rounded(check.margins.flight)},
                                {"standing", rounded(check.margins.standing)}};
   for (const CheckedJoint& joint : check.joints) json["joints"].push_back(json_of(joint));
-  for (const CheckedHeldJoint& held : check.held) json["held"].push_back(json_of(held));
+  for (const models::HeldJoint& held : check.held) json["held"].push_back(json_of(held));
   for (const CheckedStand& stand : check.stands) {
     json["stands"].push_back({{"engine", stand.engine},
                               {"stands", stand.stands},

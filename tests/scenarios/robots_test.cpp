@@ -280,10 +280,10 @@ TEST(ARobotCheckOfHeldJoints, ReportsWhatHoldsThem) {
   const RobotCheck usual = check("");
   EXPECT_THAT(usual.complaints, IsEmpty());
   ASSERT_THAT(usual.held, SizeIs(2));
-  EXPECT_EQ(usual.held[0].joint, "left_roll");
+  EXPECT_EQ(usual.held[0].name, "left_roll");
   EXPECT_EQ(usual.held[0].kp, 150.0);
   EXPECT_EQ(usual.held[0].kp_source, "the file's position servo");
-  EXPECT_EQ(usual.held[0].torque_limit, 40.0);
+  EXPECT_EQ(usual.held[0].effort, 40.0);
   for (const CheckedStand& stand : usual.stands) EXPECT_LT(stand.given_way, 0.05) << stand.engine;
   EXPECT_EQ(check("held_servo: {kp: 99}\n").held[1].kp_source, "held_servo");
   // Without a torque the legs splay.
