@@ -71,26 +71,6 @@ class Hinges {
   std::vector<int> above_;
 };
 
-[[noreturn]] void fail_at_hinge(const Contract& contract, int joint, const std::string& message) {
-  contract.fail_at_joint(
-      joint, fmt::format("joint {}: {}", contract.name_of(mjOBJ_JOINT, joint), message));
-}
-
-/// Checks a crank or rod.
-void check_linked(const mjModel& model, const Contract& contract, int joint) {
-  if (model.jnt_type[joint] != mjJNT_HINGE) {
-    fail_at_hinge(contract, joint, "expected a hinge, as it is in a loop");
-  }
-  if (model.body_jntnum[model.jnt_bodyid[joint]] > 1) {
-    fail_at_hinge(contract, joint, "expected no other joint on its body, as it is in a loop");
-  }
-  if (model.jnt_stiffness[joint] != 0.0) {
-    fail_at_hinge(
-        contract, joint,
-        fmt::format("expected no spring, found stiffness {:g}", model.jnt_stiffness[joint]));
-  }
-}
-
 /// Turns the axis of a hinge to the base's y axis. Loops close in a plane: an axis that is .001 rad
 /// off would press 1,800 N into its loop.
 void straighten(mjModel& model, const mjData& data, const Contract& contract, int joint) {
@@ -98,11 +78,10 @@ void straighten(mjModel& model, const mjData& data, const Contract& contract, in
   constexpr double most = 1.0;  // degree
   const double off = std::asin(std::min(1.0, std::hypot(axis.x(), axis.z()))) * 180.0 / M_PI;
   if (off > most) {
-    fail_at_hinge(
-        contract, joint,
-        fmt::format("its axis is {:.1f}° off the base's y axis, expected at most {:g}°, as "
-                    "its leg has a loop",
-                    off, most));
+    contract.fail_at_hinge(
+        joint, fmt::format("its axis is {:.1f}° off the base's y axis, expected at most {:g}°, as "
+                           "its leg has a loop",
+                           off, most));
   }
   const double sign = axis.y() < 0.0 ? -1.0 : 1.0;
   const Vector3d own =
@@ -133,17 +112,15 @@ int motor_of(const mjModel& model, int joint) {
 double limit_of_motor(const RobotModel& robot, std::size_t servo, const RobotDescription& given,
                       const std::map<std::string, double>& efforts, const Contract& contract) {
   const int joint = robot.motor_joint[servo];
-  const int motor = motor_of(*robot.mj, joint);
   const std::string name = contract.name_of(mjOBJ_JOINT, joint);
   const auto& actuator = given.actuator(static_cast<Servo>(servo));
   const double most = std::min(limit_of(efforts, name.substr(1, name.size() - 2)),
                                actuator ? actuator->maximum_torque : HUGE_VAL);
-  return torque_limit(*robot.mj, motor, most, [&](const std::string& message) {
-    contract.fail_at_actuator(
-        motor, fmt::format("motor of joint {}: {}, or 'actuators: {{{}: {{maximum_torque: …}}}}' "
-                           "in the YAML file",
-                           name, message, servo % 3 == 0 ? "hip" : "knee"));
-  });
+  return torque_limit(
+      *robot.mj,
+      {motor_of(*robot.mj, joint), fmt::format("motor of joint {}", name),
+       fmt::format("actuators: {{{}: {{maximum_torque: …}}}}", servo % 3 == 0 ? "hip" : "knee")},
+      most, contract);
 }
 
 /// Gives a leg its motors, the hip's own first and the knee's own last.
@@ -159,8 +136,8 @@ void set_motors(RobotModel& robot, ClosedLeg& leg, std::size_t side,
     if (motor_of(model, leg.joint[static_cast<std::size_t>(i)]) >= 0) motors.push_back(i);
   }
   if (motors.empty() || motors.size() > 2) {
-    fail_at_hinge(
-        contract, leg.joint[0],
+    contract.fail_at_hinge(
+        leg.joint[0],
         fmt::format("expected one or two motors in the {} leg, as it has a loop, found {}",
                     sides[side], motors.size()));
   }
@@ -170,12 +147,9 @@ void set_motors(RobotModel& robot, ClosedLeg& leg, std::size_t side,
     robot.effort[servo] = 0.0;
     if (i >= motors.size()) continue;
     const int joint = leg.joint[static_cast<std::size_t>(motors[i])];
-    const int dof = model.jnt_dofadr[joint];
     robot.motor_joint[servo] = joint;
     robot.effort[servo] = limit_of_motor(robot, servo, description, efforts, contract);
-    robot.actuator[servo] = {.friction = model.dof_frictionloss[dof],
-                             .viscous = model.dof_damping[dof],
-                             .armature = model.dof_armature[dof]};
+    robot.actuator[servo] = actuator_at(model, model.jnt_dofadr[joint]);
   }
   // Friction is that of motors, in every engine.
   for (const int joint : leg.joint) {
@@ -221,7 +195,7 @@ void add_hinges(const RobotModel& robot, const SideOfLeg& side, ClosedLeg& leg,
     const int above = side.hinge_of(model.body_parentid[body]);
     if (above >= static_cast<int>(leg.linkage.hinges.size()) ||
         (leg.linkage.hinges.empty() && above >= 0)) {
-      fail_at_hinge(contract, joint, "expected hip and knee alone between base and wheel");
+      contract.fail_at_hinge(joint, "expected hip and knee alone between base and wheel");
     }
     leg.linkage.hinges.push_back({above,
                                   {anchor.x(), anchor.z()},
@@ -296,11 +270,12 @@ void set_start(ClosedLeg& leg, std::size_t side, const Contract& contract) {
   }
   const int free = mobility(linkage, linkage.start);
   if (free != static_cast<int>(linkage.motors.size())) {
-    fail_at_hinge(contract, leg.joint[0],
-                  fmt::format("the loops of the {} leg leave {} of its joints free, but {} ha{} a "
-                              "motor",
-                              sides[side], free, linkage.motors.size(),
-                              linkage.motors.size() == 1 ? "s" : "ve"));
+    contract.fail_at_hinge(
+        leg.joint[0],
+        fmt::format("the loops of the {} leg leave {} of its joints free, but {} ha{} a "
+                    "motor",
+                    sides[side], free, linkage.motors.size(),
+                    linkage.motors.size() == 1 ? "s" : "ve"));
   }
 }
 
@@ -317,11 +292,11 @@ void find_closed_legs(RobotModel& robot, const RobotDescription& description,
     ClosedLeg leg;
     leg.joint = joints_of(robot, hinges, side);
     if (leg.joint.size() > most_hinges) {
-      fail_at_hinge(contract, leg.joint.back(),
-                    fmt::format("expected at most {} hinges in a leg", most_hinges));
+      contract.fail_at_hinge(leg.joint.back(),
+                             fmt::format("expected at most {} hinges in a leg", most_hinges));
     }
     for (const int joint : leg.joint) {
-      check_linked(model, contract, joint);
+      contract.check_hinge(joint, "as it is in a loop");
       straighten(model, *data, contract, joint);
     }
     set_motors(robot, leg, side, description, efforts, contract);
@@ -333,7 +308,7 @@ void find_closed_legs(RobotModel& robot, const RobotDescription& description,
         std::find(robot.linked.begin(), robot.linked.end(), joint) != robot.linked.end() ||
         std::find(robot.joint.begin(), robot.joint.end(), joint) != robot.joint.end();
     if (!hinges.is_hinge(joint) || is_known) continue;
-    fail_at_hinge(contract, joint, "expected it in a loop of one leg, or under `held`");
+    contract.fail_at_hinge(joint, "expected it in a loop of one leg, or under `held`");
   }
 }
 

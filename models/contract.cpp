@@ -15,17 +15,9 @@ namespace touchdown::models {
 int Contract::find(mjtObj type, const char* tag, std::string_view name) const {
   const int id = mj_name2id(&model_, type, std::string(name).c_str());
   if (id >= 0) return id;
-  std::vector<std::string> names;
-  document_.visit([&](const tinyxml2::XMLElement& element) {
-    const std::string_view found = attribute(element, "name");
-    const bool is_motor =
-        std::string_view("actuator") ==
-        (element.Parent()->ToElement() == nullptr ? "" : element.Parent()->ToElement()->Name());
-    if (found.empty() ||
-        (type == mjOBJ_ACTUATOR ? !is_motor : tag != std::string_view(element.Name())))
-      return;
-    names.emplace_back(found);
-  });
+  const std::vector<std::string> names =
+      type == mjOBJ_ACTUATOR ? names_of(document_, {"motor", "general", "position", "velocity"})
+                             : names_of(document_, {tag});
   fail(fmt::format("expected a {} named '{}'{}", tag, name, found_text(name, names)));
 }
 
@@ -84,15 +76,10 @@ void Contract::fail_at_site(int site, const std::string& message) const {
   fail_at(document_.find("site", name == nullptr ? "" : name), message);
 }
 
-const tinyxml2::XMLElement* Contract::section_element(std::string_view tag, int number) const {
-  const tinyxml2::XMLElement* found = nullptr;
-  int count = 0;
-  document_.visit([&](const tinyxml2::XMLElement& element) {
-    const auto* const section = element.Parent()->ToElement();
-    if (section == nullptr || section->Parent() != &document_.root()) return;
-    if (section->Name() == tag && count++ == number) found = &element;
-  });
-  return found;
+const tinyxml2::XMLElement* Contract::section_element(const char* tag, int number) const {
+  const auto all = in_sections(document_.root(), tag);
+  return static_cast<std::size_t>(number) < all.size() ? all[static_cast<std::size_t>(number)]
+                                                       : nullptr;
 }
 
 std::string Contract::place_of_actuator(int actuator) const {
@@ -109,14 +96,24 @@ void Contract::fail_at_equality(int equality, const std::string& message) const 
   fail_at(found, fmt::format("{}: {}", found == nullptr ? "connect" : title_of(*found), message));
 }
 
-void Contract::fail_at_servo(std::size_t servo, const std::string& message) const {
-  fail_at_joint(find(mjOBJ_JOINT, "joint", servo_names[servo]),
-                fmt::format("joint '{}': {}", own_name(parts_, servo), message));
+void Contract::fail_at_hinge(int joint, const std::string& message) const {
+  fail_at_joint(joint, fmt::format("joint {}: {}", name_of(mjOBJ_JOINT, joint), message));
 }
 
-void Contract::fail_at_motor(std::size_t servo, const std::string& message) const {
-  fail_at_actuator(find(mjOBJ_ACTUATOR, "motor", servo_names[servo]),
-                   fmt::format("motor '{}': {}", own_name(parts_, servo), message));
+void Contract::fail_at_servo(std::size_t servo, const std::string& message) const {
+  fail_at_hinge(find(mjOBJ_JOINT, "joint", servo_names[servo]), message);
+}
+
+void Contract::check_hinge(int joint, std::string_view as_it_is) const {
+  if (model_.jnt_type[joint] != mjJNT_HINGE) {
+    fail_at_hinge(joint, fmt::format("expected a hinge, {}", as_it_is));
+  }
+  if (model_.body_jntnum[model_.jnt_bodyid[joint]] > 1) {
+    fail_at_hinge(joint, fmt::format("expected no other joint on its body, {}", as_it_is));
+  }
+  if (const double stiffness = model_.jnt_stiffness[joint]; stiffness != 0.0) {
+    fail_at_hinge(joint, fmt::format("expected no spring, found stiffness {:g}", stiffness));
+  }
 }
 
 std::string Contract::name_of(mjtObj type, int id) const {

@@ -36,10 +36,13 @@ class Contract {
   /// An error about a connection: "connect 'x': …".
   [[noreturn]] void fail_at_equality(int equality, const std::string& message) const;
   [[noreturn]] void fail_at_site(int site, const std::string& message) const;
-  /// An error about a servo's joint: "joint 'left_hip': …".
+  /// An error about a joint: "joint 'left_hip': …".
+  [[noreturn]] void fail_at_hinge(int joint, const std::string& message) const;
+  /// The same about a servo's joint.
   [[noreturn]] void fail_at_servo(std::size_t servo, const std::string& message) const;
-  /// The same about its motor: "motor 'left_hip': …".
-  [[noreturn]] void fail_at_motor(std::size_t servo, const std::string& message) const;
+  /// Checks that a joint is a hinge, alone on its body and without a spring. `as_it_is`: "as it is
+  /// held".
+  void check_hinge(int joint, std::string_view as_it_is) const;
 
   /// "file:line:1" of an actuator.
   std::string place_of_actuator(int actuator) const;
@@ -51,7 +54,7 @@ class Contract {
  private:
   const tinyxml2::XMLElement* body_element(int body) const;
   /// The child of all top-level sections with this tag, by its number.
-  const tinyxml2::XMLElement* section_element(std::string_view tag, int number) const;
+  const tinyxml2::XMLElement* section_element(const char* tag, int number) const;
   /// The child of a body with one of these tags, by its number among them.
   const tinyxml2::XMLElement* child(int body, int number,
                                     std::initializer_list<std::string_view> tags) const;
@@ -86,13 +89,22 @@ void measure_closed_legs(RobotModel& robot, std::span<const LoopSites> sites,
 /// The torque limit of a joint of the file, beside that of its motor (N·m); infinite without one.
 double limit_of(const std::map<std::string, double>& efforts, const std::string& joint);
 
-/// Throws an `InputError` about a motor.
-using FailAtMotor = std::function<void(const std::string& message)>;
+/// The motor of a joint, as messages have it.
+struct MotorOfJoint {
+  int motor = -1;
+  std::string title;   ///< "motor 'left_hip'"
+  std::string remedy;  ///< "actuators: {hip: {maximum_torque: …}}", a key of the YAML file
+};
 
 /// The torque limit of a motor on its joint (N·m): the control range times the gain, within the
 /// force range, times the gear, and at most `most`. Position and velocity servos count with their
-/// force range. Errors: `fail` for activations, limits that are not symmetric, and none at all.
-double torque_limit(const mjModel& model, int motor, double most, const FailAtMotor& fail);
+/// force range. Errors: `InputError` for activations, limits that are not symmetric, and none at
+/// all.
+double torque_limit(const mjModel& model, const MotorOfJoint& of, double most,
+                    const Contract& contract);
+
+/// Friction, viscous friction and armature of the file at one degree of freedom.
+Actuator actuator_at(const mjModel& model, int dof);
 
 /// Finds the held joints and the servos that hold them. A position servo of the file keeps its
 /// gains. Others get those that `gains: lqr` gives to hips and knees, of a pendulum of the robot's

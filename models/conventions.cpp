@@ -121,11 +121,9 @@ void set_imu(RobotModel& robot, const Contract& contract) {
     contract.fail_at_site(robot.imu_site, "site 'imu': expected it on the base body");
   }
   robot.imu_position = vector_at(at_reference(robot)->site_xpos, robot.imu_site);
-  const Eigen::Quaterniond imu_in_base = imu_convention();
-  const mjtNum orientation[] = {imu_in_base.w(), imu_in_base.x(), imu_in_base.y(), imu_in_base.z()};
-  mjtNum* const own = &model.site_quat[4 * robot.imu_site];
-  if (body != robot.base_body || std::equal(own, own + 4, orientation)) return;
-  std::copy_n(orientation, 4, own);
+  const Eigen::Quaterniond own = quaternion_at(model.site_quat, robot.imu_site);
+  if (body != robot.base_body || own.coeffs() == imu_convention().coeffs()) return;
+  set_quaternion(model.site_quat, robot.imu_site, imu_convention());
   model.site_sameframe[robot.imu_site] = 0;
 }
 
@@ -197,8 +195,7 @@ std::string turn_base(RobotModel& robot, std::string_view given) {
       const Vector3d at = turn * vector_at(position, row);
       const Eigen::Quaterniond as = turn * quaternion_at(orientation, row);
       std::copy_n(at.data(), 3, position + 3 * row);
-      const std::array<double, 4> wxyz = {as.w(), as.x(), as.y(), as.z()};
-      std::copy_n(wxyz.data(), 4, orientation + 4 * row);
+      set_quaternion(orientation, row, as);
     }
   };
   const int base = robot.base_body;

@@ -52,9 +52,7 @@ void stretch_inertia(mjModel& mj, int body, const Stretch& stretch) {
                                                        turned.transpose());
   Matrix3d principal = solved.eigenvectors();
   if (principal.determinant() < 0.0) principal.col(0) *= -1.0;
-  const Eigen::Quaterniond turn(principal);
-  const mjtNum quaternion[] = {turn.w(), turn.x(), turn.y(), turn.z()};
-  std::copy_n(quaternion, 4, mj.body_iquat + 4 * body);
+  set_quaternion(mj.body_iquat, body, Eigen::Quaterniond(principal));
   row(mj.body_inertia, body) =
       Vector3d::Constant(solved.eigenvalues().sum()) - solved.eigenvalues();
 }
@@ -170,8 +168,7 @@ void shift_mass(mjModel& mj, int body, const Eigen::Vector3d& offset) {
 }
 
 void recompute(mjModel& mj) {
-  const MjDataPtr data(mj_makeData(&mj));
-  if (!data) throw Error("MuJoCo could not make its data: out of memory");
+  const MjDataPtr data = make_data(mj);
   // Rendering uses the scene's fixed size (models/scene_mjcf.hpp), not a recomputed one.
   const mjStatistic scene = mj.stat;
   // MuJoCo would close loops in the pose of the file, which may have them open.

@@ -25,8 +25,7 @@ class Draft {
       : source_(robot_file(robot_description(file), RobotKeys(file))) {
     require_none(source_.findings.complaints);
     model_ = compile(source_, Terrain{});
-    data_.reset(mj_makeData(model_.get()));
-    if (!data_) throw Error("MuJoCo could not make its data: out of memory");
+    data_ = make_data(*model_);
     mj_kinematics(model_.get(), data_.get());
     for (int joint = 0; joint < model_->njnt; ++joint) {
       if (model_->jnt_type[joint] == mjJNT_FREE) base_ = model_->jnt_bodyid[joint];

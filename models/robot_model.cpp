@@ -2,9 +2,13 @@
 
 #include <algorithm>
 
-#include "core/error.hpp"
-
 namespace touchdown::models {
+
+std::vector<int> RobotModel::others() const {
+  std::vector<int> all = linked;
+  for (const HeldJoint& one : held) all.push_back(one.joint);
+  return all;
+}
 
 ClosedLegs closed_legs(const RobotModel& robot) {
   std::array<MotorLeg, wheel_count> legs;
@@ -34,10 +38,7 @@ void write_pose(const RobotModel& robot, const Eigen::Vector3d& position,
                 const std::array<double, servo_count>& joint_position, mjtNum* qpos) {
   mjtNum* const base = qpos + robot.base_qpos();
   std::copy_n(position.data(), 3, base);
-  base[3] = orientation.w();
-  base[4] = orientation.x();
-  base[5] = orientation.y();
-  base[6] = orientation.z();
+  set_quaternion(base + 3, 0, orientation);
   for (std::size_t i = 0; i < servo_count; ++i) {
     if (robot.has(i)) qpos[robot.qpos_address[i]] = joint_position[i];
   }
@@ -62,25 +63,26 @@ void write_held(const RobotModel& robot, std::span<const double> position, mjtNu
   }
 }
 
-/// Kinematics of the robot with its base upright at the origin.
-static MjDataPtr at(const RobotModel& robot,
-                    const std::array<double, servo_count>& joint_position) {
-  MjDataPtr data(mj_makeData(robot.mj.get()));
-  if (!data) throw Error("MuJoCo could not make its data: out of memory");
-  write_pose(robot, Eigen::Vector3d::Zero(), Eigen::Quaterniond::Identity(), joint_position,
-             data->qpos);
+MjDataPtr at_pose(const RobotModel& robot, const Eigen::Quaterniond& orientation,
+                  const std::array<double, servo_count>& joint_position) {
+  MjDataPtr data = make_data(*robot.mj);
+  write_pose(robot, Eigen::Vector3d::Zero(), orientation, joint_position, data->qpos);
   mj_kinematics(robot.mj.get(), data.get());
+  mj_comPos(robot.mj.get(), data.get());
+  mj_crb(robot.mj.get(), data.get());
   return data;
 }
 
-MjDataPtr at_zero(const RobotModel& robot) { return at(robot, {}); }
+MjDataPtr at_zero(const RobotModel& robot) {
+  return at_pose(robot, Eigen::Quaterniond::Identity(), {});
+}
 
 MjDataPtr at_reference(const RobotModel& robot) {
   std::array<double, servo_count> position = {};
   for (std::size_t i = 0; i < servo_count; ++i) {
     if (robot.has(i)) position[i] = robot.reference(i);
   }
-  return at(robot, position);
+  return at_pose(robot, Eigen::Quaterniond::Identity(), position);
 }
 
 }  // namespace touchdown::models

@@ -79,6 +79,8 @@ struct RobotModel {
   std::array<std::optional<ClosedLeg>, wheel_count> closed_leg;
   /// Cranks and rods of closed legs: joints of the left leg, then of the right.
   std::vector<int> linked;
+  /// The joints beside the servos': `linked`, then `held`.
+  std::vector<int> others() const;
   /// The joint that each motor turns; −1 without one. In open legs this is `joint`. The motors of a
   /// closed leg count as its hip and knee: `effort` and `actuator` are theirs.
   std::array<int, servo_count> motor_joint = {};
@@ -118,11 +120,15 @@ void write_pose(const RobotModel& robot, const Eigen::Vector3d& position,
 /// Writes the positions of held joints into mjData::qpos; none stand for their references.
 void write_held(const RobotModel& robot, std::span<const double> position, mjtNum* qpos);
 
-/// Kinematics of the robot with all servos at zero and the base upright at the origin. Errors:
-/// `Error` when memory is out.
+/// Kinematics and mass matrix of the robot with its base at the origin. Errors: `Error` when memory
+/// is out.
+MjDataPtr at_pose(const RobotModel& robot, const Eigen::Quaterniond& orientation,
+                  const std::array<double, servo_count>& joint_position);
+
+/// The same with all servos at zero and the base upright.
 MjDataPtr at_zero(const RobotModel& robot);
 
-/// The same at the pose of the robot's file.
+/// Likewise at the pose of the robot's file.
 MjDataPtr at_reference(const RobotModel& robot);
 
 /// Bits of the robot's collision geoms: they meet the terrain (2, 1) and not each other.

@@ -18,7 +18,8 @@ using Efforts = std::map<std::string, double>;
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 /// The upper end of a range that must be symmetric.
-double symmetric(const mjtNum* range, const char* what, const FailAtMotor& fail) {
+template <typename Fail>
+double symmetric(const mjtNum* range, const char* what, const Fail& fail) {
   constexpr double close = 1e-6;
   if (!(range[1] > 0.0) || std::abs(range[0] + range[1]) > close * range[1]) {
     fail(fmt::format("expected a symmetric {}, found {:g} to {:g}", what, range[0], range[1]));
@@ -33,7 +34,19 @@ double limit_of(const Efforts& efforts, const std::string& joint) {
   return found == efforts.end() ? no_limit : found->second;
 }
 
-double torque_limit(const mjModel& model, int motor, double most, const FailAtMotor& fail) {
+Actuator actuator_at(const mjModel& model, int dof) {
+  return {.friction = model.dof_frictionloss[dof],
+          .viscous = model.dof_damping[dof],
+          .armature = model.dof_armature[dof]};
+}
+
+double torque_limit(const mjModel& model, const MotorOfJoint& of, double most,
+                    const Contract& contract) {
+  const int motor = of.motor;
+  const auto fail = [&](const std::string& message) {
+    contract.fail_at_actuator(
+        motor, fmt::format("{}: {}, or '{}' in the YAML file", of.title, message, of.remedy));
+  };
   if (model.actuator_dyntype[motor] != mjDYN_NONE) {
     fail("expected a motor, found an activation (dyntype)");
   }
@@ -217,7 +230,7 @@ class Held {
   }
 
   HeldJoint held(const HeldServo& given, const Gains& robots, const Efforts& efforts) {
-    check_joint();
+    contract_.check_hinge(held_.joint, "as it is held");
     held_.qpos_address = model_.jnt_qposadr[held_.joint];
     held_.dof_address = model_.jnt_dofadr[held_.joint];
     held_.reference = model_.qpos0[held_.qpos_address];
@@ -229,20 +242,6 @@ class Held {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& message) const {
-    contract_.fail_at_joint(held_.joint, fmt::format("joint '{}': {}", held_.name, message));
-  }
-
-  void check_joint() const {
-    if (model_.jnt_type[held_.joint] != mjJNT_HINGE) fail("expected a hinge, as it is held");
-    if (model_.body_jntnum[model_.jnt_bodyid[held_.joint]] > 1) {
-      fail("expected no other joint on its body, as it is held");
-    }
-    if (const double stiffness = model_.jnt_stiffness[held_.joint]; stiffness != 0.0) {
-      fail(fmt::format("expected no spring, found stiffness {:g}", stiffness));
-    }
-  }
-
   void set_gains(const HeldServo& given, const Gains& robots) {
     const Gains own = own_gains(model_, motor_);
     if (given.kp) {
@@ -263,19 +262,15 @@ class Held {
       held_.effort = *given.maximum_torque;
       return;
     }
-    held_.effort = torque_limit(model_, motor_, most, [&](const std::string& message) {
-      contract_.fail_at_actuator(
-          motor_, fmt::format("motor of joint '{}': {}, or 'held_servo: {{maximum_torque: …}}' in "
-                              "the YAML file",
-                              held_.name, message));
-    });
+    held_.effort = torque_limit(
+        model_,
+        {motor_, fmt::format("motor of joint '{}'", held_.name), "held_servo: {maximum_torque: …}"},
+        most, contract_);
   }
 
   void set_actuator() {
     const int dof = held_.dof_address;
-    held_.actuator = {.friction = model_.dof_frictionloss[dof],
-                      .viscous = model_.dof_damping[dof],
-                      .armature = model_.dof_armature[dof]};
+    held_.actuator = actuator_at(model_, dof);
     model_.dof_frictionloss[dof] = model_.dof_damping[dof] = 0.0;
   }
 
@@ -317,15 +312,11 @@ void find_servos(RobotModel& robot, const RobotDescription& description, const E
     const auto& given = description.actuator(static_cast<Servo>(i));
     const double most = std::min(given ? given->maximum_torque : no_limit,
                                  limit_of(efforts, own_name(contract.parts(), i)));
-    const auto fail = [&](const std::string& message) {
-      contract.fail_at_motor(
-          i, fmt::format("{}, or 'actuators: {{{}: {{maximum_torque: …}}}}' in the YAML file",
-                         message, std::array{"hip", "knee", "wheel"}[i % 3]));
-    };
-    collect(complaints, [&] { robot.effort[i] = torque_limit(model, motor[i], most, fail); });
-    robot.actuator[i] = {.friction = model.dof_frictionloss[robot.dof_address[i]],
-                         .viscous = model.dof_damping[robot.dof_address[i]],
-                         .armature = model.dof_armature[robot.dof_address[i]]};
+    const MotorOfJoint of = {motor[i], fmt::format("motor '{}'", own_name(contract.parts(), i)),
+                             fmt::format("actuators: {{{}: {{maximum_torque: …}}}}",
+                                         std::array{"hip", "knee", "wheel"}[i % 3])};
+    collect(complaints, [&] { robot.effort[i] = torque_limit(model, of, most, contract); });
+    robot.actuator[i] = actuator_at(model, robot.dof_address[i]);
   }
   require_none(complaints);
   for (int i = 0; i < model.nu; ++i) {

@@ -122,13 +122,7 @@ class ServoStudy {
   ServoStudy(const models::RobotModel& robot, const ServoPose& pose)
       : robot_(robot), period_(pose.period), mass_(robot.mj->nv, robot.mj->nv) {
     const mjModel& mj = *robot.mj;
-    const models::MjDataPtr data(mj_makeData(&mj));
-    if (!data) throw Error("MuJoCo could not make its data: out of memory");
-    models::write_pose(robot, Eigen::Vector3d::Zero(), pose.orientation, pose.joint_position,
-                       data->qpos);
-    mj_kinematics(&mj, data.get());
-    mj_comPos(&mj, data.get());
-    mj_crb(&mj, data.get());
+    const models::MjDataPtr data = models::at_pose(robot, pose.orientation, pose.joint_position);
     mj_fullM(&mj, mass_.data(), data->qM);
     in_bullet_ = mass_in_bullet(mj, *data, mass_);
     in_flight_ = possible(robot, *data, false);

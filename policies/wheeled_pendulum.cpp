@@ -107,12 +107,7 @@ WheeledPendulum wheeled_pendulum(const models::RobotModel& robot,
                                  const Eigen::Quaterniond& orientation,
                                  const std::array<double, models::servo_count>& joint_position) {
   const mjModel& mj = *robot.mj;
-  const models::MjDataPtr data(mj_makeData(&mj));
-  if (!data) throw Error("MuJoCo could not make its data: out of memory");
-  models::write_pose(robot, Vector3d::Zero(), orientation, joint_position, data->qpos);
-  mj_kinematics(&mj, data.get());
-  mj_comPos(&mj, data.get());
-  mj_crb(&mj, data.get());
+  const models::MjDataPtr data = models::at_pose(robot, orientation, joint_position);
   const Vector3d left = models::vector_at(data->geom_xpos, robot.tyre_geom[0]);
   const Vector3d right = models::vector_at(data->geom_xpos, robot.tyre_geom[1]);
   const Vector3d axle = 0.5 * (left + right);

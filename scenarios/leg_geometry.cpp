@@ -44,10 +44,8 @@ std::array<Link, leg_servos.size()> links_of(const models::RobotModel& robot, co
 }
 
 /// Inertia that the wheel's servo accelerates (kg·m²): wheel and rotor, about the axle.
-double inertia_about_axle(const models::RobotModel& robot, mjData& data) {
+double inertia_about_axle(const models::RobotModel& robot, const mjData& data) {
   const mjModel& mj = *robot.mj;
-  mj_comPos(&mj, &data);
-  mj_crb(&mj, &data);
   return data.qM[mj.dof_Madr[robot.dof_address[models::index(Servo::left_wheel)]]];
 }
 

@@ -98,8 +98,7 @@ void line_up(const models::RobotModel& model, mjData& data, simulators::RobotSta
 
 simulators::RobotState start_pose(const models::RobotModel& model, const models::Terrain& terrain,
                                   const Start& start) {
-  const models::MjDataPtr data(mj_makeData(model.mj.get()));
-  if (!data) throw Error("MuJoCo could not make its data: out of memory");
+  const models::MjDataPtr data = models::make_data(*model.mj);
   simulators::RobotState state;
   // The left hip swings the foot forward and the knee folds it back under the hip.
   state.joint_position = {start.hip, -start.knee, 0.0, -start.hip, start.knee, 0.0};

@@ -86,34 +86,20 @@ class BulletWorld {
   btMultiBody& robot() { return *robot_; }
   const btMultiBody& robot() const { return *robot_; }
 
-  /// Bullet's link that a servo's joint moves; the robot has this joint.
-  int link_of(std::size_t servo) const { return link_of_servo_[servo]; }
-
-  /// The link that a joint of the model moves.
-  int link_of_joint(int joint) const {
+  /// The link that a joint of the model moves. Its angle is zero in the reference pose of the
+  /// model, that of the joint need not be.
+  int link_of(int joint) const {
     return link_of_body_[static_cast<std::size_t>(body_of_joint_[joint])];
-  }
-
-  /// The link that a held joint moves. Its angle is zero at the joint's reference.
-  int link_of_held(std::size_t number) const { return link_of_held_[number]; }
-
-  /// Bullet's joints are at zero in the reference pose of the model, those of the model need not
-  /// be. (Without an offset, zeros keep their sign.)
-  double to_bullet_angle(std::size_t servo, double angle) const {
-    return reference_[servo] == 0.0 ? angle : angle - reference_[servo];
-  }
-  double from_bullet_angle(std::size_t servo, double angle) const {
-    return reference_[servo] == 0.0 ? angle : angle + reference_[servo];
   }
 
   const BulletTyres& tyres() const { return tyres_; }
 
  private:
   void build_links(const models::RobotModel& model);
-  void add_joint_limits(const models::RobotModel& model);
-  /// Limits a link's angle (rad), if the model limits its joint. `zero`: the joint's angle where
-  /// that of the link is zero.
-  void add_joint_limit(const mjModel& mj, int joint, int link, double zero);
+  void add_constraint(std::unique_ptr<btMultiBodyConstraint> constraint);
+  /// Limits a link's angle, if the model limits its joint.
+  template <typename Limit>
+  void add_limit(const mjModel& mj, int joint);
   void add_colliders(const models::RobotModel& model);
   /// Closes the loops of closed legs.
   void add_loops(const models::RobotModel& model);
@@ -131,13 +117,9 @@ class BulletWorld {
   std::vector<std::unique_ptr<btRigidBody>> terrain_;
   std::unique_ptr<btMultiBody> robot_;
   std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
-  std::vector<std::unique_ptr<btMultiBodyJointLimitConstraint>> joint_limits_;
-  std::vector<std::unique_ptr<btMultiBodyConstraint>> loops_;
+  std::vector<std::unique_ptr<btMultiBodyConstraint>> constraints_;
   std::vector<int> link_of_body_;
   const int* body_of_joint_ = nullptr;  ///< the model's
-  std::array<int, models::servo_count> link_of_servo_ = {};
-  std::vector<int> link_of_held_;
-  std::array<double, models::servo_count> reference_ = {};  ///< of each joint (rad)
   BulletTyres tyres_;
   WorldWithTyres world_;
 
@@ -171,6 +153,10 @@ class BulletSimulator : public Simulator {
  private:
   /// The angle of a joint where its link's is zero (rad).
   double reference(int joint) const;
+  /// The angle (rad) and velocity (rad/s) of a joint.
+  void set_joint(int joint, double angle, double rate);
+  double angle_of(int joint) const;
+  double rate_of(int joint) const;
 
   std::unique_ptr<BulletWorld> world_;
   std::unique_ptr<Rotors> rotors_;

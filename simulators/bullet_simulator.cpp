@@ -56,19 +56,14 @@ class Rotors {
 };
 
 Rotors::Rotors(const models::RobotModel& model, const BulletWorld& world) {
-  const auto add = [&](int dof, int link) {
-    const double inertia = model.mj->dof_armature[dof];
-    if (inertia > 0.0) rotors_.push_back({link, inertia});
+  const auto add = [&](int joint) {
+    const double inertia = model.mj->dof_armature[model.mj->jnt_dofadr[joint]];
+    if (inertia > 0.0) rotors_.push_back({world.link_of(joint), inertia});
   };
-  for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
-    if (model.has(servo)) add(model.dof_address[servo], world.link_of(servo));
+  for (const int joint : model.joint) {
+    if (joint >= 0) add(joint);
   }
-  for (std::size_t i = 0; i < model.linked.size(); ++i) {
-    add(model.mj->jnt_dofadr[model.linked[i]], world.link_of_joint(model.linked[i]));
-  }
-  for (std::size_t i = 0; i < model.held.size(); ++i) {
-    add(model.held[i].dof_address, world.link_of_held(i));
-  }
+  for (const int joint : model.others()) add(joint);
 }
 
 void Rotors::compensate(btMultiBody& robot, double period) {
@@ -116,6 +111,20 @@ double BulletSimulator::reference(int joint) const {
   return model().mj->qpos0[model().mj->jnt_qposadr[joint]];
 }
 
+void BulletSimulator::set_joint(int joint, double angle, double rate) {
+  world_->robot().setJointPos(world_->link_of(joint), angle - reference(joint));
+  world_->robot().setJointVel(world_->link_of(joint), rate);
+}
+
+double BulletSimulator::angle_of(int joint) const {
+  const double angle = world_->robot().getJointPos(world_->link_of(joint));
+  return reference(joint) == 0.0 ? angle : angle + reference(joint);  // zeros keep their sign
+}
+
+double BulletSimulator::rate_of(int joint) const {
+  return world_->robot().getJointVel(world_->link_of(joint));
+}
+
 void BulletSimulator::place(const RobotState& start) {
   world_ = std::make_unique<BulletWorld>(model(), options());
   rotors_ = std::make_unique<Rotors>(model(), *world_);
@@ -127,20 +136,10 @@ void BulletSimulator::place(const RobotState& start) {
   robot.setBaseOmega(to_bullet(start.angular_velocity));
   for (std::size_t i = 0; i < models::servo_count; ++i) {
     if (!model().has(i)) continue;
-    robot.setJointPos(world_->link_of(i), world_->to_bullet_angle(i, start.joint_position[i]));
-    robot.setJointVel(world_->link_of(i), start.joint_velocity[i]);
+    set_joint(model().joint[i], start.joint_position[i], start.joint_velocity[i]);
   }
-  for (std::size_t i = 0; i < start.linked_position.size(); ++i) {
-    const int joint = model().linked[i];
-    const int link = world_->link_of_joint(joint);
-    robot.setJointPos(link, start.linked_position[i] - reference(joint));
-    robot.setJointVel(link, start.linked_velocity[i]);
-  }
-  for (std::size_t i = 0; i < start.held_position.size(); ++i) {
-    robot.setJointPos(world_->link_of_held(i), start.held_position[i] - model().held[i].reference);
-  }
-  for (std::size_t i = 0; i < start.held_velocity.size(); ++i) {
-    robot.setJointVel(world_->link_of_held(i), start.held_velocity[i]);
+  for (std::size_t i = 0; i < start.other_position.size(); ++i) {
+    set_joint(others()[i], start.other_position[i], start.other_velocity[i]);
   }
   btAlignedObjectArray<btQuaternion> rotations;
   btAlignedObjectArray<btVector3> origins;
@@ -153,10 +152,10 @@ void BulletSimulator::advance(const AppliedTorques& torques,
   btMultiBody& robot = world_->robot();
   for (std::size_t i = 0; i < models::servo_count; ++i) {
     const int joint = model().motor_joint[i];
-    if (joint >= 0) robot.addJointTorque(world_->link_of_joint(joint), torques.servo[i]);
+    if (joint >= 0) robot.addJointTorque(world_->link_of(joint), torques.servo[i]);
   }
   for (std::size_t i = 0; i < torques.held.size(); ++i) {
-    robot.addJointTorque(world_->link_of_held(i), torques.held[i]);
+    robot.addJointTorque(world_->link_of(model().held[i].joint), torques.held[i]);
   }
   for (const ExternalWrench& wrench : wrenches) {
     robot.addBaseForce(to_bullet(wrench.force));
@@ -176,22 +175,14 @@ void BulletSimulator::read(RobotState& state) const {
   state.linear_velocity = to_eigen(robot.getBaseVel()) - state.angular_velocity.cross(com_offset);
   for (std::size_t i = 0; i < models::servo_count; ++i) {
     if (!model().has(i)) continue;
-    state.joint_position[i] = world_->from_bullet_angle(i, robot.getJointPos(world_->link_of(i)));
-    state.joint_velocity[i] = robot.getJointVel(world_->link_of(i));
+    state.joint_position[i] = angle_of(model().joint[i]);
+    state.joint_velocity[i] = rate_of(model().joint[i]);
   }
-  state.linked_position.clear();
-  state.linked_velocity.clear();
-  for (const int joint : model().linked) {
-    const int link = world_->link_of_joint(joint);
-    state.linked_position.push_back(robot.getJointPos(link) + reference(joint));
-    state.linked_velocity.push_back(robot.getJointVel(link));
-  }
-  state.held_position.clear();
-  state.held_velocity.clear();
-  for (std::size_t i = 0; i < model().held.size(); ++i) {
-    const int link = world_->link_of_held(i);
-    state.held_position.push_back(model().held[i].reference + robot.getJointPos(link));
-    state.held_velocity.push_back(robot.getJointVel(link));
+  state.other_position.clear();
+  state.other_velocity.clear();
+  for (const int joint : others()) {
+    state.other_position.push_back(angle_of(joint));
+    state.other_velocity.push_back(rate_of(joint));
   }
 }
 

@@ -207,6 +207,20 @@ void WorldWithTyres::performDiscreteCollisionDetection() {
   tyres_.select_contacts(*getDispatcher());
 }
 
+void BulletWorld::add_constraint(std::unique_ptr<btMultiBodyConstraint> constraint) {
+  world_.addMultiBodyConstraint(constraint.get());
+  constraints_.push_back(std::move(constraint));
+}
+
+template <typename Limit>
+void BulletWorld::add_limit(const mjModel& mj, int joint) {
+  if (mj.jnt_limited[joint] == 0) return;
+  const mjtNum* const range = &mj.jnt_range[2 * joint];
+  const double zero = mj.qpos0[mj.jnt_qposadr[joint]];
+  add_constraint(
+      std::make_unique<Limit>(robot_.get(), link_of(joint), range[0] - zero, range[1] - zero));
+}
+
 BulletWorld::BulletWorld(const models::RobotModel& model, const SimulatorOptions& options)
     : edge_radius_(options.contact.bullet_edge_radius),
       dispatcher_(&configuration_),
@@ -216,15 +230,18 @@ BulletWorld::BulletWorld(const models::RobotModel& model, const SimulatorOptions
   world_.setGravity(to_bullet(models::vector_at(mj.opt.gravity, 0)));
   build_links(model);
   world_.addMultiBody(robot_.get());
-  add_joint_limits(model);
+  using Limit = btMultiBodyJointLimitConstraint;
+  for (const int joint : model.joint) {
+    if (joint >= 0) add_limit<Limit>(mj, joint);
+  }
+  for (const models::HeldJoint& held : model.held) add_limit<Limit>(mj, held.joint);
   add_loops(model);
   add_colliders(model);
   add_terrain(model);
 }
 
 BulletWorld::~BulletWorld() {
-  for (auto& loop : loops_) world_.removeMultiBodyConstraint(loop.get());
-  for (auto& limit : joint_limits_) world_.removeMultiBodyConstraint(limit.get());
+  for (auto& constraint : constraints_) world_.removeMultiBodyConstraint(constraint.get());
   for (auto& collider : colliders_) world_.removeCollisionObject(collider.get());
   for (auto& body : terrain_) world_.removeRigidBody(body.get());
   world_.removeMultiBody(robot_.get());
@@ -283,37 +300,6 @@ void BulletWorld::build_links(const models::RobotModel& model) {
   robot_->setUseGyroTerm(true);
   robot_->setHasSelfCollision(false);
   robot_->setMaxCoordinateVelocity(1e4);
-
-  for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
-    if (!model.has(servo)) continue;
-    link_of_servo_[servo] =
-        link_of_body_[static_cast<std::size_t>(mj.jnt_bodyid[model.joint[servo]])];
-    reference_[servo] = model.reference(servo);
-  }
-  for (const models::HeldJoint& held : model.held) {
-    link_of_held_.push_back(link_of_body_[static_cast<std::size_t>(mj.jnt_bodyid[held.joint])]);
-  }
-}
-
-void BulletWorld::add_joint_limits(const models::RobotModel& model) {
-  const mjModel& mj = *model.mj;
-  for (std::size_t servo = 0; servo < models::servo_count; ++servo) {
-    if (!model.has(servo)) continue;
-    add_joint_limit(mj, model.joint[servo], link_of_servo_[servo], reference_[servo]);
-  }
-  for (std::size_t i = 0; i < model.held.size(); ++i) {
-    add_joint_limit(mj, model.held[i].joint, link_of_held_[i], model.held[i].reference);
-  }
-}
-
-void BulletWorld::add_joint_limit(const mjModel& mj, int joint, int link, double zero) {
-  if (mj.jnt_limited[joint] == 0) return;
-  const mjtNum* range = &mj.jnt_range[2 * joint];
-  // Without an offset, zeros keep their sign.
-  const auto in_link = [zero](double angle) { return zero == 0.0 ? angle : angle - zero; };
-  auto& limit = joint_limits_.emplace_back(std::make_unique<btMultiBodyJointLimitConstraint>(
-      robot_.get(), link, in_link(range[0]), in_link(range[1])));
-  world_.addMultiBodyConstraint(limit.get());
 }
 
 void BulletWorld::add_loops(const models::RobotModel& model) {
@@ -332,16 +318,10 @@ void BulletWorld::add_loops(const models::RobotModel& model) {
       at.at(i) = to_bullet(frame.orientation.conjugate() *
                            (models::vector_at(anchor, 0) - frame.position));
     }
-    loops_.push_back(std::make_unique<PlanarLoop>(*robot_, link, at, across));
-    world_.addMultiBodyConstraint(loops_.back().get());
+    add_constraint(std::make_unique<PlanarLoop>(*robot_, link, at, across));
   }
   for (const int joint : model.linked) {
-    const mjtNum* const range = &mj.jnt_range[2 * joint];
-    const double zero = mj.qpos0[mj.jnt_qposadr[joint]];
-    if (mj.jnt_limited[joint] == 0) continue;
-    loops_.push_back(std::make_unique<InIsland<btMultiBodyJointLimitConstraint>>(
-        robot_.get(), link_of_joint(joint), range[0] - zero, range[1] - zero));
-    world_.addMultiBodyConstraint(loops_.back().get());
+    add_limit<InIsland<btMultiBodyJointLimitConstraint>>(mj, joint);
   }
 }
 

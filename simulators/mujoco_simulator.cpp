@@ -134,11 +134,9 @@ MujocoSimulator::MujocoSimulator(const std::shared_ptr<const models::RobotModel>
                                  const SimulatorOptions& options)
     : Simulator(model, options),
       mj_(copy_with_options(*model, this->options())),
-      data_(mj_makeData(mj_.get())),
+      data_(models::make_data(*mj_)),
       tyres_(*model, *mj_),
-      base_com_(models::vector_at(mj_->body_ipos, model->base_body)) {
-  if (!data_) throw std::bad_alloc();
-}
+      base_com_(models::vector_at(mj_->body_ipos, model->base_body)) {}
 
 void MujocoSimulator::place(const RobotState& start) {
   mj_resetData(mj_.get(), data_.get());
@@ -150,13 +148,9 @@ void MujocoSimulator::place(const RobotState& start) {
     if (!model().has(i)) continue;
     data_->qvel[model().dof_address[i]] = start.joint_velocity[i];
   }
-  for (std::size_t i = 0; i < start.linked_position.size(); ++i) {
-    data_->qpos[mj_->jnt_qposadr[model().linked[i]]] = start.linked_position[i];
-    data_->qvel[mj_->jnt_dofadr[model().linked[i]]] = start.linked_velocity[i];
-  }
-  models::write_held(model(), start.held_position, data_->qpos);
-  for (std::size_t i = 0; i < start.held_velocity.size(); ++i) {
-    data_->qvel[model().held[i].dof_address] = start.held_velocity[i];
+  for (std::size_t i = 0; i < start.other_position.size(); ++i) {
+    data_->qpos[mj_->jnt_qposadr[others()[i]]] = start.other_position[i];
+    data_->qvel[mj_->jnt_dofadr[others()[i]]] = start.other_velocity[i];
   }
 }
 
@@ -203,17 +197,11 @@ void MujocoSimulator::read(RobotState& state) const {
     state.joint_position[i] = data_->qpos[model().qpos_address[i]];
     state.joint_velocity[i] = data_->qvel[model().dof_address[i]];
   }
-  state.linked_position.clear();
-  state.linked_velocity.clear();
-  for (const int joint : model().linked) {
-    state.linked_position.push_back(data_->qpos[mj_->jnt_qposadr[joint]]);
-    state.linked_velocity.push_back(data_->qvel[mj_->jnt_dofadr[joint]]);
-  }
-  state.held_position.clear();
-  state.held_velocity.clear();
-  for (const models::HeldJoint& held : model().held) {
-    state.held_position.push_back(data_->qpos[held.qpos_address]);
-    state.held_velocity.push_back(data_->qvel[held.dof_address]);
+  state.other_position.clear();
+  state.other_velocity.clear();
+  for (const int joint : others()) {
+    state.other_position.push_back(data_->qpos[mj_->jnt_qposadr[joint]]);
+    state.other_velocity.push_back(data_->qvel[mj_->jnt_dofadr[joint]]);
   }
 }
 

@@ -19,7 +19,7 @@ double rolling_torque(double coefficient, double normal_force, double wheel_velo
   return -coefficient * normal_force * std::tanh(wheel_velocity);
 }
 
-/// Where the cranks and rods of a leg are in `RobotState::linked_position`.
+/// Where the cranks and rods of a leg are in `RobotState::other_position`.
 std::size_t first_linked(const models::RobotModel& model, std::size_t leg) {
   return leg == 0 ? 0 : model.closed_leg[0]->joint.size() - 2;
 }
@@ -38,8 +38,8 @@ LinkageVector of_hinges(const models::RobotModel& model, std::size_t leg,
 
 /// A start with closed legs: cranks and rods follow hip and knee, with one motor also the knee.
 RobotState with_closed_legs(const models::RobotModel& model, RobotState state) {
-  state.linked_position.clear();
-  state.linked_velocity.clear();
+  state.other_position.clear();
+  state.other_velocity.clear();
   for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
     const Linkage& linkage = model.closed_leg[leg]->linkage;
     double* const angle = &state.joint_position[3 * leg];
@@ -52,8 +52,8 @@ RobotState with_closed_legs(const models::RobotModel& model, RobotState state) {
     const LinkageVector rates = map.all * map.motor_rates({rate[0], rate[1]});
     std::copy_n(q.data(), 2, angle);
     std::copy_n(rates.data(), 2, rate);
-    state.linked_position.insert(state.linked_position.end(), q.begin() + 2, q.end());
-    state.linked_velocity.insert(state.linked_velocity.end(), rates.begin() + 2, rates.end());
+    state.other_position.insert(state.other_position.end(), q.begin() + 2, q.end());
+    state.other_velocity.insert(state.other_velocity.end(), rates.begin() + 2, rates.end());
   }
   return state;
 }
@@ -63,6 +63,7 @@ RobotState with_closed_legs(const models::RobotModel& model, RobotState state) {
 Simulator::Simulator(std::shared_ptr<const models::RobotModel> model,
                      const SimulatorOptions& options)
     : model_(std::move(model)),
+      others_(model_->others()),
       options_(with_steps_for_tyres(options, *model_)),
       actuators_(*model_, options_.steps),
       held_servos_(*model_, options_.steps),
@@ -93,7 +94,9 @@ void Simulator::step(const models::Action& action, std::span<const ExternalWrenc
     if (has_loops) update_leg_motors();
     torques = actuators_.step(commands, state_.joint_position, state_.joint_velocity,
                               has_loops ? &leg_motors_ : nullptr);
-    held_servos_.step(state_.held_position, state_.held_velocity);
+    const std::size_t linked = model_->linked.size();
+    held_servos_.step(std::span(state_.other_position).subspan(linked),
+                      std::span(state_.other_velocity).subspan(linked));
     AppliedTorques applied{torques.applied, held_servos_.torques()};
     for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
       const std::size_t servo = models::index(models::wheel_servos[wheel]);
@@ -153,21 +156,17 @@ void Simulator::observe(const Eigen::Vector3d& velocity_before, const Actuators:
             .base_linear_velocity = state_.linear_velocity,
             .base_angular_velocity = state_.angular_velocity,
             .imu_linear_velocity = velocity};
-  observe_held_joints();
-}
-
-void Simulator::observe_held_joints() {
-  for (std::size_t i = 0; i < state_.held_position.size(); ++i) {
-    truth_.held.push_back(
-        {state_.held_position[i], state_.held_velocity[i], held_servos_.torques()[i]});
+  for (std::size_t i = model_->linked.size(); i < others_.size(); ++i) {
+    truth_.held.push_back({state_.other_position[i], state_.other_velocity[i],
+                           held_servos_.torques()[i - model_->linked.size()]});
   }
 }
 
 void Simulator::update_leg_motors() {
   for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
     const std::vector<int>& motors = model_->closed_leg[leg]->linkage.motors;
-    const auto q = of_hinges(*model_, leg, state_.joint_position, state_.linked_position);
-    const auto rates = of_hinges(*model_, leg, state_.joint_velocity, state_.linked_velocity);
+    const auto q = of_hinges(*model_, leg, state_.joint_position, state_.other_position);
+    const auto rates = of_hinges(*model_, leg, state_.joint_velocity, state_.other_velocity);
     leg_motors_.map[leg].emplace(model_->closed_leg[leg]->linkage, q);
     for (std::size_t i = 0; i < motors.size(); ++i) {
       leg_motors_.position[3 * leg + i] = q[motors[i]];

@@ -31,14 +31,10 @@ struct RobotState {
   /// Joint angles (rad) and velocities (rad/s), in servo order.
   std::array<double, models::servo_count> joint_position = {};
   std::array<double, models::servo_count> joint_velocity = {};
-  /// The same of the held joints, in the model's order. If empty, they are at their references, at
-  /// rest.
-  std::vector<double> held_position = {};
-  std::vector<double> held_velocity = {};
-  /// Angles and velocities of the cranks and rods of closed legs, in the model's order. A start
-  /// needs none: they follow hip and knee.
-  std::vector<double> linked_position = {};
-  std::vector<double> linked_velocity = {};
+  /// The same of `RobotModel::others`. A start needs none: cranks and rods follow hip and knee, and
+  /// held joints are at their references, at rest.
+  std::vector<double> other_position = {};
+  std::vector<double> other_velocity = {};
 };
 
 /// Torques on the joints over one physics step (N·m).
@@ -116,12 +112,13 @@ class Simulator {
   virtual void read(RobotState& state) const = 0;
   /// Reads the contact forces of the last physics step.
   virtual void read(ContactForces& forces) const = 0;
+  /// `RobotModel::others`.
+  const std::vector<int>& others() const { return others_; }
 
  private:
   Eigen::Vector3d imu_velocity() const;
   /// Updates observation and truth. `velocity_before`: of the IMU a control step ago (m/s, world).
   void observe(const Eigen::Vector3d& velocity_before, const Actuators::Torques& torques);
-  void observe_held_joints();
   /// Reads where the motors of closed legs are, and what they do to the virtual legs.
   void update_leg_motors();
   /// Torques of motors over the last step as those at hips and knees; open legs keep theirs.
@@ -129,6 +126,7 @@ class Simulator {
   void observe_leg_motors(const JointTorques& reported_torques);
 
   std::shared_ptr<const models::RobotModel> model_;
+  std::vector<int> others_;
   SimulatorOptions options_;
   Actuators actuators_;
   LegMotors leg_motors_;

@@ -227,28 +227,26 @@ void drop_missing_assets(MjcfDocument& document, FileFindings& findings) {
   Compiler compiler = compiler_of(document);
   Users geoms = users_of(document, "geom", "mesh");
   const Users materials = users_of(document, "material", "texture");
-  for (auto* section : children(document.root(), "asset")) {
-    for (XMLElement* const asset : children(*section)) {
-      const std::string_view tag = asset->Name();
-      const bool is_mesh = tag == "mesh";
-      if ((!is_mesh && tag != "texture") || asset->Attribute("file") == nullptr) continue;
-      const std::filesystem::path file =
-          file_of(document, compiler, *asset, is_mesh ? "meshdir" : "texturedir");
-      const std::string place = document.place_of(*asset) + ": ";
-      if (!is_missing(file)) {
-        const std::string fault = is_mesh ? fault_of_mesh(file) : "";
-        if (fault.empty()) continue;
-        findings.complaints.push_back(place + fmt::format("mesh '{}': {}", name_of(*asset), fault));
-      } else if (is_mesh) {
-        drop_mesh(document, *asset, file.string(), geoms, findings);
-      } else {
-        findings.ignored.push_back(place + drop_texture(*asset, file.string(), materials));
-      }
-      document.remove(*asset);
+  for (XMLElement* const asset : in_sections(document.root(), "asset")) {
+    const std::string_view tag = asset->Name();
+    const bool is_mesh = tag == "mesh";
+    if ((!is_mesh && tag != "texture") || asset->Attribute("file") == nullptr) continue;
+    const std::filesystem::path file =
+        file_of(document, compiler, *asset, is_mesh ? "meshdir" : "texturedir");
+    const std::string place = document.place_of(*asset) + ": ";
+    if (!is_missing(file)) {
+      const std::string fault = is_mesh ? fault_of_mesh(file) : "";
+      if (fault.empty()) continue;
+      findings.complaints.push_back(place + fmt::format("mesh '{}': {}", name_of(*asset), fault));
+    } else if (is_mesh) {
+      drop_mesh(document, *asset, file.string(), geoms, findings);
+    } else {
+      findings.ignored.push_back(place + drop_texture(*asset, file.string(), materials));
     }
+    document.remove(*asset);
   }
-  for (auto* world : children(document.root(), "worldbody")) {
-    for (auto* body : children(*world, "body")) draw_as_rods(document, *body);
+  for (XMLElement* const body : in_sections(document.root(), "worldbody", "body")) {
+    draw_as_rods(document, *body);
   }
 }
 

@@ -95,6 +95,12 @@ MjModelPtr load(const MjcfDocument::Text& xml, const std::filesystem::path& file
 
 }  // namespace
 
+MjDataPtr make_data(const mjModel& model) {
+  MjDataPtr data(mj_makeData(&model));
+  if (!data) throw Error("MuJoCo could not make its data: out of memory");
+  return data;
+}
+
 MjModelPtr compile_xml(const MjcfDocument::Text& xml, const std::filesystem::path& file) {
   const std::scoped_lock lock(last_model());
   return load(xml, file);

@@ -85,16 +85,6 @@ std::string escaped(std::string_view value) {
   return text;
 }
 
-template <typename Element>
-std::vector<Element*> children_of(Element& element, const char* tag) {
-  std::vector<Element*> all;
-  for (Element* child = element.FirstChildElement(tag); child != nullptr;
-       child = child->NextSiblingElement(tag)) {
-    all.push_back(child);
-  }
-  return all;
-}
-
 std::string start_of(const XMLElement& element, const char* end) {
   std::string text = fmt::format("<{}", element.Name());
   for (const auto* a = element.FirstAttribute(); a != nullptr; a = a->Next()) {
@@ -268,6 +258,12 @@ XMLElement& MjcfDocument::add(XMLElement& parent, const char* tag, const XMLElem
   return *added;
 }
 
+XMLElement& MjcfDocument::add_to_section(const char* section, const char* tag,
+                                         const XMLElement& like) {
+  XMLElement* const found = root().FirstChildElement(section);
+  return add(found != nullptr ? *found : add(root(), section, like), tag, like);
+}
+
 void MjcfDocument::insert_before(XMLElement& next, const std::string& elements) {
   const auto added = parsed("<added>" + elements + "</added>", file_);
   for (auto* from : children(*added->RootElement())) {
@@ -314,14 +310,6 @@ void for_each_element(XMLElement& element, const std::function<void(XMLElement&)
   for (auto* child : children(element)) {
     for_each_element(*child, visit);
   }
-}
-
-std::vector<XMLElement*> children(XMLElement& element, const char* tag) {
-  return children_of(element, tag);
-}
-
-std::vector<const XMLElement*> children(const XMLElement& element, const char* tag) {
-  return children_of(element, tag);
 }
 
 std::string_view attribute(const XMLElement& element, const char* name) {

@@ -47,6 +47,9 @@ class MjcfDocument {
   /// Adds an empty element to the end of another one. It has the place of `like`.
   tinyxml2::XMLElement& add(tinyxml2::XMLElement& parent, const char* tag,
                             const tinyxml2::XMLElement& like);
+  /// The same to a section of the root, which is added if there is none.
+  tinyxml2::XMLElement& add_to_section(const char* section, const char* tag,
+                                       const tinyxml2::XMLElement& like);
 
   /// Parses elements and inserts them before `next`.
   void insert_before(tinyxml2::XMLElement& next, const std::string& elements);
@@ -85,10 +88,25 @@ void for_each_element(tinyxml2::XMLElement& element,
 
 /// The children of an element with a tag, or all of them, in their order. Each may be removed while
 /// it is visited.
-std::vector<tinyxml2::XMLElement*> children(tinyxml2::XMLElement& element,
-                                            const char* tag = nullptr);
-std::vector<const tinyxml2::XMLElement*> children(const tinyxml2::XMLElement& element,
-                                                  const char* tag = nullptr);
+template <typename Element>
+std::vector<Element*> children(Element& element, const char* tag = nullptr) {
+  std::vector<Element*> all;
+  for (Element* child = element.FirstChildElement(tag); child != nullptr;
+       child = child->NextSiblingElement(tag)) {
+    all.push_back(child);
+  }
+  return all;
+}
+
+/// The elements with a tag, or all, in all sections of a root, such as its <actuator>s.
+template <typename Element>
+std::vector<Element*> in_sections(Element& root, const char* section, const char* tag = nullptr) {
+  std::vector<Element*> all;
+  for (Element* const each : children(root, section)) {
+    for (Element* const inside : children(*each, tag)) all.push_back(inside);
+  }
+  return all;
+}
 
 /// The value of an attribute, or "" if it is absent.
 std::string_view attribute(const tinyxml2::XMLElement& element, const char* name);

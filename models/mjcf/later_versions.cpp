@@ -150,17 +150,9 @@ double first_of(const std::vector<double>& values, double otherwise) {
   return values.empty() ? otherwise : values.front();
 }
 
-std::vector<XMLElement*> all_actuators(MjcfDocument& document) {
-  std::vector<XMLElement*> all;
-  for (auto* section : children(document.root(), "actuator")) {
-    for (auto* actuator : children(*section)) all.push_back(actuator);
-  }
-  return all;
-}
-
 /// A position servo with damping is an affine one for this version of MuJoCo.
 void write_damping(MjcfDocument& document) {
-  for (XMLElement* const servo : all_actuators(document)) {
+  for (XMLElement* const servo : in_sections(document.root(), "actuator")) {
     const double kv = first_of(values_of(document, *servo, "kv"), 0.0);
     if (std::string_view(servo->Name()) != "position" || kv == 0.0) continue;
     const double kp = first_of(values_of(document, *servo, "kp"), 1.0);

@@ -16,15 +16,9 @@ void add_loop(MjcfDocument& document, const LoopKeys& loop, std::size_t number,
               const RobotKeys& keys) {
   std::array<XMLElement*, 2> body = {};
   for (std::size_t i = 0; i < 2; ++i) {
-    body[i] = document.find("body", loop.bodies[i]);
-    if (body[i] == nullptr) {
-      keys.fail(fmt::format("loops.{}", number), missing(document, {"body"}, loop.bodies[i]));
-    }
+    body[i] = &named(document, {"body"}, loop.bodies[i], fmt::format("loops.{}", number), keys);
   }
-  XMLElement* const section = document.root().FirstChildElement("equality");
-  XMLElement& connect = document.add(
-      section != nullptr ? *section : document.add(document.root(), "equality", *body[0]),
-      "connect", *body[1]);
+  XMLElement& connect = document.add_to_section("equality", "connect", *body[1]);
   connect.SetAttribute("name", fmt::format("loops.{}", number).c_str());
   const auto text = [](const std::vector<double>& place) {
     return fmt::format("{}", fmt::join(place, " "));
@@ -77,23 +71,19 @@ std::vector<LoopSites> complete_loops(MjcfDocument& document, const PartNames& p
     collect(findings.complaints, [&] { add_loop(document, parts.loops[i], i, keys); });
   }
   std::vector<LoopSites> sites;
-  for (XMLElement* const section : children(document.root(), "equality")) {
-    for (XMLElement* const connect : children(*section)) {
-      sites.emplace_back();
-      collect(findings.complaints, [&] { sites.back() = bodies_of_sites(document, *connect); });
-    }
+  for (XMLElement* const connect : in_sections(document.root(), "equality")) {
+    sites.emplace_back();
+    collect(findings.complaints, [&] { sites.back() = bodies_of_sites(document, *connect); });
   }
   for (std::size_t leg = 0; leg < wheel_count; ++leg) {
     for (std::size_t i = 0; i < parts.motors[leg].size(); ++i) {
       collect(findings.complaints, [&] {
         const std::string& name = parts.motors[leg][i];
-        const XMLElement* const joint = document.find("joint", name);
-        if (joint == nullptr) {
-          keys.fail(fmt::format("motors.{}.{}", leg == 0 ? "left" : "right", i),
-                    missing(document, {"joint"}, name));
-        }
+        const XMLElement& joint =
+            named(document, {"joint"}, name,
+                  fmt::format("motors.{}.{}", leg == 0 ? "left" : "right", i), keys);
         if (only_motor_of(document, name) == nullptr) {
-          add_motor(document, *joint).SetAttribute("joint", name.c_str());
+          add_motor(document, joint).SetAttribute("joint", name.c_str());
         }
       });
     }

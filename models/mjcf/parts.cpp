@@ -23,7 +23,8 @@ using tinyxml2::XMLElement;
 constexpr std::string_view held_prefix = "touchdown_held_";
 constexpr std::array<const char*, wheel_count> tyre_geoms = {"left_tire", "right_tire"};
 
-/// The names of all elements with one of these tags.
+}  // namespace
+
 std::vector<std::string> names_of(const MjcfDocument& document,
                                   std::initializer_list<std::string_view> tags) {
   std::vector<std::string> names;
@@ -35,20 +36,6 @@ std::vector<std::string> names_of(const MjcfDocument& document,
   return names;
 }
 
-std::vector<XMLElement*> motors_of(MjcfDocument& document, std::string_view joint) {
-  std::vector<XMLElement*> motors;
-  for (auto* section : children(document.root(), "actuator")) {
-    for (auto* motor : children(*section)) {
-      if (attribute(*motor, "joint") == joint || attribute(*motor, "jointinparent") == joint) {
-        motors.push_back(motor);
-      }
-    }
-  }
-  return motors;
-}
-
-}  // namespace
-
 std::string missing(const MjcfDocument& document, std::initializer_list<std::string_view> tags,
                     const std::string& name) {
   return fmt::format("expected a {} named '{}' in {}{}", fmt::join(tags, " or a "), name,
@@ -56,15 +43,23 @@ std::string missing(const MjcfDocument& document, std::initializer_list<std::str
                      found_text(name, names_of(document, tags)));
 }
 
+XMLElement& named(const MjcfDocument& document, std::initializer_list<std::string_view> tags,
+                  const std::string& name, std::string_view key, const RobotKeys& keys) {
+  for (const std::string_view tag : tags) {
+    if (XMLElement* const element = document.find(tag, name)) return *element;
+  }
+  keys.fail(key, missing(document, tags, name));
+}
+
 XMLElement& add_motor(MjcfDocument& document, const XMLElement& joint) {
-  XMLElement* const section = document.root().FirstChildElement("actuator");
-  return document.add(
-      section != nullptr ? *section : document.add(document.root(), "actuator", joint), "motor",
-      joint);
+  return document.add_to_section("actuator", "motor", joint);
 }
 
 XMLElement* only_motor_of(MjcfDocument& document, const std::string& joint) {
-  const std::vector<XMLElement*> motors = motors_of(document, joint);
+  std::vector<XMLElement*> motors = in_sections(document.root(), "actuator");
+  std::erase_if(motors, [&](const XMLElement* motor) {
+    return attribute(*motor, "joint") != joint && attribute(*motor, "jointinparent") != joint;
+  });
   if (motors.size() > 1) {
     document.fail(*motors[1], fmt::format("{}: expected one motor for joint '{}', found several",
                                           title_of(*motors[1]), joint));
@@ -73,6 +68,8 @@ XMLElement* only_motor_of(MjcfDocument& document, const std::string& joint) {
 }
 
 namespace {
+
+bool is_body(const XMLElement& element) { return std::string_view(element.Name()) == "body"; }
 
 /// Names a joint and its motor, if there is one.
 void rename(XMLElement& joint, XMLElement* motor, const std::string& name) {
@@ -83,19 +80,11 @@ void rename(XMLElement& joint, XMLElement* motor, const std::string& name) {
   motor->DeleteAttribute("jointinparent");  // the same for hinges
 }
 
-/// A named joint.
-XMLElement& joint_named(const MjcfDocument& document, const std::string& name,
-                        const std::string& key, const RobotKeys& keys) {
-  XMLElement* const joint = document.find("joint", name);
-  if (joint == nullptr) keys.fail(key, missing(document, {"joint"}, name));
-  return *joint;
-}
-
 void name_held(MjcfDocument& document, const std::vector<std::string>& held, FileFindings& findings,
                const RobotKeys& keys) {
   for (std::size_t i = 0; i < held.size(); ++i) {
     collect(findings.complaints, [&] {
-      XMLElement& joint = joint_named(document, held[i], fmt::format("held.{}", i), keys);
+      XMLElement& joint = named(document, {"joint"}, held[i], fmt::format("held.{}", i), keys);
       XMLElement* const motor = only_motor_of(document, held[i]);
       rename(joint, motor != nullptr ? motor : &add_motor(document, joint), held_name(i));
     });
@@ -129,7 +118,8 @@ void name_servos(MjcfDocument& document, const PartNames& parts, FileFindings& f
         // The compiled model has the complaint about a joint that is missing.
         joints[i] = document.find("joint", servo_names[i]);
       } else {
-        joints[i] = &joint_named(document, own, fmt::format("joints.{}", servo_names[i]), keys);
+        joints[i] =
+            &named(document, {"joint"}, own, fmt::format("joints.{}", servo_names[i]), keys);
         require_free_name(document, parts, i);
       }
     });
@@ -247,11 +237,8 @@ XMLElement* tyre_of(MjcfDocument& document, const PartNames& parts, std::size_t 
     return &sphere_about_axle(document, *moved, parts.tyre_radius);
   }
   if (!own.empty()) {
-    if (XMLElement* const geom = document.find("geom", own)) return geom;
-    if (XMLElement* const body = document.find("body", own)) {
-      return &largest_round_collider(document, *body, key);
-    }
-    keys.fail(key, missing(document, {"geom", "body"}, own));
+    XMLElement& part = named(document, {"geom", "body"}, own, key, keys);
+    return is_body(part) ? &largest_round_collider(document, part, key) : &part;
   }
   if (moved == nullptr || document.find("geom", tyre_geoms[wheel]) != nullptr) return nullptr;
   return &largest_round_collider(document, *moved, key);
@@ -276,13 +263,11 @@ void name_imu(MjcfDocument& document, const std::string& given, const RobotKeys&
   const std::string own = given.empty() ? "imu" : given;
   XMLElement* const usual = own == "imu" ? nullptr : document.find("site", "imu");
   if (usual != nullptr) usual->DeleteAttribute("name");
-  if (XMLElement* const site = document.find("site", own)) {
-    site->SetAttribute("name", "imu");
-  } else if (XMLElement* const body = document.find("body", own)) {
-    document.add(*body, "site", *body).SetAttribute("name", "imu");
-  } else if (!given.empty()) {
-    keys.fail("imu", missing(document, {"site", "body"}, own));
-  }
+  const bool has_own =
+      document.find("site", own) != nullptr || document.find("body", own) != nullptr;
+  if (given.empty() && !has_own) return;
+  XMLElement& part = named(document, {"site", "body"}, own, "imu", keys);
+  (is_body(part) ? document.add(part, "site", part) : part).SetAttribute("name", "imu");
 }
 
 /// Lets the named geoms, and all geoms of the named bodies, touch nothing.
@@ -290,12 +275,10 @@ void leave_untouched(MjcfDocument& document, const std::vector<std::string>& nam
                      FileFindings& findings, const RobotKeys& keys) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     collect(findings.complaints, [&] {
-      if (XMLElement* const geom = document.find("geom", names[i])) return leave_untouched(*geom);
-      XMLElement* const body = document.find("body", names[i]);
-      if (body == nullptr) {
-        keys.fail(fmt::format("no_collision.{}", i), missing(document, {"geom", "body"}, names[i]));
-      }
-      for (auto* geom : children(*body, "geom")) leave_untouched(*geom);
+      XMLElement& part =
+          named(document, {"geom", "body"}, names[i], fmt::format("no_collision.{}", i), keys);
+      if (!is_body(part)) return leave_untouched(part);
+      for (auto* geom : children(part, "geom")) leave_untouched(*geom);
     });
   }
 }

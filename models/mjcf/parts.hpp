@@ -48,6 +48,16 @@ std::vector<LoopSites> complete_loops(MjcfDocument& document, const PartNames& p
 std::string missing(const MjcfDocument& document, std::initializer_list<std::string_view> tags,
                     const std::string& name);
 
+/// The names of all elements with one of these tags.
+std::vector<std::string> names_of(const MjcfDocument& document,
+                                  std::initializer_list<std::string_view> tags);
+
+/// The element with a name that the YAML file gives under `key`, by the first tag that has one.
+/// Errors: `InputError` if there is none.
+tinyxml2::XMLElement& named(const MjcfDocument& document,
+                            std::initializer_list<std::string_view> tags, const std::string& name,
+                            std::string_view key, const RobotKeys& keys);
+
 /// Adds a motor to a joint that has none. Its torque limit is not in the file's motors.
 tinyxml2::XMLElement& add_motor(MjcfDocument& document, const tinyxml2::XMLElement& joint);
 

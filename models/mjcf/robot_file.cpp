@@ -127,14 +127,9 @@ std::string removed_from_world(const MjcfDocument& document, XMLElement& element
 
 /// Lets a robot float that is fixed to the world in its file.
 void let_float(MjcfDocument& document, FileFindings& findings) {
-  std::vector<XMLElement*> bodies;
+  const std::vector<XMLElement*> bodies = in_sections(document.root(), "worldbody", "body");
   std::vector<std::string> titles;
-  for (auto* world : children(document.root(), "worldbody")) {
-    for (auto* body : children(*world, "body")) {
-      bodies.push_back(body);
-      titles.push_back(title_of(*body));
-    }
-  }
+  for (const XMLElement* const body : bodies) titles.push_back(title_of(*body));
   if (bodies.size() == 1) {
     document.add(*bodies[0], "freejoint", *bodies[0]);
     note(findings.ignored, document, *bodies[0],
@@ -211,12 +206,9 @@ void require_none(const std::vector<std::string>& complaints) {
 void keep_robot_only(MjcfDocument& document, FileFindings& findings) {
   limit_by_ranges(document);
   XMLElement& root = document.root();
-  bool has_robot = false;
-  for (auto* world : children(root, "worldbody")) {
-    for (auto* body : children(*world, "body")) {
-      has_robot = has_robot || has_free_joint(*body);
-    }
-  }
+  const bool has_robot =
+      std::ranges::any_of(in_sections(root, "worldbody", "body"),
+                          [](const XMLElement* body) { return has_free_joint(*body); });
   for (XMLElement* const section : children(root)) {
     const std::string_view tag = section->Name();
     const std::string_view reason = reason_to_ignore(tag);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 
 #include <Eigen/Core>
@@ -18,6 +19,9 @@ struct MjDataDeleter {
 };
 using MjDataPtr = std::unique_ptr<mjData, MjDataDeleter>;
 
+/// Errors: `Error` when memory is out.
+MjDataPtr make_data(const mjModel& model);
+
 // Rows of MuJoCo's arrays as Eigen vectors and quaternions. MuJoCo stores quaternions as w x y z.
 
 inline Eigen::Vector3d vector_at(const mjtNum* x, int row) {
@@ -25,6 +29,11 @@ inline Eigen::Vector3d vector_at(const mjtNum* x, int row) {
 }
 inline Eigen::Quaterniond quaternion_at(const mjtNum* x, int row) {
   return {x[4 * row], x[4 * row + 1], x[4 * row + 2], x[4 * row + 3]};
+}
+
+inline void set_quaternion(mjtNum* x, int row, const Eigen::Quaterniond& q) {
+  const mjtNum wxyz[] = {q.w(), q.x(), q.y(), q.z()};
+  std::copy_n(wxyz, 4, x + 4 * row);
 }
 
 }  // namespace touchdown::models

@@ -101,14 +101,14 @@ void prepare(MjcfDocument& urdf, FileFindings& findings) {
 /// Reduces MuJoCo's own section of a URDF to what sets masses.
 void reduce_mujoco_section(MjcfDocument& urdf, FileFindings& findings) {
   std::string kept;
-  for (auto* section : children(urdf.root(), "mujoco")) {
-    for (auto* compiler : children(*section, "compiler")) {
-      for (const char* name : {"balanceinertia", "boundmass", "boundinertia", "settotalmass",
-                               "inertiafromgeom", "inertiagrouprange"}) {
-        if (compiler->Attribute(name) == nullptr || kept.find(name) != std::string::npos) continue;
-        kept += fmt::format(" {}=\"{}\"", name, attribute(*compiler, name));
-      }
+  for (XMLElement* const compiler : in_sections(urdf.root(), "mujoco", "compiler")) {
+    for (const char* name : {"balanceinertia", "boundmass", "boundinertia", "settotalmass",
+                             "inertiafromgeom", "inertiagrouprange"}) {
+      if (compiler->Attribute(name) == nullptr || kept.find(name) != std::string::npos) continue;
+      kept += fmt::format(" {}=\"{}\"", name, attribute(*compiler, name));
     }
+  }
+  for (auto* section : children(urdf.root(), "mujoco")) {
     findings.ignored.push_back(urdf.place_of(*section) +
                                ": mujoco: what sets masses counts; the scene has its own options");
     urdf.remove(*section);

@@ -38,7 +38,7 @@ models::MjDataPtr placed(const models::RobotModel& model, const RobotState& stat
     data->qpos[model.qpos_address[i]] = state.joint_position[i];
   }
   for (std::size_t i = 0; i < model.linked.size(); ++i) {
-    data->qpos[mj.jnt_qposadr[model.linked[i]]] = state.linked_position.at(i);
+    data->qpos[mj.jnt_qposadr[model.linked[i]]] = state.other_position.at(i);
   }
   mj_kinematics(&mj, data.get());
   mj_comPos(&mj, data.get());

@@ -82,7 +82,9 @@ class BareBullet : public BulletSimulator {
   double run(const std::vector<JointTorques>& torques, Eigen::Vector3d& end) {
     btMultiBody& robot = bullet().robot();
     std::array<int, models::servo_count> link = {};
-    for (std::size_t i = 0; i < models::servo_count; ++i) link[i] = bullet().link_of(i);
+    for (std::size_t i = 0; i < models::servo_count; ++i) {
+      link[i] = bullet().link_of(model().joint[i]);
+    }
     const auto start = std::chrono::steady_clock::now();
     for (const JointTorques& torque : torques) {
       for (std::size_t i = 0; i < models::servo_count; ++i)
