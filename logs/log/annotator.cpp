@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 #include "core/error.hpp"
 
@@ -9,128 +10,59 @@ namespace touchdown::logs {
 
 namespace {
 
-enum class Kind : std::uint8_t { other, text, list, map };
-
-/// The bytes that follow a value's first byte: a length, bytes of fixed number, then as many bytes
-/// or values as the length specifies.
-struct Format {
-  std::uint8_t length_bytes = 0;  ///< size of the length
-  std::uint8_t extra = 0;         ///< fixed number of bytes
-  Kind kind = Kind::other;
-};
-
-// clang-format off
-/// Formats of the first bytes 0xc0 to 0xdf in MessagePack's specification. All other first bytes
-/// contain their length.
-constexpr std::array<Format, 32> formats = {{
-    {}, {}, {}, {},                                                // nil, nothing, booleans
-    {1}, {2}, {4}, {1, 1}, {2, 1}, {4, 1},                         // bin, ext
-    {0, 4}, {0, 8},                                                // floats
-    {0, 1}, {0, 2}, {0, 4}, {0, 8}, {0, 1}, {0, 2}, {0, 4}, {0, 8},  // unsigned, signed
-    {0, 2}, {0, 3}, {0, 5}, {0, 9}, {0, 17},                       // fixext
-    {1, 0, Kind::text}, {2, 0, Kind::text}, {4, 0, Kind::text},
-    {2, 0, Kind::list}, {4, 0, Kind::list}, {2, 0, Kind::map}, {4, 0, Kind::map},
-}};
-// clang-format on
-
-struct Value {
-  Kind kind = Kind::other;
-  std::size_t end = 0;       ///< offset behind the value, without nested values
-  std::uint64_t inside = 0;  ///< number of nested values
+/// The first token of a value, if it is a text or the head of a map.
+struct Token : msgpack::null_visitor {
   std::string_view text;
+  std::uint32_t entries = 0;  ///< of the map
+
+  bool visit_str(const char* begin, std::uint32_t size) {
+    text = {begin, size};
+    return true;
+  }
+  bool start_array(std::uint32_t /*elements*/) { return false; }
+  bool start_map(std::uint32_t count) {
+    entries = count;
+    return false;
+  }
 };
 
-Value value_at(std::string_view bytes, std::size_t at) {
-  const auto need = [&](std::size_t begin, std::uint64_t size) {
-    if (begin > bytes.size() || size > bytes.size() - begin) {
-      throw InputError("a record of the log is cut off");
-    }
-  };
-  need(at, 1);
-  const auto first = static_cast<unsigned char>(bytes[at]);
-  Value value;
-  value.end = at + 1;
-  std::uint64_t length = 0;
-  if (first >= 0x80U && first < 0x90U) {
-    value.kind = Kind::map;
-    length = first & 0x0fU;
-  } else if (first >= 0x90U && first < 0xa0U) {
-    value.kind = Kind::list;
-    length = first & 0x0fU;
-  } else if (first >= 0xa0U && first < 0xc0U) {
-    value.kind = Kind::text;
-    length = first & 0x1fU;
-  } else if (first >= 0xc0U && first < 0xe0U) {
-    const Format& format = formats[first - 0xc0U];
-    need(value.end, format.length_bytes);
-    for (std::size_t i = 0; i < format.length_bytes; ++i) {
-      length = length << 8U | static_cast<unsigned char>(bytes[value.end++]);
-    }
-    value.kind = format.kind;
-    need(value.end, format.extra);
-    value.end += format.extra;
-  }
-  if (value.kind == Kind::map || value.kind == Kind::list) {
-    value.inside = value.kind == Kind::map ? 2 * length : length;
-    return value;
-  }
-  need(value.end, length);
-  if (value.kind == Kind::text) value.text = bytes.substr(value.end, length);
-  value.end += length;
-  return value;
+Token token_at(std::string_view bytes, std::size_t at) {
+  Token token;
+  (void)msgpack::parse(bytes.data(), bytes.size(), at, token);
+  return token;
 }
 
 /// The offset behind the value at `at`, nested values included.
 std::size_t skip(std::string_view bytes, std::size_t at) {
-  for (std::uint64_t left = 1; left > 0; --left) {
-    const Value value = value_at(bytes, at);
-    at = value.end;
-    left += value.inside;
-  }
-  return at;
+  msgpack::null_visitor visitor;
+  if (msgpack::parse(bytes.data(), bytes.size(), at, visitor)) return at;
+  throw InputError("a record of the log is cut off");
 }
 
-/// Calls `visit(key, begin, value)` for every entry of the map at `at`, with the key and the
-/// offsets of the entry and of its value. Returns the offset behind the map.
-template <typename Visit>
-std::size_t for_each_entry(std::string_view bytes, std::size_t at, const Visit& visit) {
-  const Value map = value_at(bytes, at);
-  at = map.end;
-  for (std::uint64_t i = 0; i < map.inside / 2; ++i) {
+/// An entry of a map: from its key to the end of its value.
+struct Entry {
+  std::string_view key;  ///< empty for one that is no text
+  std::size_t begin = 0;
+  std::size_t value = 0;
+  std::size_t end = 0;
+};
+
+/// The entries of the map at `at`; none of another value.
+std::vector<Entry> entries_of(std::string_view bytes, std::size_t at) {
+  std::vector<Entry> entries;
+  const std::uint32_t count = token_at(bytes, at).entries;
+  if (count > 0) at += map_header_size(bytes[at]);
+  while (entries.size() < count) {
     const std::size_t value = skip(bytes, at);
-    visit(value_at(bytes, at), at, value);
-    at = skip(bytes, value);
+    entries.push_back({token_at(bytes, at).text, at, value, skip(bytes, value)});
+    at = entries.back().end;
   }
-  return at;
+  return entries;
 }
 
-ObservationOutline outline_of_map(std::string_view bytes, std::size_t header) {
-  ObservationOutline outline;
-  outline.header = header;
-  for_each_entry(bytes, header, [&](const Value& key, std::size_t begin, std::size_t value) {
-    ++outline.entries;
-    if (key.kind != Kind::text) return;
-    if (std::find(belief_groups.begin(), belief_groups.end(), key.text) == belief_groups.end()) {
-      return;
-    }
-    outline.beliefs.push_back({begin, skip(bytes, value)});
-  });
-  return outline;
+bool is_belief(const Entry& entry) {
+  return std::ranges::find(belief_groups, entry.key) != belief_groups.end();
 }
-
-}  // namespace
-
-ObservationOutline outline_of(std::string_view record) {
-  ObservationOutline outline;
-  if (record.empty() || value_at(record, 0).kind != Kind::map) return outline;
-  for_each_entry(record, 0, [&](const Value& key, std::size_t /*begin*/, std::size_t value) {
-    if (key.kind != Kind::text || key.text != "observation") return;
-    if (value_at(record, value).kind == Kind::map) outline = outline_of_map(record, value);
-  });
-  return outline;
-}
-
-namespace {
 
 /// Packs a belief as three maps.
 void pack_beliefs(LogPacker& packer, msgpack::sbuffer& buffer, const Belief& belief,
@@ -185,19 +117,26 @@ void LogAnnotator::copy(std::string_view records) {
 
 void LogAnnotator::annotate(std::string_view record, const Belief& belief,
                             const Evidence& evidence) {
-  const ObservationOutline outline = outline_of(record);
-  if (outline.header == 0) throw InputError("a record without an observation cannot be annotated");
-  const std::size_t header_size = map_header_size(record[outline.header]);
+  // Beliefs are inserted without decoding the record. Of several observations the last one counts.
+  std::size_t observation = 0;
+  for (const Entry& entry : entries_of(record, 0)) {
+    const bool is_map = map_header_size(record[entry.value]) > 0;
+    if (is_map && entry.key == "observation") observation = entry.value;
+  }
+  if (observation == 0) throw InputError("a record without an observation cannot be annotated");
+  const std::vector<Entry> entries = entries_of(record, observation);
+  const auto old = std::ranges::count_if(entries, is_belief);
 
   buffer_.clear();
-  buffer_.write(record.data(), outline.header);
-  packer_.pack_map(
-      static_cast<std::uint32_t>(outline.entries - outline.beliefs.size() + belief_groups.size()));
+  buffer_.write(record.data(), observation);
+  packer_.pack_map(static_cast<std::uint32_t>(entries.size() - static_cast<std::size_t>(old) +
+                                              belief_groups.size()));
   pack_beliefs(packer_, buffer_, belief, evidence);
-  std::size_t copied = outline.header + header_size;
-  for (const ObservationOutline::Range& old : outline.beliefs) {
-    buffer_.write(record.data() + copied, old.begin - copied);
-    copied = old.end;
+  std::size_t copied = observation + map_header_size(record[observation]);
+  for (const Entry& entry : entries) {
+    if (!is_belief(entry)) continue;
+    buffer_.write(record.data() + copied, entry.begin - copied);
+    copied = entry.end;
   }
   buffer_.write(record.data() + copied, record.size() - copied);
   copy({buffer_.data(), buffer_.size()});
