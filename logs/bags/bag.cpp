@@ -129,11 +129,11 @@ void BagReader::open_next() {
   const fs::path& named = files_[next_file_++];
   fs::path file = named;
   // It is removed as soon as its reader has it open, so that a killed process leaves none.
-  std::optional<TemporaryFile> plain;
+  std::optional<PartFolder> plain;
   if (is_zstd(first_bytes(file))) {
-    plain.emplace();
-    decompress_file(file, plain->path(), stop_);
-    file = plain->path();
+    plain.emplace(temporary_folder() / "touchdown_bag");
+    file = plain->path() / "plain";
+    decompress_file(named, file, stop_);
   }
   const std::string bytes = first_bytes(file);
   if (bytes.starts_with("#ROSBAG")) {

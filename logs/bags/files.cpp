@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <string>
@@ -47,19 +46,6 @@ void RandomFile::read(std::uint64_t offset, std::uint64_t size, std::string& byt
     if (count <= 0) throw Error(fmt::format("{}: cannot be read: {}", name_, std::strerror(errno)));
     done += static_cast<std::size_t>(count);
   }
-}
-
-TemporaryFile::TemporaryFile() {
-  std::string name = (temporary_folder() / "touchdown_bag_XXXXXX").string();
-  const int descriptor = ::mkstemp(name.data());
-  if (descriptor < 0) throw Error(fmt::format("{}: cannot be made", name));
-  ::close(descriptor);
-  path_ = name;
-}
-
-TemporaryFile::~TemporaryFile() {
-  std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
 }
 
 }  // namespace touchdown::logs

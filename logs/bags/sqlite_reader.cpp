@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/resources.hpp"
 #include "core/stop.hpp"
 #include "logs/bags/files.hpp"
@@ -105,7 +106,7 @@ void SqliteReader::copy_whole_pages(const std::filesystem::path& path, const Ran
                                     const std::filesystem::path& copy) const {
   const std::uint64_t page = page_bytes(file);
   std::error_code wrong;
-  std::filesystem::copy_file(path, copy, std::filesystem::copy_options::overwrite_existing, wrong);
+  std::filesystem::copy_file(path, copy, wrong);
   if (!wrong) std::filesystem::resize_file(copy, file.size() / page * page, wrong);
   if (wrong) {
     throw Error(
@@ -127,10 +128,11 @@ void SqliteReader::open(const std::filesystem::path& path) {
   }
   const bool is_cut = file.size() % page_bytes(file) != 0;
   if (result == SQLITE_CORRUPT || (result == SQLITE_OK && is_cut)) {
-    const TemporaryFile copy;
-    copy_whole_pages(path, file, copy.path());
+    const PartFolder folder(temporary_folder() / "touchdown_bag");
+    const std::filesystem::path copy = folder.path() / "copy";
+    copy_whole_pages(path, file, copy);
     is_copy_ = true;
-    result = try_open(uri_of(copy.path(), "?mode=ro"), true);
+    result = try_open(uri_of(copy, "?mode=ro"), true);
   }
   if (result == SQLITE_NOTADB) complain("is no SQLite database: is it compressed?");
   if (result != SQLITE_OK) complain_unreadable();
