@@ -107,12 +107,6 @@ McapChunk mcap_chunk(std::string_view content) {
   return chunk;
 }
 
-std::uint32_t mcap_crc(std::string_view bytes) {
-  boost::crc_32_type crc;
-  crc.process_bytes(bytes.data(), bytes.size());
-  return crc.checksum();
-}
-
 std::size_t for_each_mcap_record(std::string_view bytes,
                                  const std::function<void(McapOp, std::string_view)>& use) {
   const std::size_t all = bytes.size();
@@ -180,7 +174,6 @@ class Walk {
     }
     if (is_cut) return end("the rest of a record is missing");
     if (op == McapOp::message) add_message(head, mcap_head_bytes + size);
-    if (op == McapOp::header) layout_.profile = ByteReader(read(content, size)).text();
     if (op == McapOp::schema) layout_.channels.add_schema(read(content, size));
     if (op == McapOp::channel) layout_.channels.add_channel(read(content, size));
     if (op == McapOp::data_end) finish_data(ByteReader(read(content, size)));

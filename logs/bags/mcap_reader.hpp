@@ -13,22 +13,10 @@
 #include "logs/bags/compression.hpp"
 #include "logs/bags/files.hpp"
 #include "logs/bags/message.hpp"
+#include "logs/log/mcap.hpp"
 
 namespace touchdown::logs {
 
-/// Opcodes of the records that are read; mcap.dev/spec, format version 0.
-enum class McapOp : std::uint8_t {
-  invalid = 0x00,
-  header = 0x01,
-  footer = 0x02,
-  schema = 0x03,
-  channel = 0x04,
-  message = 0x05,
-  chunk = 0x06,
-  data_end = 0x0f,
-};
-
-inline constexpr std::string_view mcap_magic("\x89MCAP0\r\n", 8);
 /// Opcode and length.
 inline constexpr std::uint64_t mcap_head_bytes = 9;
 
@@ -71,9 +59,6 @@ struct McapChunk {
 };
 McapChunk mcap_chunk(std::string_view content);
 
-/// CRC-32 as MCAP uses it.
-std::uint32_t mcap_crc(std::string_view bytes);
-
 /// Calls `use` for each record. Returns the number of bytes of whole records.
 std::size_t for_each_mcap_record(std::string_view bytes,
                                  const std::function<void(McapOp, std::string_view content)>& use);
@@ -92,7 +77,6 @@ struct McapLayout {
   std::vector<McapPart> parts;  ///< by start
   bool is_in_file_order = true;
   McapChannels channels;    ///< those outside of chunks
-  std::string profile;      ///< "ros2"
   std::string end_missing;  ///< what is missing at the end of a file cut off; empty if nothing is
 };
 

@@ -18,22 +18,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are copied as they are");
 
-constexpr std::string_view mcap_magic("\x89MCAP0\r\n", 8);
 constexpr std::size_t chunk_bytes = std::size_t{1} << 20U;
-
-enum class Op : std::uint8_t {
-  header = 0x01,
-  footer = 0x02,
-  schema = 0x03,
-  channel = 0x04,
-  message = 0x05,
-  chunk = 0x06,
-  message_index = 0x07,
-  chunk_index = 0x08,
-  statistics = 0x0b,
-  summary_offset = 0x0e,
-  data_end = 0x0f,
-};
 
 template <std::unsigned_integral T>
 void put(std::string& bytes, T number) {
@@ -53,21 +38,21 @@ std::string content(const Parts&... parts) {
   return bytes;
 }
 
-std::string record_head(Op op, std::uint64_t size) {
+std::string record_head(McapOp op, std::uint64_t size) {
   return content(static_cast<std::uint8_t>(op), size);
 }
 
-std::string record(Op op, std::string_view content) {
+std::string record(McapOp op, std::string_view content) {
   return record_head(op, content.size()).append(content);
 }
 
-std::uint32_t crc_of(std::string_view bytes) {
+}  // namespace
+
+std::uint32_t mcap_crc(std::string_view bytes) {
   boost::crc_32_type crc;
   crc.process_bytes(bytes.data(), bytes.size());
   return crc.checksum();
 }
-
-}  // namespace
 
 void McapWriter::Span::add(std::uint64_t time) {
   start = is_empty ? time : std::min(start, time);
@@ -77,7 +62,7 @@ void McapWriter::Span::add(std::uint64_t time) {
 
 McapWriter::McapWriter(std::ostream& stream, std::string_view profile) : stream_(stream) {
   emit(mcap_magic);
-  emit(record(Op::header, content(profile, std::string_view("touchdown"))));
+  emit(record(McapOp::header, content(profile, std::string_view("touchdown"))));
 }
 
 void McapWriter::emit(std::string_view bytes) {
@@ -92,9 +77,9 @@ std::uint16_t McapWriter::add_topic(std::string_view topic, std::string_view sch
   const auto id = static_cast<std::uint16_t>(counts_.size() + 1);
   counts_[id] = 0;
   const std::string of_schema =
-      record(Op::schema, content(id, schema_name, encoding.schema, schema));
+      record(McapOp::schema, content(id, schema_name, encoding.schema, schema));
   const std::string of_channel =
-      record(Op::channel, content(id, id, topic, encoding.message, std::string_view()));
+      record(McapOp::channel, content(id, id, topic, encoding.message, std::string_view()));
   schemas_ += of_schema;
   channels_ += of_channel;
   emit(of_schema);
@@ -106,7 +91,7 @@ void McapWriter::write(std::uint16_t topic, std::uint64_t time, std::string_view
   const auto sequence = static_cast<std::uint32_t>(counts_[topic]++);
   index_[topic].emplace_back(time, chunk_.size());
   const std::string head = content(topic, sequence, time, time);
-  chunk_.append(record_head(Op::message, head.size() + message.size()))
+  chunk_.append(record_head(McapOp::message, head.size() + message.size()))
       .append(head)
       .append(message);
   chunk_span_.add(time);
@@ -117,9 +102,9 @@ void McapWriter::finish_chunk() {
   if (chunk_.empty()) return;
   const std::uint64_t start = position_;
   const std::string head =
-      content(chunk_span_.start, chunk_span_.end, std::uint64_t{chunk_.size()}, crc_of(chunk_),
+      content(chunk_span_.start, chunk_span_.end, std::uint64_t{chunk_.size()}, mcap_crc(chunk_),
               std::string_view(), std::uint64_t{chunk_.size()});
-  emit(record_head(Op::chunk, head.size() + chunk_.size()) + head);
+  emit(record_head(McapOp::chunk, head.size() + chunk_.size()) + head);
   emit(chunk_);
   const std::uint64_t end = position_;
   std::string offsets;
@@ -129,9 +114,9 @@ void McapWriter::finish_chunk() {
     std::string entries;
     for (const auto& [time, offset] : messages) entries += content(time, offset);
     offsets += content(topic, position_);
-    emit(record(Op::message_index, content(topic, std::string_view(entries))));
+    emit(record(McapOp::message_index, content(topic, std::string_view(entries))));
   }
-  chunk_indexes_ += record(Op::chunk_index,
+  chunk_indexes_ += record(McapOp::chunk_index,
                            content(chunk_span_.start, chunk_span_.end, start, end - start,
                                    std::string_view(offsets), position_ - end, std::string_view(),
                                    std::uint64_t{chunk_.size()}, std::uint64_t{chunk_.size()}));
@@ -152,32 +137,32 @@ std::string McapWriter::statistics() const {
   }
   const auto topics = static_cast<std::uint32_t>(counts_.size());
   constexpr std::uint32_t none = 0;  // attachments, metadata
-  return record(Op::statistics,
+  return record(McapOp::statistics,
                 content(messages, static_cast<std::uint16_t>(topics), topics, none, none, chunks_,
                         span_.start, span_.end, std::string_view(by_topic)));
 }
 
 void McapWriter::finish() {
   finish_chunk();
-  emit(record(Op::data_end, content(std::uint32_t{crc_.checksum()})));
+  emit(record(McapOp::data_end, content(std::uint32_t{crc_.checksum()})));
   crc_.reset();
   const std::uint64_t summary = position_;
   std::string offsets;
-  const auto group = [&](Op op, const std::string& records) {
+  const auto group = [&](McapOp op, const std::string& records) {
     if (records.empty()) return;
-    offsets += record(Op::summary_offset, content(static_cast<std::uint8_t>(op), position_,
-                                                  std::uint64_t{records.size()}));
+    offsets += record(McapOp::summary_offset, content(static_cast<std::uint8_t>(op), position_,
+                                                      std::uint64_t{records.size()}));
     emit(records);
   };
-  group(Op::schema, schemas_);
-  group(Op::channel, channels_);
-  group(Op::statistics, statistics());
-  group(Op::chunk_index, chunk_indexes_);
+  group(McapOp::schema, schemas_);
+  group(McapOp::channel, channels_);
+  group(McapOp::statistics, statistics());
+  group(McapOp::chunk_index, chunk_indexes_);
   const std::uint64_t summary_offset = position_;
   emit(offsets);
   // The checksum includes the footer up to the checksum.
   const std::string footer = content(summary, summary_offset);
-  emit(record_head(Op::footer, footer.size() + sizeof(std::uint32_t)) + footer);
+  emit(record_head(McapOp::footer, footer.size() + sizeof(std::uint32_t)) + footer);
   emit(content(std::uint32_t{crc_.checksum()}));
   emit(mcap_magic);
 }

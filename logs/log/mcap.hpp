@@ -14,6 +14,27 @@
 
 namespace touchdown::logs {
 
+inline constexpr std::string_view mcap_magic("\x89MCAP0\r\n", 8);
+
+/// Opcodes of records; mcap.dev/spec, format version 0.
+enum class McapOp : std::uint8_t {
+  invalid = 0x00,
+  header = 0x01,
+  footer = 0x02,
+  schema = 0x03,
+  channel = 0x04,
+  message = 0x05,
+  chunk = 0x06,
+  message_index = 0x07,
+  chunk_index = 0x08,
+  statistics = 0x0b,
+  summary_offset = 0x0e,
+  data_end = 0x0f,
+};
+
+/// CRC-32 as MCAP uses it.
+std::uint32_t mcap_crc(std::string_view bytes);
+
 /// The encoding of a topic's schema and of its messages.
 struct McapEncoding {
   std::string_view schema = "jsonschema";
@@ -38,8 +59,6 @@ class McapWriter {
   void finish();
 
  private:
-  using Crc32 = boost::crc_32_type;
-
   /// Time of each message, and its offset in the chunk's records.
   using Index = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
 
@@ -57,7 +76,7 @@ class McapWriter {
 
   std::ostream& stream_;
   std::uint64_t position_ = 0;  ///< in the file
-  Crc32 crc_;                   ///< of the section so far
+  boost::crc_32_type crc_;      ///< of the section so far
   std::string schemas_, channels_, chunk_indexes_;
   std::map<std::uint16_t, std::uint64_t> counts_;  ///< messages by topic
   Span span_;
