@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "estimator/signal_guard.hpp"
+#include "logs/bags/topic_rows.hpp"
 
 namespace touchdown::experiments {
 
@@ -59,21 +60,6 @@ std::int64_t stamp_of(double time, double start) {
   return std::llround(1e9 * start) + std::llround(1e9 * time);
 }
 
-constexpr const char* joint_state = R"(std_msgs/Header header
-string[] name
-float64[] position
-float64[] velocity
-float64[] effort
-================================================================================
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec
-)";
-
 /// Appends a number to a message in CDR: aligned to its size after the four bytes in front.
 template <typename T>
 void put(std::string& message, T number) {
@@ -122,8 +108,8 @@ void BeliefCsv::flush() {
 
 BeliefBag::BeliefBag(std::ostream& stream)
     : writer_(stream, "ros2"),
-      topic_(writer_.add_topic("/touchdown/contact", "sensor_msgs/msg/JointState", joint_state,
-                               {"ros2msg", "cdr"})) {}
+      topic_(writer_.add_topic("/touchdown/contact", logs::joint_state_type,
+                               logs::joint_state_definition, {"ros2msg", "cdr"})) {}
 
 void BeliefBag::write(double time, double start, const Belief& belief) {
   constexpr std::int64_t second = 1'000'000'000;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -43,6 +44,23 @@ constexpr std::array<Primitive, 14> primitives = {{{"bool", 1, read<std::uint8_t
                                                    {"string", 4, nullptr}}};
 
 constexpr const char* stamp_definition = "int32 sec\nuint32 nanosec\n";
+constexpr const char* imu_definition = R"(int32 header.stamp.sec
+uint32 header.stamp.nanosec
+string header.frame_id
+float64 orientation.x
+float64 orientation.y
+float64 orientation.z
+float64 orientation.w
+float64[9] orientation_covariance
+float64 angular_velocity.x
+float64 angular_velocity.y
+float64 angular_velocity.z
+float64[9] angular_velocity_covariance
+float64 linear_acceleration.x
+float64 linear_acceleration.y
+float64 linear_acceleration.z
+float64[9] linear_acceleration_covariance
+)";
 constexpr std::size_t longest_list = 1024;
 constexpr std::size_t most_numbers = std::size_t{1} << 16U;
 constexpr std::size_t deepest = 32;
@@ -174,10 +192,7 @@ class TypeParser {
 class NumberReader {
  public:
   NumberReader(const MessageType& type, std::string_view payload, MessageNumbers& numbers)
-      : type_(type), reader_(payload), numbers_(numbers) {
-    numbers_.values.clear();
-    numbers_.lengths.clear();
-  }
+      : type_(type), reader_(payload), numbers_(numbers) {}
 
   /// Reads the fields of a type. Paths are built only if `path` is there.
   void read(const MessageType::Struct& fields, std::string* path) {
@@ -217,7 +232,7 @@ class NumberReader {
       return read(type_.structs_.at(type - primitives.size()), path);
     }
     if (primitives.at(type).read == nullptr) {
-      (void)reader_.text();
+      numbers_.texts.push_back(reader_.text());
       return;
     }
     const double value = primitives.at(type).read(reader_);
@@ -231,17 +246,65 @@ class NumberReader {
   MessageNumbers& numbers_;
 };
 
-MessageType::MessageType(const std::string& name, std::string_view definition) {
+namespace {
+
+/// Errors: `InputError` for lists of joints of different lengths.
+void check_joints(const MessageNumbers& numbers) {
+  const std::vector<std::uint32_t>& lengths = numbers.lengths;
+  for (std::size_t i = 1; i < lengths.size(); ++i) {
+    if (lengths[0] == 0 || lengths[i] == 0 || lengths[i] == lengths[0]) continue;
+    throw InputError(fmt::format("{} has {} values for {} names", joint_fields.at(i - 1),
+                                 lengths[i], lengths[0]));
+  }
+}
+
+/// Makes the signals of an Imu that are not given NaN.
+void mark_missing(std::vector<double>& values) {
+  constexpr std::size_t orientation = 2;
+  for (const auto& [begin, size] :
+       std::array<std::array<std::size_t, 2>, 3>{{{orientation, 4}, {15, 3}, {27, 3}}}) {
+    const std::span signal = std::span(values).subspan(begin, size);
+    const bool is_zero = std::ranges::all_of(signal, [](double x) { return x == 0.0; });
+    if (values.at(begin + size) == -1.0 || (begin == orientation && is_zero)) {
+      std::ranges::fill(signal, std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+}
+
+}  // namespace
+
+MessageStamp MessageNumbers::stamp() const {
+  const auto is_named = [&](std::size_t i, const char* end) {
+    return i < paths.size() && paths[i].ends_with(end);
+  };
+  if (!is_named(0, "stamp.sec") || !is_named(1, "stamp.nanosec")) return {};
+  return {static_cast<std::int32_t>(values[0]), static_cast<std::uint32_t>(values[1])};
+}
+
+MessageType::MessageType(const std::string& name, std::string_view definition) : name_(name) {
+  if (name == joint_state_type) definition = joint_state_definition;
+  if (name == imu_type) definition = imu_definition;
   (void)TypeParser(*this, name, definition);
 }
 
 void MessageType::decode(std::string_view payload, MessageNumbers& numbers) const {
-  const std::vector<std::uint32_t> before = numbers.lengths;
-  NumberReader(*this, payload, numbers).read(structs_.back(), nullptr);
-  if (numbers.lengths == before && numbers.paths.size() == numbers.values.size()) return;
-  numbers.paths.clear();
-  std::string path;
-  NumberReader(*this, payload, numbers).read(structs_.back(), &path);
+  MessageNumbers read;
+  NumberReader(*this, payload, read).read(structs_.back(), nullptr);
+  const bool are_joints = name_ == joint_state_type;
+  if ((are_joints || name_ == imu_type) && read.values.at(1) >= 1e9) {
+    throw InputError(fmt::format("a stamp has {} nanoseconds", read.values[1]));
+  }
+  if (are_joints) check_joints(read);
+  if (name_ == imu_type) mark_missing(read.values);
+  if (read.lengths == numbers.lengths && numbers.paths.size() == read.values.size()) {
+    read.paths = std::move(numbers.paths);
+  } else {
+    MessageNumbers named;
+    std::string path;
+    NumberReader(*this, payload, named).read(structs_.back(), &path);
+    read.paths = std::move(named.paths);
+  }
+  numbers = std::move(read);
 }
 
 }  // namespace touchdown::logs

@@ -23,7 +23,6 @@ std::vector<std::string> SignalTopic::columns() const {
     for (const char* field : joint_fields) names.push_back(fmt::format("{}[{}]", field, i));
   }
   names.insert(names.end(), numbers.begin(), numbers.end());
-  if (type == imu_type) names.insert(names.end(), imu_fields.begin(), imu_fields.end());
   return names;
 }
 
@@ -37,15 +36,6 @@ std::vector<std::string> clock_notes(const SignalTopic& topic, const SignalTopic
       "{}: its stamps are {:.3g} s {} those of {} by the times of recording: are they of another "
       "computer's clock? `time: {{from: log_time}}` takes the times of recording",
       topic.name, std::abs(ahead), ahead > 0.0 ? "ahead of" : "behind", joints.name)};
-}
-
-MessageStamp stamp_of(const MessageNumbers& numbers) {
-  const auto is_named = [&](std::size_t i, const char* end) {
-    return i < numbers.paths.size() && numbers.paths[i].ends_with(end);
-  };
-  if (!is_named(0, "stamp.sec") || !is_named(1, "stamp.nanosec")) return {};
-  return {static_cast<std::int32_t>(numbers.values[0]),
-          static_cast<std::uint32_t>(numbers.values[1])};
 }
 
 namespace {
@@ -77,20 +67,19 @@ std::string all_topics(BagReader& bag) {
   return listed(bag.topics());
 }
 
-void look_at(const JointState& state, SignalTopic& topic) {
-  for (const std::string_view name : state.name) {
+void look_at_joints(const MessageNumbers& numbers, SignalTopic& topic) {
+  for (const std::string_view name : numbers.joints()) {
     if (std::find(topic.joints.begin(), topic.joints.end(), name) == topic.joints.end()) {
       topic.joints.emplace_back(name);
     }
   }
+  const std::uint32_t position = numbers.lengths.at(1);
+  const std::uint32_t velocity = numbers.lengths.at(2);
+  const std::uint32_t effort = numbers.lengths.at(3);
   topic.width =
-      std::max({topic.width, state.position.size(), state.velocity.size(), state.effort.size()});
-  if (!state.velocity.empty()) topic.has_velocity = true;
-  if (!state.effort.empty()) topic.has_effort = true;
-}
-
-void look_at(const ImuState& state, SignalTopic& topic) {
-  if (!std::isnan(state.orientation[0])) topic.has_orientation = true;
+      std::max({topic.width, std::size_t{position}, std::size_t{velocity}, std::size_t{effort}});
+  if (velocity > 0) topic.has_velocity = true;
+  if (effort > 0) topic.has_effort = true;
 }
 
 /// Counts a message that was decoded.
@@ -102,53 +91,46 @@ void count(const MessageStamp& stamp, std::int64_t recorded, SignalTopic& topic)
   topic.has_stamps = true;
 }
 
-template <typename State>
-void look_at(const BagMessage& message, SignalTopic& topic) {
-  State state;
-  try {
-    decode(message.data, state);
-  } catch (const InputError&) {
-    return;  // counted when the rows are read
-  }
-  look_at(state, topic);
-  count(state.stamp, message.time, topic);
-}
-
 /// `numbers`: of the message before.
 void look_at(const BagMessage& message, SignalTopic& topic, MessageNumbers& numbers) {
   const std::vector<std::string> before = numbers.paths;
   try {
     topic.definition->decode(message.data, numbers);
   } catch (const InputError&) {
-    return;
+    return;  // counted when the rows are read
   }
-  const std::vector<std::string>& paths = numbers.paths;
-  if (paths != before) {
-    const std::set<std::string> known(topic.numbers.begin(), topic.numbers.end());
-    std::ranges::copy_if(paths, std::back_inserter(topic.numbers),
-                         [&](const std::string& path) { return !known.contains(path); });
+  count(numbers.stamp(), message.time, topic);
+  if (topic.type == joint_state_type) return look_at_joints(numbers, topic);
+  const std::set<std::string> known(topic.numbers.begin(), topic.numbers.end());
+  for (std::size_t i = 0; i < numbers.paths.size() && numbers.paths != before; ++i) {
+    const bool is_covariance = numbers.paths[i].find("_covariance[") != std::string::npos;
+    const bool is_of_header = numbers.paths[i].starts_with("header.");
+    if (topic.type == imu_type && (is_covariance || is_of_header)) continue;
+    if (!known.contains(numbers.paths[i])) topic.numbers.push_back(numbers.paths[i]);
   }
-  count(stamp_of(numbers), message.time, topic);
+  constexpr std::size_t orientation = 2;
+  if (topic.type == imu_type && !std::isnan(numbers.values.at(orientation))) {
+    topic.has_orientation = true;
+  }
 }
 
-/// Reads the definition of another type than the two that are known.
+/// Reads the definition of the topic's type.
 void require_readable(const BagTopic& topic, BagReader& bag, const std::filesystem::path& path,
                       SignalTopic& found) {
   found.type = topic.type;
-  if (topic.type != joint_state_type && topic.type != imu_type) {
-    std::string fault = "the bag has no definition of it in .msg";
-    try {
-      if (!topic.definition.empty()) {
-        found.definition = std::make_shared<MessageType>(topic.type, topic.definition);
-      }
-    } catch (const InputError& error) {
-      fault = error.what();
+  std::string fault = "the bag has no definition of it in .msg";
+  try {
+    const bool is_known = topic.type == joint_state_type || topic.type == imu_type;
+    if (is_known || !topic.definition.empty()) {
+      found.definition = std::make_shared<MessageType>(topic.type, topic.definition);
     }
-    if (!found.definition) {
-      throw InputError(fmt::format("{}: topic {} has the type '{}', expected {} or {}; {}: {}",
-                                   path.string(), topic.name, topic.type, joint_state_type,
-                                   imu_type, fault, all_topics(bag)));
-    }
+  } catch (const InputError& error) {
+    fault = error.what();
+  }
+  if (!found.definition) {
+    throw InputError(fmt::format("{}: topic {} has the type '{}', expected {} or {}; {}: {}",
+                                 path.string(), topic.name, topic.type, joint_state_type, imu_type,
+                                 fault, all_topics(bag)));
   }
   if (topic.encoding != "cdr") {
     throw InputError(fmt::format(
@@ -177,13 +159,7 @@ std::vector<SignalTopic> find_signal_topics(const std::filesystem::path& path,
       if (one.name != topic.name || is_complete(one)) continue;
       // A copy: reading on moves them.
       if (one.type.empty()) require_readable(BagTopic(topic), bag, path, one);
-      if (one.definition) {
-        look_at(message, one, numbers[i]);
-      } else if (one.type == imu_type) {
-        look_at<ImuState>(message, one);
-      } else {
-        look_at<JointState>(message, one);
-      }
+      look_at(message, one, numbers[i]);
     }
   }
   for (const SignalTopic& one : found) {

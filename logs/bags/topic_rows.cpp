@@ -19,153 +19,114 @@ double seconds(std::int64_t nanoseconds) {
   return static_cast<double>(whole) + 1e-9 * static_cast<double>(nanoseconds % second);
 }
 
-std::size_t slot_of(const std::vector<std::string>& columns, const std::string& name,
-                    std::size_t none) {
-  const auto found = std::find(columns.begin(), columns.end(), name);
-  return found == columns.end() ? none : static_cast<std::size_t>(found - columns.begin());
+constexpr std::size_t no_slot = static_cast<std::size_t>(-1);
+
+std::size_t place_in(const std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? no_slot : static_cast<std::size_t>(found - names.begin());
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return place_in(names, name) != no_slot;
 }
 
 }  // namespace
 
 TopicRows::TopicRows(SignalTopic topic, const std::vector<std::string>& columns,
                      const Config& config)
-    : topic_(std::move(topic)), config_(config), row_(columns.size()), columns_(columns) {
-  stamp_slot_ = slot_of(columns, stamp_column, no_slot);
-  log_time_slot_ = slot_of(columns, log_time_column, no_slot);
-  for (std::size_t i = 0; i < imu_fields.size(); ++i) {
-    imu_slot_[i] = slot_of(columns, imu_fields[i], no_slot);
-  }
-  for (const std::string& name : topic_.joints) {
-    Joint joint{name};
-    for (std::size_t i = 0; i < joint_fields.size(); ++i) {
-      joint.slot[i] = slot_of(columns, fmt::format("{}/{}", name, joint_fields[i]), no_slot);
-    }
-    joints_.push_back(std::move(joint));
-  }
-  for (std::size_t place = 0; place < topic_.width; ++place) {
-    Joint joint{.name = {}, .place = place};
-    for (std::size_t i = 0; i < joint_fields.size(); ++i) {
-      joint.slot[i] = slot_of(columns, fmt::format("{}[{}]", joint_fields[i], place), no_slot);
-    }
-    joints_.push_back(std::move(joint));
-  }
-  // The joint of the first column is the first one.
-  const auto first_slot = [](const Joint& joint) {
-    return *std::min_element(joint.slot.begin(), joint.slot.end());
-  };
-  std::stable_sort(joints_.begin(), joints_.end(),
-                   [&](const Joint& a, const Joint& b) { return first_slot(a) < first_slot(b); });
-  std::erase_if(joints_, [&](const Joint& joint) { return first_slot(joint) == no_slot; });
-}
-
-void TopicRows::set_time(const MessageStamp& stamp, std::int64_t recorded) {
-  const double log_time = seconds(recorded);
-  const bool lacks_stamp = stamp.is_zero() && std::abs(topic_.stamp_delay) < longest_delay;
-  time_ = config_.uses_log_time || lacks_stamp ? log_time : seconds(stamp.time());
-  if (stamp_slot_ != no_slot) row_[stamp_slot_] = time_;
-  if (log_time_slot_ != no_slot) {
-    row_[log_time_slot_] = log_time;
-    time_ = log_time;
-  }
-}
+    : topic_(std::move(topic)),
+      config_(config),
+      row_(columns.size()),
+      columns_(columns),
+      held_(columns.size()) {}
 
 bool TopicRows::update(const BagMessage& message) {
   try {
-    if (topic_.type == imu_type) {
-      decode(message.data, imu_);
-      set_time(imu_.stamp, message.time);
-      take(imu_);
-      return true;
-    }
-    if (topic_.definition) {
-      topic_.definition->decode(message.data, numbers_);
-      take(numbers_, message.time);
-      return true;
-    }
-    decode(message.data, joint_state_);
+    topic_.definition->decode(message.data, numbers_);
   } catch (const InputError& error) {
     if (malformed_++ == 0) first_malformed_ = error.what();
     return false;
   }
-  set_time(joint_state_.stamp, message.time);
-  return take(joint_state_);
+  const bool are_joints = topic_.type == joint_state_type;
+  if (paths_ != numbers_.paths || (are_joints && !std::ranges::equal(names_, numbers_.joints()))) {
+    find_columns();
+  }
+  const MessageStamp stamp = numbers_.stamp();
+  const double log_time = seconds(message.time);
+  const bool lacks_stamp = stamp.is_zero() && std::abs(topic_.stamp_delay) < longest_delay;
+  const double stamp_time = config_.uses_log_time || lacks_stamp ? log_time : seconds(stamp.time());
+  time_ = contains(columns_, log_time_column) ? log_time : stamp_time;
+  for (std::size_t i = 0; i < row_.size(); ++i) {
+    if (columns_[i] == stamp_column) {
+      row_[i] = stamp_time;
+    } else if (columns_[i] == log_time_column) {
+      row_[i] = log_time;
+    } else {
+      row_[i] = number_at_[i] == no_slot ? std::numeric_limits<double>::quiet_NaN()
+                                         : numbers_.values[number_at_[i]];
+      if (are_joints) hold(i);
+    }
+  }
+  if (are_joints && is_row_) count_kind();
+  return is_row_;
 }
 
-void TopicRows::put(std::size_t slot, Held& held, double value, bool is_given) {
-  if (slot == no_slot) return;
-  if (is_given && std::isfinite(value)) {
-    row_[slot] = value;
-    held = {{{value, time_}, held[0]}};
+/// Finds the columns among the numbers of the message, which has other ones than the last.
+void TopicRows::find_columns() {
+  paths_ = numbers_.paths;
+  number_at_.clear();
+  if (topic_.type != joint_state_type) {
+    for (const std::string& column : columns_) number_at_.push_back(place_in(paths_, column));
     return;
   }
-  row_[slot] = std::numeric_limits<double>::quiet_NaN();
+  names_.assign(numbers_.joints().begin(), numbers_.joints().end());
+  std::optional<bool> has_first;
+  for (const std::string& column : columns_) {
+    // NAME/position, or position[2]
+    const std::size_t slash = column.rfind('/');
+    std::string index = column.substr(std::min(column.find('['), column.size()));
+    std::string field = column.substr(0, column.size() - index.size());
+    if (slash != std::string::npos) {
+      index = fmt::format("[{}]", place_in(names_, column.substr(0, slash)));
+      field = column.substr(slash + 1);
+    }
+    number_at_.push_back(place_in(paths_, field + index));
+    if (has_first || column == stamp_column || column == log_time_column) continue;
+    has_first = slash == std::string::npos
+                    ? std::ranges::any_of(
+                          joint_fields,
+                          [&](const std::string& list) { return contains(paths_, list + index); })
+                    : contains(names_, column.substr(0, slash));
+  }
+  is_row_ = has_first.value_or(true);
+}
+
+/// Replaces a value that the message lacks by the latest one, if it is not stale.
+void TopicRows::hold(std::size_t column) {
+  Held& held = held_[column];
+  double& number = row_[column];
+  if (std::isfinite(number)) {
+    held = {{{number, time_}, held[0]}};
+    return;
+  }
+  number = std::numeric_limits<double>::quiet_NaN();
   for (const HeldNumber& one : held) {
     const std::optional<double> age = one.age(time_, config_.stale_after);
     if (!age) continue;
-    row_[slot] = one.value;
+    number = one.value;
     ages_.add(*age);
     return;
   }
 }
 
-bool TopicRows::take(const JointState& state) {
-  bool is_row = joints_.empty();
-  for (Joint& joint : joints_) {
-    const auto named = std::find(state.name.begin(), state.name.end(), joint.name);
-    const auto i =
-        joint.name.empty() ? joint.place : static_cast<std::size_t>(named - state.name.begin());
-    const std::size_t count = std::max(
-        {state.name.size(), state.position.size(), state.velocity.size(), state.effort.size()});
-    const bool is_there = i < count;
-    if (is_there && &joint == &joints_.front()) is_row = true;
-    const auto value = [&](const std::vector<double>& values) {
-      return i < values.size() ? values[i] : std::numeric_limits<double>::quiet_NaN();
-    };
-    put(joint.slot[0], joint.held[0], value(state.position), is_there);
-    put(joint.slot[1], joint.held[1], value(state.velocity), is_there);
-    put(joint.slot[2], joint.held[2], value(state.effort), is_there);
-  }
-  if (is_row) count_kind(state);
-  return is_row;
-}
-
 /// A driver may name its joints in any order.
-void TopicRows::count_kind(const JointState& state) {
-  std::vector<std::string> kind(state.name.begin(), state.name.end());
+void TopicRows::count_kind() {
+  std::vector<std::string> kind = names_;
   std::sort(kind.begin(), kind.end());
   constexpr std::size_t most = 16;
   if (kinds_.size() < most || kinds_.contains(kind)) ++kinds_[kind];
   if (kind != last_kind_) ++alternations_;
   last_kind_ = std::move(kind);
-}
-
-void TopicRows::take(const MessageNumbers& numbers, std::int64_t recorded) {
-  if (paths_ != numbers.paths) {
-    paths_ = numbers.paths;
-    number_at_.clear();
-    for (const std::string& column : columns_) {
-      number_at_.push_back(slot_of(paths_, column, no_slot));
-    }
-  }
-  set_time(stamp_of(numbers), recorded);
-  for (std::size_t i = 0; i < row_.size(); ++i) {
-    if (i == stamp_slot_ || i == log_time_slot_) continue;
-    row_[i] = number_at_[i] == no_slot ? std::numeric_limits<double>::quiet_NaN()
-                                       : numbers.values[number_at_[i]];
-  }
-}
-
-void TopicRows::take(const ImuState& state) {
-  std::size_t field = 0;
-  const auto put_all = [&](const auto& values) {
-    for (const double value : values) {
-      const std::size_t slot = imu_slot_.at(field++);
-      if (slot != no_slot) row_[slot] = value;
-    }
-  };
-  put_all(state.orientation);
-  put_all(state.angular_velocity);
-  put_all(state.linear_acceleration);
 }
 
 std::vector<std::string> TopicRows::notes() const {

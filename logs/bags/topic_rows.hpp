@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "logs/bags/message.hpp"
-#include "logs/bags/sensor_messages.hpp"
 #include "logs/bags/source_join.hpp"
 #include "logs/held_number.hpp"
 
@@ -23,36 +22,67 @@ namespace touchdown::logs {
 inline constexpr const char* stamp_column = "header.stamp";
 inline constexpr const char* log_time_column = "log_time";
 
-/// Lists and signals of the messages.
+inline constexpr const char* joint_state_type = "sensor_msgs/msg/JointState";
+inline constexpr const char* imu_type = "sensor_msgs/msg/Imu";
+
+/// The definition of `joint_state_type`, with those that it uses.
+inline constexpr const char* joint_state_definition = R"(std_msgs/Header header
+string[] name
+float64[] position
+float64[] velocity
+float64[] effort
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+)";
+/// The lists of its messages.
 inline constexpr std::array<const char*, 3> joint_fields = {"position", "velocity", "effort"};
-inline constexpr std::array<const char*, 10> imu_fields = {
-    "orientation.x",         "orientation.y",        "orientation.z",      "orientation.w",
-    "angular_velocity.x",    "angular_velocity.y",   "angular_velocity.z", "linear_acceleration.x",
-    "linear_acceleration.y", "linear_acceleration.z"};
+
 /// A header without a stamp was sent now, unless the clock is a simulation's, which starts at zero.
 inline constexpr double longest_delay = 60.0;  // s
 
-/// The numbers of a message of any type, in the order of their definition.
-struct MessageNumbers {
-  std::vector<double> values;
-  std::vector<std::string> paths;      ///< of each: "motor_state[0].tau_est"
-  std::vector<std::uint32_t> lengths;  ///< of the lists without a fixed length; the paths depend on
-                                       ///< nothing else
+/// When a message was measured.
+struct MessageStamp {
+  std::int32_t sec = 0;
+  std::uint32_t nanosec = 0;
+  bool is_zero() const { return sec == 0 && nanosec == 0; }
+  /// ns
+  std::int64_t time() const { return std::int64_t{1'000'000'000} * sec + nanosec; }
 };
 
-/// The stamp with which a message of another type begins; zero without one.
-MessageStamp stamp_of(const MessageNumbers& numbers);
+/// The numbers and texts of a message of any type, in the order of their definition.
+struct MessageNumbers {
+  std::vector<double> values;
+  std::vector<std::string_view> texts;  ///< into the payload
+  std::vector<std::string> paths;       ///< of each: "motor_state[0].tau_est"
+  std::vector<std::uint32_t> lengths;  ///< of the lists without a fixed length; the paths depend on
+                                       ///< nothing else
 
-/// A type of messages, by the definition that a bag carries. It decodes numbers and flags; texts
-/// are skipped, and so are lists of more than 1024 numbers, such as images.
+  /// The stamp with which the message begins; zero without one.
+  MessageStamp stamp() const;
+  /// The names of a JointState's joints; empty for some drivers.
+  std::span<const std::string_view> joints() const { return std::span(texts).subspan(1); }
+};
+
+/// A type of messages: JointState, Imu, or another one by the definition that a bag carries. It
+/// decodes numbers, flags and texts; lists of more than 1024 numbers, such as images, are skipped.
+/// Signals that an Imu does not give, by a covariance that begins with −1 or by a quaternion of
+/// zeros, are NaN.
 class MessageType {
  public:
   /// `definition` is that of ROS 2's .msg files, followed by those of the types that it uses, each
   /// behind a line of "=" and a line "MSG: package/Type". Errors: `InputError` that names the line
-  /// for a definition that is another one, is missing, or contains itself.
+  /// for a definition that is another one, is missing, or contains itself. Those of JointState and
+  /// Imu are known.
   MessageType(const std::string& name, std::string_view definition);
 
-  /// Decodes a message's payload in CDR. Errors: `InputError` for a malformed payload.
+  /// Decodes a message's payload in CDR. `numbers` are those of the message before. Errors:
+  /// `InputError` for a malformed payload, and for a JointState with lists of different lengths.
   void decode(std::string_view payload, MessageNumbers& numbers) const;
 
  private:
@@ -68,6 +98,7 @@ class MessageType {
   };
   using Struct = std::vector<Field>;
 
+  std::string name_;
   std::vector<Struct> structs_;
 };
 
@@ -81,11 +112,11 @@ struct SignalTopic {
   bool has_velocity = false;        ///< of JointState
   bool has_effort = false;          ///< of JointState
   bool has_orientation = false;     ///< of Imu
-  std::shared_ptr<const MessageType> definition;  ///< of another type
-  std::vector<std::string> numbers;               ///< of another type
-  bool has_stamps = false;                        ///< whether a header has a stamp that is not zero
-  double stamp_delay = 0.0;    ///< the least time of recording − stamp of such headers (s)
-  std::uint64_t messages = 0;  ///< decoded so far
+  std::shared_ptr<const MessageType> definition;
+  std::vector<std::string> numbers;  ///< of another type
+  bool has_stamps = false;           ///< whether a header has a stamp that is not zero
+  double stamp_delay = 0.0;          ///< the least time of recording − stamp of such headers (s)
+  std::uint64_t messages = 0;        ///< decoded so far
 
   /// Names of all numbers of a message: `stamp_column`, `log_time_column`; NAME/position,
   /// NAME/velocity, NAME/effort for each joint, and position[0], velocity[0], effort[0], …; or
@@ -124,35 +155,21 @@ class TopicRows {
  private:
   /// The two latest values of a number: messages can come in another order than their stamps.
   using Held = std::array<HeldNumber, 2>;
-  struct Joint {
-    std::string name;  ///< empty: by its place
-    std::size_t place = 0;
-    std::array<std::size_t, 3> slot{};  ///< of position, velocity, effort in the row, or `no_slot`
-    std::array<Held, 3> held{};
-  };
-  static constexpr std::size_t no_slot = static_cast<std::size_t>(-1);
-
-  void set_time(const MessageStamp& stamp, std::int64_t recorded);
-  bool take(const JointState& state);
-  void count_kind(const JointState& state);
-  void take(const ImuState& state);
-  void take(const MessageNumbers& numbers, std::int64_t recorded);
-  void put(std::size_t slot, Held& held, double value, bool is_given);
+  void find_columns();
+  void count_kind();
+  void hold(std::size_t column);
 
   SignalTopic topic_;
   Config config_;
   std::vector<double> row_;
   double time_ = 0.0;
-  std::size_t stamp_slot_ = no_slot;
-  std::size_t log_time_slot_ = no_slot;
-  std::vector<Joint> joints_;  ///< the selected ones; the first makes rows
-  std::array<std::size_t, 10> imu_slot_{};
-  JointState joint_state_;
-  ImuState imu_;
-  MessageNumbers numbers_;
-  std::vector<std::string> columns_;
-  std::vector<std::string> paths_;      ///< of the last message of another type
-  std::vector<std::size_t> number_at_;  ///< of the columns among its numbers, or `no_slot`
+  MessageNumbers numbers_;              ///< of the last message
+  std::vector<std::string> columns_;    ///< the selected ones; of joints, the first makes rows
+  std::vector<Held> held_;              ///< by column
+  std::vector<std::string> paths_;      ///< of the numbers …
+  std::vector<std::string> names_;      ///< … and the texts, for which these are found:
+  std::vector<std::size_t> number_at_;  ///< of the columns among the numbers
+  bool is_row_ = true;
   /// Of messages with the first joint: the number by their names, and how often they change.
   std::map<std::vector<std::string>, std::uint64_t> kinds_;
   std::vector<std::string> last_kind_;

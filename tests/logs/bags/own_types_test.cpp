@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "logs/bags/sensor_messages.hpp"
+#include "logs/bags/topic_rows.hpp"
 #include "tests/bag_writer.hpp"
 #include "tests/logs/mapping/mapped_logs.hpp"
 

@@ -16,7 +16,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "logs/bags/sensor_messages.hpp"
+#include "logs/bags/topic_rows.hpp"
 #include "logs/log/reader.hpp"
 #include "logs/mapping/conversion.hpp"
 #include "logs/model_file.hpp"
