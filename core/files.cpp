@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/terminal_text.hpp"
 
 namespace touchdown {
 
@@ -23,17 +24,6 @@ namespace {
 
 constexpr std::size_t longest_word =
     100;  // file names may have 255, and the word is only a part of one
-
-bool is_control(unsigned char byte) { return byte < 0x20 || byte == 0x7f; }
-
-/// U+0080 to U+009F, as UTF-8.
-bool has_high_control(std::string_view text) {
-  for (std::size_t i = 1; i < text.size(); ++i) {
-    const auto second = static_cast<unsigned char>(text[i]);
-    if (text[i - 1] == '\xc2' && second >= 0x80 && second < 0xa0) return true;
-  }
-  return false;
-}
 
 std::string part_name(const std::filesystem::path& name) {
   // Two machines that share a disk may have processes with the same number.
@@ -69,8 +59,8 @@ void flush_to_disk(const std::filesystem::path& path) {
 void require_replaceable(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_other(std::filesystem::status(path, ignored))) return;
-  throw Error(fmt::format(
-      "{}: cannot be written: is a device or a pipe, which a file would replace", path.string()));
+  throw InputError(fmt::format("{}: is a device or a pipe, which a file would replace: name a file",
+                               path.string()));
 }
 
 /// Makes a new folder beside `path` that only this user can access. An existing file, folder or
@@ -107,8 +97,7 @@ std::vector<std::filesystem::path> entries_by(const std::filesystem::path& folde
 
 bool is_name_word(std::string_view text) {
   return !text.empty() && text.size() <= longest_word &&
-         text.find_first_of("/\\ .") == std::string_view::npos &&
-         std::none_of(text.begin(), text.end(), is_control) && !has_high_control(text);
+         text.find_first_of("/\\ .") == std::string_view::npos && terminal_text(text) == text;
 }
 
 std::filesystem::path part_path(const std::filesystem::path& path) {
@@ -146,11 +135,9 @@ void write_atomically(const std::filesystem::path& path,
 }
 
 void write_atomically(const std::filesystem::path& path, std::string_view content) {
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
-    std::ofstream file(temporary, std::ios::binary);
+  write_stream_atomically(path, [&](std::ostream& file) {
     errno = 0;
-    file.write(content.data(), static_cast<std::streamsize>(content.size()));
-    file.close();
+    file.write(content.data(), static_cast<std::streamsize>(content.size())).flush();
     if (!file) throw Error(unwritable(path, errno));
   });
 }
@@ -263,6 +250,7 @@ std::string read_file(const std::filesystem::path& path) {
 }
 
 void require_writable(const std::filesystem::path& path) {
+  require_replaceable(path);
   std::error_code ignored;
   const std::filesystem::path absolute = std::filesystem::absolute(path, ignored);
   if (!absolute.has_filename() || std::filesystem::is_directory(absolute, ignored)) {

@@ -71,19 +71,14 @@ namespace fs = std::filesystem;
 
 using Identity = std::pair<dev_t, ino_t>;
 
-/// Status of an existing file. `standard` is the descriptor that "-" stands for.
-std::optional<struct stat> status_of(const fs::path& path, int standard) {
+/// Empty for what is no file: terminals and pipes may be input and output at the same time.
+/// `standard` is the descriptor that "-" stands for.
+std::optional<Identity> identity_of(const fs::path& path, int standard) {
   struct stat status = {};
   const bool found =
       path == "-" ? ::fstat(standard, &status) == 0 : ::stat(path.c_str(), &status) == 0;
-  return found ? std::optional(status) : std::nullopt;
-}
-
-/// Empty for terminals and pipes, which may be input and output at the same time.
-std::optional<Identity> identity_of(const fs::path& path, int standard) {
-  const std::optional<struct stat> status = status_of(path, standard);
-  if (!status || !S_ISREG(status->st_mode)) return {};
-  return Identity{status->st_dev, status->st_ino};
+  if (!found || !S_ISREG(status.st_mode)) return {};
+  return Identity{status.st_dev, status.st_ino};
 }
 
 void check_against_input(const fs::path& output, const InputFile& input) {
@@ -102,14 +97,6 @@ bool is_one_file(const fs::path& a, const fs::path& b) {
   std::error_code ignored;
   return fs::weakly_canonical(absolute_path(a), ignored) ==
          fs::weakly_canonical(absolute_path(b), ignored);
-}
-
-void check_replaceable(const fs::path& output) {
-  if (output == "-") return;
-  const std::optional<struct stat> status = status_of(output, STDOUT_FILENO);
-  if (!status || S_ISREG(status->st_mode) || S_ISDIR(status->st_mode)) return;
-  throw InputError(fmt::format("{}: is a device or a pipe, which a file would replace: name a file",
-                               output.string()));
 }
 
 // Signal handlers can access globals only.
@@ -209,7 +196,6 @@ void check_outputs(const std::vector<InputFile>& inputs, const std::vector<fs::p
       throw InputError(
           fmt::format("{}: would be written twice: name two files", outputs[i].string()));
     }
-    check_replaceable(outputs[i]);
   }
   for (const fs::path& output : outputs) {
     if (output != "-") require_writable(output);

@@ -133,10 +133,9 @@ std::filesystem::path find_program_file(const std::filesystem::path& path) {
 }
 
 void require_file(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::status(path, error).type() != std::filesystem::file_type::not_found) {
-    return require_regular_file(path);
-  }
+  std::error_code ignored;
+  require_missing(path);
+  if (std::filesystem::is_regular_file(path, ignored)) return;
   throw InputError(fmt::format("{}: no such file{}", path.string(),
                                did_you_mean(path.filename().string(), neighbours_of(path))));
 }

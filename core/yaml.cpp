@@ -70,6 +70,9 @@ class Checker : public YAML::EventHandler {
     if (const std::string shown = terminal_text(value, "\n\t"); shown != value) {
       complain(mark, fmt::format("'{}': a text has no control characters", shown));
     }
+    if (is_key && !open_.back().keys.insert(value).second) {
+      complain(mark, value + ": appears twice");
+    }
     end_value(mark, anchor, {});
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t anchor,
@@ -95,7 +98,8 @@ class Checker : public YAML::EventHandler {
     YAML::anchor_t anchor;
     bool is_map;
     bool is_key_next;
-    Size size;
+    Size size = {};
+    std::set<std::string> keys = {};
   };
 
   [[noreturn]] void complain(const YAML::Mark& mark, const std::string& message) const {
@@ -126,7 +130,7 @@ class Checker : public YAML::EventHandler {
 
   void open(const YAML::Mark& mark, YAML::anchor_t anchor, bool is_map) {
     begin_value(mark, false);
-    open_.push_back({mark, anchor, is_map, is_map, {}});
+    open_.push_back({mark, anchor, is_map, is_map});
   }
 
   void close() {
@@ -146,7 +150,8 @@ class Checker : public YAML::EventHandler {
 /// - bytes that are not UTF-8, and a second document;
 /// - an alias inside the value that it refers to;
 /// - more than 64 levels or a million values, aliases expanded;
-/// - a key that is not a name;
+/// - a key that is not a name, or is there already: yaml-cpp keeps the first and ignores the
+/// second;
 /// - a number with a leading zero, such as 010, which some parsers read as octal and others as
 ///   decimal. In quotes it is a text;
 /// - a text that a terminal would obey, because names go into tables and pages.
@@ -165,23 +170,6 @@ void check_yaml_text(const std::string& text, const MarkFormatter& place) {
   }
 }
 
-/// Rejects duplicate keys: yaml-cpp silently keeps the first and ignores the second.
-void refuse_duplicate_keys(const YAML::Node& node, const std::string& name) {
-  if (node.IsSequence()) {
-    for (const auto& item : node) refuse_duplicate_keys(item, name);
-  }
-  if (!node.IsMap()) return;
-  std::set<std::string> seen;
-  for (const auto& entry : node) {
-    if (entry.first.IsScalar() && !seen.insert(entry.first.Scalar()).second) {
-      const YAML::Mark mark = entry.first.Mark();
-      throw InputError(fmt::format("{}:{}:{}: {}: appears twice", name, mark.line + 1,
-                                   mark.column + 1, entry.first.Scalar()));
-    }
-    refuse_duplicate_keys(entry.second, name);
-  }
-}
-
 YAML::Node parse_or_complain(const std::string& text, const std::string& name) {
   const auto place = [&](const YAML::Mark& mark) {
     return fmt::format("{}:{}:{}", name, mark.line + 1, mark.column + 1);
@@ -192,7 +180,6 @@ YAML::Node parse_or_complain(const std::string& text, const std::string& name) {
     if (!root.IsMap()) {
       throw InputError(fmt::format("{}:1:1: expected a mapping of keys to values", name));
     }
-    refuse_duplicate_keys(root, name);
     return root;
   } catch (const YAML::ParserException& error) {
     throw InputError(fmt::format("{}: not valid YAML: {}", place(error.mark), error.msg));
