@@ -91,8 +91,6 @@ std::vector<fs::path> bag_files(const fs::path& path) {
   return files;
 }
 
-namespace fs = std::filesystem;
-
 /// Largest payload of a message that is compressed.
 constexpr std::uint64_t most_payload_bytes = std::uint64_t{1} << 28U;
 
@@ -106,12 +104,7 @@ std::string first_bytes(const fs::path& path) {
 
 bool is_bag(const fs::path& path) {
   if (is_folder(path)) {
-    if (is_there(path / "metadata.yaml")) return true;
-    const std::vector<fs::path> entries = entries_in(path);
-    return std::any_of(entries.begin(), entries.end(), [](const fs::path& entry) {
-      const std::string extension = bag_extension(entry);
-      return extension == ".mcap" || extension == ".db3";
-    });
+    return is_there(path / "metadata.yaml") || !files_in(path).empty();
   }
   const std::string extension = bag_extension(path);
   return extension == ".mcap" || extension == ".db3" || extension == ".bag";

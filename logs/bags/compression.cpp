@@ -1,9 +1,11 @@
 #include "logs/bags/compression.hpp"
 
-#include <algorithm>
 #include <fstream>
+#include <functional>
 #include <lz4frame.h>
 #include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 #include <zstd.h>
 
@@ -19,20 +21,6 @@ namespace {
 constexpr std::size_t step_bytes = std::size_t{1} << 17U;
 constexpr const char* ends_early = "its compressed bytes end early";
 
-struct FreeLz4 {
-  void operator()(LZ4F_dctx* context) const { LZ4F_freeDecompressionContext(context); }
-};
-struct FreeZstd {
-  void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
-};
-
-/// Makes room for the next step at the end of the buffer; returns its size, 0 at the limit.
-std::size_t grow(std::string& bytes, std::size_t used, std::uint64_t limit) {
-  const auto room = static_cast<std::size_t>(std::min<std::uint64_t>(step_bytes, limit - used));
-  bytes.resize(used + room);
-  return room;
-}
-
 /// One step of a decompressor: consumes input, gives output, and reports whether a frame ended.
 struct Step {
   std::size_t consumed = 0;
@@ -40,85 +28,75 @@ struct Step {
   bool is_frame_end = false;
   std::string fault = {};
 };
+using Decompressor = std::function<Step(std::string_view from, std::span<char> to)>;
 
-template <typename Decompress>
-Decompressed decompress_frames(std::string_view compressed, std::uint64_t limit,
-                               const Decompress& decompress_step) {
-  Decompressed result;
-  std::size_t used = 0;
+/// Decompresses whole frames. `next` gives bytes, and none at their end; `take` returns false to
+/// end early. Returns what ended it early.
+std::string decompress_frames(const Decompressor& step,
+                              const std::function<std::string_view()>& next,
+                              const std::function<bool(std::string_view)>& take) {
+  std::vector<char> to(step_bytes);
+  std::string_view from = next();
   bool is_frame_end = false;
-  char beyond = 0;  // the last frame may still need a call without output
-  while (!compressed.empty() || !is_frame_end) {
-    const std::size_t room = grow(result.bytes, used, limit);
-    char* const to = room == 0 ? &beyond : result.bytes.data() + used;
-    const Step step = decompress_step(compressed, to, std::max<std::size_t>(room, 1));
-    if (room == 0 && step.produced > 0) {
-      result.fault = "it holds more bytes than it declares";
-      break;
-    }
-    used += step.produced;
-    compressed.remove_prefix(step.consumed);
-    is_frame_end = step.is_frame_end;
-    if (!step.fault.empty()) {
-      result.fault = step.fault;
-      break;
-    }
-    if (step.consumed == 0 && step.produced == 0 && !is_frame_end) {
-      result.fault = ends_early;
-      break;
-    }
+  while (!from.empty() || !is_frame_end) {
+    const Step done = step(from, to);
+    if (!take({to.data(), done.produced})) return "it holds more bytes than it declares";
+    if (!done.fault.empty()) return done.fault;
+    from.remove_prefix(done.consumed);
+    is_frame_end = done.is_frame_end;
+    const bool is_stuck = done.consumed == 0 && done.produced == 0 && !is_frame_end;
+    if (is_stuck && !from.empty()) return ends_early;
+    if (from.empty()) from = next();
+    if (is_stuck && from.empty()) return ends_early;
   }
-  result.bytes.resize(used);
-  return result;
+  return {};
 }
 
-Decompressed decompress_lz4(std::string_view compressed, std::uint64_t limit) {
+Decompressor lz4() {
   LZ4F_dctx* made = nullptr;
   if (LZ4F_isError(LZ4F_createDecompressionContext(&made, LZ4F_VERSION)) != 0U) {
     throw Error("lz4: no memory");
   }
-  const std::unique_ptr<LZ4F_dctx, FreeLz4> context(made);
-  return decompress_frames(
-      compressed, limit, [&](std::string_view from, char* to, std::size_t room) {
-        std::size_t produced = room;
-        std::size_t consumed = from.size();
-        const std::size_t left =
-            LZ4F_decompress(context.get(), to, &produced, from.data(), &consumed, nullptr);
-        if (LZ4F_isError(left) != 0U) return Step{0, 0, false, LZ4F_getErrorName(left)};
-        return Step{consumed, produced, left == 0};
-      });
+  const std::shared_ptr<LZ4F_dctx> context(made, LZ4F_freeDecompressionContext);
+  return [context](std::string_view from, std::span<char> to) {
+    std::size_t produced = to.size();
+    std::size_t consumed = from.size();
+    const std::size_t left =
+        LZ4F_decompress(context.get(), to.data(), &produced, from.data(), &consumed, nullptr);
+    if (LZ4F_isError(left) != 0U) return Step{0, 0, false, LZ4F_getErrorName(left)};
+    return Step{consumed, produced, left == 0};
+  };
 }
 
-std::unique_ptr<ZSTD_DCtx, FreeZstd> zstd_context() {
-  std::unique_ptr<ZSTD_DCtx, FreeZstd> context(ZSTD_createDCtx());
+Decompressor zstd() {
+  const std::shared_ptr<ZSTD_DCtx> context(ZSTD_createDCtx(), ZSTD_freeDCtx);
   if (!context) throw Error("zstd: no memory");
-  return context;
-}
-
-Decompressed decompress_zstd(std::string_view compressed, std::uint64_t limit) {
-  const auto context = zstd_context();
-  return decompress_frames(
-      compressed, limit, [&](std::string_view from, char* to, std::size_t room) {
-        ZSTD_inBuffer in{from.data(), from.size(), 0};
-        ZSTD_outBuffer out{to, room, 0};
-        const std::size_t left = ZSTD_decompressStream(context.get(), &out, &in);
-        if (ZSTD_isError(left) != 0U) return Step{in.pos, out.pos, false, ZSTD_getErrorName(left)};
-        return Step{in.pos, out.pos, left == 0};
-      });
+  return [context](std::string_view from, std::span<char> to) {
+    ZSTD_inBuffer in{from.data(), from.size(), 0};
+    ZSTD_outBuffer out{to.data(), to.size(), 0};
+    const std::size_t left = ZSTD_decompressStream(context.get(), &out, &in);
+    if (ZSTD_isError(left) != 0U) return Step{in.pos, out.pos, false, ZSTD_getErrorName(left)};
+    return Step{in.pos, out.pos, left == 0};
+  };
 }
 
 }  // namespace
 
 Decompressed decompress(Compression compression, std::string_view compressed, std::uint64_t limit) {
+  Decompressed result;
+  const auto take = [&](std::string_view bytes) {
+    const std::uint64_t room = limit - result.bytes.size();
+    result.bytes.append(bytes.substr(0, room));
+    return bytes.size() <= room;
+  };
   if (compression == Compression::none) {
-    if (compressed.size() > limit) {
-      return {std::string(compressed.substr(0, limit)), "it holds more bytes than it declares"};
-    }
-    return {std::string(compressed), ""};
+    if (!take(compressed)) result.fault = "it holds more bytes than it declares";
+  } else if (!compressed.empty() || limit > 0) {
+    result.fault = decompress_frames(
+        compression == Compression::lz4 ? lz4() : zstd(),
+        [&] { return std::exchange(compressed, {}); }, take);
   }
-  if (compressed.empty()) return {"", limit == 0 ? "" : ends_early};
-  return compression == Compression::lz4 ? decompress_lz4(compressed, limit)
-                                         : decompress_zstd(compressed, limit);
+  return result;
 }
 
 bool is_zstd(std::string_view bytes) { return bytes.starts_with("\x28\xb5\x2f\xfd"); }
@@ -128,35 +106,25 @@ void decompress_file(const std::filesystem::path& compressed, const std::filesys
   std::ifstream from(compressed, std::ios::binary);
   std::ofstream to(path, std::ios::binary);
   if (!to) throw Error(fmt::format("{}: cannot be written", path.string()));
-  const auto context = zstd_context();
-  std::vector<char> in_bytes(ZSTD_DStreamInSize());
-  std::vector<char> out_bytes(ZSTD_DStreamOutSize());
-  std::size_t left = 0;
-  bool has_bytes = false;
-  while (from.read(in_bytes.data(), static_cast<std::streamsize>(in_bytes.size())),
-         from.gcount() > 0) {
+  std::vector<char> read(step_bytes);
+  const auto next = [&] {
     end_if(stop);
-    has_bytes = true;
-    ZSTD_inBuffer in{in_bytes.data(), static_cast<std::size_t>(from.gcount()), 0};
-    // A full output buffer may hide output that still waits in the decompressor, but not at the end
-    // of a frame.
-    for (bool is_full = false; in.pos < in.size || is_full;) {
-      ZSTD_outBuffer out{out_bytes.data(), out_bytes.size(), 0};
-      left = ZSTD_decompressStream(context.get(), &out, &in);
-      if (ZSTD_isError(left) != 0U) {
-        throw InputError(fmt::format("{}: cannot be decompressed: {}", compressed.string(),
-                                     ZSTD_getErrorName(left)));
-      }
-      to.write(out_bytes.data(), static_cast<std::streamsize>(out.pos));
-      is_full = left != 0 && out.pos == out.size;
-    }
-  }
-  if (!has_bytes || left != 0) {
+    from.read(read.data(), static_cast<std::streamsize>(read.size()));
+    return std::string_view(read.data(), static_cast<std::size_t>(from.gcount()));
+  };
+  const std::string fault = decompress_frames(zstd(), next, [&](std::string_view bytes) {
+    to.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    return true;
+  });
+  if (fault == ends_early) {
     throw InputError(
         fmt::format("{}: its compressed bytes end early: was the recorder stopped? Copy the file "
                     "again, or give "
                     "the files before it",
                     compressed.string()));
+  }
+  if (!fault.empty()) {
+    throw InputError(fmt::format("{}: cannot be decompressed: {}", compressed.string(), fault));
   }
   to.close();
   if (!to) {

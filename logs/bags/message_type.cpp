@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
+#include <cstring>
 #include <limits>
 #include <map>
 #include <utility>
@@ -8,10 +10,72 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "logs/bags/cdr.hpp"
 #include "logs/bags/topic_rows.hpp"
 
 namespace touchdown::logs {
+
+/// Reads the values of a message in the order of their definition, from bytes in CDR (XCDR1, OMG
+/// DDS-XTypes 7.4.3), of either byte order. Values are aligned to their size, relative to the byte
+/// after the four bytes of the header. Errors: `InputError` when the header is another one, or when
+/// the bytes end before a value does; no declared size is trusted.
+class CdrReader {
+ public:
+  explicit CdrReader(std::string_view payload) {
+    if (payload.size() < header_bytes) throw InputError("a message ends before its CDR header");
+    const auto kind = static_cast<unsigned char>(payload[1]);
+    if (payload[0] != 0 || kind > 1) {
+      throw InputError(
+          fmt::format("expected a message in CDR, which begins with 00 00 or 00 01, "
+                      "found {:02x} {:02x}",
+                      static_cast<unsigned char>(payload[0]), kind));
+    }
+    const bool is_little = kind == 1;
+    is_swapped_ = is_little != (std::endian::native == std::endian::little);
+    bytes_ = payload.substr(header_bytes);
+  }
+
+  template <typename T>
+  T take() {
+    std::array<char, sizeof(T)> raw{};
+    std::memcpy(raw.data(), skip(sizeof(T), 1), sizeof(T));
+    if (is_swapped_) std::reverse(raw.begin(), raw.end());
+    return std::bit_cast<T>(raw);
+  }
+  /// Skips values of this size. Returns where they begin.
+  const char* skip(std::size_t size, std::size_t count) {
+    const std::size_t begin = (at_ + size - 1) / size * size;
+    if (begin > bytes_.size() || (bytes_.size() - begin) / size < count) {
+      throw InputError(
+          fmt::format("a message of {} bytes ends within a value", bytes_.size() + header_bytes));
+    }
+    at_ = begin + size * count;
+    return bytes_.data() + begin;
+  }
+  /// Without the NUL at its end.
+  std::string_view text() {
+    const std::uint32_t size = count(1);
+    std::string_view text = bytes_.substr(at_, size);
+    at_ += size;
+    if (text.ends_with('\0')) text.remove_suffix(1);
+    return text;
+  }
+  /// The number of items of a sequence, of which each has at least `bytes`.
+  std::uint32_t count(std::size_t bytes) {
+    const auto items = take<std::uint32_t>();
+    if (items > (bytes_.size() - at_) / bytes) {
+      throw InputError(fmt::format("a message of {} bytes declares a sequence of {} items",
+                                   bytes_.size() + header_bytes, items));
+    }
+    return items;
+  }
+
+ private:
+  static constexpr std::size_t header_bytes = 4;
+
+  std::string_view bytes_;
+  std::size_t at_ = 0;
+  bool is_swapped_ = false;
+};
 
 namespace {
 
