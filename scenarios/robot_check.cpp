@@ -11,7 +11,7 @@
 #include "core/files.hpp"
 #include "core/resources.hpp"
 #include "estimator/force/leg_geometry.hpp"
-#include "logs/plausibility/chatter.hpp"
+#include "logs/plausibility/rules.hpp"
 #include "models/mjcf/robot_file.hpp"
 #include "models/robot_description.hpp"
 #include "models/robot_draft.hpp"

@@ -108,6 +108,12 @@ class BeliefColumns {
     }
   }
 
+  /// Errors: `InputError` at a `place` of the file if there are none.
+  Beliefs finish(const char* place = "") {
+    if (beliefs.size() > 0) return std::move(beliefs);
+    throw InputError(fmt::format("{}{}: holds no beliefs", beliefs.file, place));
+  }
+
   /// The beliefs so far.
   Beliefs beliefs;
 
@@ -133,10 +139,7 @@ Beliefs read_belief_csv(const std::filesystem::path& path) {
     columns.add(csv.values());
     columns.beliefs.line.push_back(csv.line());
   }
-  if (columns.beliefs.size() == 0) {
-    throw InputError(fmt::format("{}:1:1: holds no beliefs", path.string()));
-  }
-  return std::move(columns.beliefs);
+  return columns.finish(":1:1");
 }
 
 Beliefs read_belief_npz(const std::filesystem::path& path) {
@@ -154,13 +157,12 @@ Beliefs read_belief_npz(const std::filesystem::path& path) {
     throw InputError(fmt::format("{}: {}: expected one axis of {}, the steps of 'time'",
                                  path.string(), name, steps));
   }
-  if (steps == 0) throw InputError(fmt::format("{}: holds no beliefs", path.string()));
   std::vector<double> values(names.size());
   for (step = 0; *step < steps; ++*step) {
     for (std::size_t i = 0; i < names.size(); ++i) values[i] = arrays.at(names[i]).data[*step];
     columns.add(values);
   }
-  return std::move(columns.beliefs);
+  return columns.finish();
 }
 
 namespace {
@@ -169,18 +171,11 @@ namespace {
 const msgpack::unpack_limit limits(64, 64, 1024, 1024, 1024, 4);
 
 std::optional<double> number_of(const msgpack::object& value) {
-  switch (value.type) {
-    case msgpack::type::BOOLEAN:
-      return value.via.boolean ? 1.0 : 0.0;
-    case msgpack::type::POSITIVE_INTEGER:
-      return static_cast<double>(value.via.u64);
-    case msgpack::type::NEGATIVE_INTEGER:
-      return static_cast<double>(value.via.i64);
-    case msgpack::type::FLOAT32:
-    case msgpack::type::FLOAT64:
-      return value.via.f64;
-    default:
-      return std::nullopt;
+  if (value.type == msgpack::type::BOOLEAN) return value.via.boolean ? 1.0 : 0.0;
+  try {
+    return value.as<double>();
+  } catch (const msgpack::type_error&) {
+    return std::nullopt;
   }
 }
 
@@ -220,12 +215,7 @@ class DictionaryReader {
     columns_.add(values);
   }
 
-  Beliefs finish() {
-    if (columns_.beliefs.size() == 0) {
-      throw InputError(fmt::format("{}: holds no beliefs", columns_.beliefs.file));
-    }
-    return std::move(columns_.beliefs);
-  }
+  Beliefs finish() { return columns_.finish(); }
 
  private:
   static std::vector<std::string> sorted(std::vector<std::string> names) {

@@ -38,9 +38,6 @@ Beliefs read_belief_npz(const std::filesystem::path& path);
 /// dictionary, counted from 0.
 Beliefs read_belief_mpack(const std::filesystem::path& path);
 
-/// Extensions of belief files.
-inline constexpr std::array<const char*, 3> belief_extensions = {".csv", ".npz", ".mpack"};
-
 /// Reads a belief file by its extension. Errors: `InputError` with the position and what was
 /// expected.
 Beliefs read_beliefs(const std::filesystem::path& path);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -79,34 +79,26 @@ ContactInterval interval_in(const NumbersCsv& csv, const IntervalColumns& column
   return interval;
 }
 
-struct StartsBefore {
-  bool operator()(const ContactInterval& one, const ContactInterval& other) const {
-    return one.start < other.start;
-  }
-};
-/// In order of time, with rows of the file in any order.
-using OrderedIntervals = std::set<ContactInterval, StartsBefore>;
-
 ContactIntervals read_rows(const std::filesystem::path& path) {
   ContactIntervals read{path.string(), {}};
   NumbersCsv csv(path);
   const IntervalColumns columns = find_columns(csv);
-  OrderedIntervals intervals;
+  std::map<double, ContactInterval> intervals;  // by start: rows of the file have any order
   while (csv.next()) {
     const ContactInterval interval = interval_in(csv, columns);
-    const auto next = intervals.upper_bound(interval);
+    const auto next = intervals.upper_bound(interval.start);
     const ContactInterval* overlapping = nullptr;
-    if (next != intervals.end() && next->start < interval.end) overlapping = &*next;
-    if (next != intervals.begin() && std::prev(next)->end > interval.start) {
-      overlapping = &*std::prev(next);
+    if (next != intervals.end() && next->first < interval.end) overlapping = &next->second;
+    if (next != intervals.begin() && std::prev(next)->second.end > interval.start) {
+      overlapping = &std::prev(next)->second;
     }
     if (overlapping != nullptr) {
       csv.complain(columns.start, fmt::format("{} to {} overlaps with {} to {}", interval.start,
                                               interval.end, overlapping->start, overlapping->end));
     }
-    intervals.insert(next, interval);
+    intervals.emplace(interval.start, interval);
   }
-  read.intervals.assign(intervals.begin(), intervals.end());
+  for (const auto& [start, interval] : intervals) read.intervals.push_back(interval);
   return read;
 }
 

@@ -18,6 +18,8 @@ struct ContactInterval {
   /// Of labels that a program proposed: the lowest probability of this contact in any part of the
   /// interval.
   std::optional<double> sure = {};
+
+  bool operator==(const ContactInterval&) const = default;
 };
 
 /// The time rounded to the microsecond (s): labels are compared and written so, because the

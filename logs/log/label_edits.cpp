@@ -12,10 +12,6 @@ namespace {
 
 using Rows = std::vector<ContactInterval>;
 
-bool touch_alike(const ContactInterval& before, const ContactInterval& after) {
-  return before.end == after.start && before.contact == after.contact;
-}
-
 /// The first interval that ends after `time`.
 Rows::iterator first_until(Rows& rows, double time) {
   return std::find_if(rows.begin(), rows.end(),
@@ -28,7 +24,7 @@ void join_at(Rows& rows, double time) {
                                   [time](const ContactInterval& one) { return one.start == time; });
   if (after == rows.begin() || after == rows.end()) return;
   ContactInterval& before = *std::prev(after);
-  if (!touch_alike(before, *after)) return;
+  if (before.end != time || before.contact != after->contact) return;
   if (!before.sure || (after->sure && *after->sure < *before.sure)) before.sure = after->sure;
   before.end = after->end;
   rows.erase(after);
@@ -52,11 +48,6 @@ TimeRange neighbours(const std::vector<double>& edges, double edge) {
   const auto after = std::upper_bound(edges.begin(), edges.end(), edge);
   return {before == edges.begin() ? -infinity : *std::prev(before),
           after == edges.end() ? infinity : *after};
-}
-
-bool is_alike(const ContactInterval& one, const ContactInterval& other) {
-  return one.start == other.start && one.end == other.end && one.contact == other.contact &&
-         one.sure == other.sure;
 }
 
 }  // namespace
@@ -194,10 +185,7 @@ LabelHistory::LabelHistory(ContactIntervals labels) : labels_(std::move(labels))
 }
 
 bool LabelHistory::edit(ContactIntervals edited) {
-  if (std::equal(edited.intervals.begin(), edited.intervals.end(), labels_.intervals.begin(),
-                 labels_.intervals.end(), is_alike)) {
-    return false;
-  }
+  if (edited.intervals == labels_.intervals) return false;
   undone_.push_back(std::exchange(labels_, std::move(edited)));
   redone_.clear();
   return true;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
+#include <ctime>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -14,44 +14,26 @@ namespace touchdown::logs {
 
 namespace {
 
-/// Digits alone.
-std::optional<double> whole_number(std::string_view text) {
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_number = error == std::errc{} && end == text.data() + text.size();
-  return is_number && value >= 0 ? std::optional(static_cast<double>(value)) : std::nullopt;
-}
-
 std::optional<double> number_of(std::string_view text);
 
 /// Seconds since 1970 of a date and time as pandas and loggers write them: 2024-02-28 01:02:03.25,
 /// with T instead of the blank, with or without Z.
 std::optional<double> date_and_time(std::string_view text) {
+  constexpr std::size_t seconds_at = 17;
   constexpr std::size_t shortest = 19;
-  if (text.ends_with('Z')) text.remove_suffix(1);
-  if (text.size() < shortest || text[4] != '-' || text[7] != '-' || text[13] != ':' ||
-      text[16] != ':' || (text[10] != ' ' && text[10] != 'T')) {
+  std::string minutes(text.substr(0, seconds_at));
+  if (text.size() < shortest || (minutes[10] != ' ' && minutes[10] != 'T')) {
     return std::nullopt;
   }
-  const auto part = [&](std::size_t at, std::size_t size) {
-    return whole_number(text.substr(at, size));
-  };
-  const auto year = part(0, 4);
-  const auto month = part(5, 2);
-  const auto day = part(8, 2);
-  const auto hour = part(11, 2);
-  const auto minute = part(14, 2);
-  const auto second = number_of(text.substr(17));
-  if (!year || !month || !day || !hour || !minute || !second) return std::nullopt;
-  const std::chrono::year_month_day date(std::chrono::year(static_cast<int>(*year)),
-                                         std::chrono::month(static_cast<unsigned>(*month)),
-                                         std::chrono::day(static_cast<unsigned>(*day)));
-  if (!date.ok()) return std::nullopt;
-  constexpr double seconds_per_day = 86400.0;
-  constexpr double seconds_per_hour = 3600.0;
-  constexpr double seconds_per_minute = 60.0;
-  const auto days = static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count());
-  return seconds_per_day * days + seconds_per_hour * *hour + seconds_per_minute * *minute + *second;
+  minutes[10] = 'T';
+  std::tm date{};
+  const char* const end = ::strptime(minutes.c_str(), "%Y-%m-%dT%H:%M:", &date);
+  const int day = date.tm_mday;
+  const auto since_1970 = static_cast<double>(::timegm(&date));  // moves the 30th of February
+  if (text.ends_with('Z')) text.remove_suffix(1);
+  const auto second = number_of(text.substr(seconds_at));
+  if (end != minutes.c_str() + seconds_at || day != date.tm_mday || !second) return std::nullopt;
+  return since_1970 + *second;
 }
 
 std::optional<double> number_of(std::string_view text) {

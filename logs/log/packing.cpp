@@ -44,10 +44,14 @@ void take_text(const msgpack::object& map, std::string_view key, std::string& va
 
 }  // namespace
 
-void pack_info(LogPacker& packer, const RecordingInfo& info) {
+void pack_origin(LogPacker& packer, const RecordingInfo& info) {
   const auto text = [&](std::string_view value) { pack_text(packer, value); };
   text("config");
   packer.pack_map(1);
+  if (!info.robot.empty()) {
+    text("robot"), text(info.robot);
+    return;
+  }
   text("touchdown");
   packer.pack_map(6U + (info.outcome ? 1U : 0U) + (info.robot_digest.empty() ? 0U : 1U));
   text("scenario"), text(info.scenario);
@@ -60,41 +64,32 @@ void pack_info(LogPacker& packer, const RecordingInfo& info) {
   if (!info.robot_digest.empty()) text("robot_digest"), text(info.robot_digest);
 }
 
-void pack_robot(LogPacker& packer, std::string_view robot) {
-  pack_text(packer, "config");
-  packer.pack_map(1);
-  pack_text(packer, "robot");
-  pack_text(packer, robot);
-}
-
-std::string unpack_robot(std::string_view record) {
-  const msgpack::object_handle handle = msgpack::unpack(record.data(), record.size());
-  const msgpack::object* config = find(handle.get(), "config");
-  const msgpack::object* robot = config == nullptr ? nullptr : find(*config, "robot");
-  if (robot == nullptr || robot->type != msgpack::type::STR) return {};
-  const std::string_view name(robot->via.str.ptr, robot->via.str.size);
-  return utf8_size(name) == name.size() ? std::string(name) : std::string();
-}
-
-std::optional<RecordingInfo> unpack_info(std::string_view record, std::string_view log_name) {
+void unpack_origin(std::string_view record, std::string_view log_name,
+                   std::optional<RecordingInfo>& info, std::string& robot) {
   try {
     const msgpack::object_handle handle = msgpack::unpack(record.data(), record.size());
-    const msgpack::object* config = find(handle.get(), "config");
-    const msgpack::object* info_map = config == nullptr ? nullptr : find(*config, "touchdown");
-    if (info_map == nullptr) return {};
-    RecordingInfo info;
-    take_text(*info_map, "scenario", info.scenario);
-    take_text(*info_map, "simulator", info.simulator);
-    take(*info_map, "seed", info.seed);
-    take(*info_map, "run", info.run);
-    take(*info_map, "control_period_us", info.control_period_us);
-    take_text(*info_map, "scenario_yaml", info.scenario_yaml);
-    take_text(*info_map, "robot_digest", info.robot_digest);
+    const msgpack::object* const config = find(handle.get(), "config");
+    if (config == nullptr) return;
+    const msgpack::object* const origin = find(*config, "touchdown");
+    const msgpack::object* const named = find(*config, "robot");
+    if (origin == nullptr && named != nullptr && named->type == msgpack::type::STR) {
+      const std::string_view name(named->via.str.ptr, named->via.str.size);
+      if (utf8_size(name) == name.size()) robot = name;
+    }
+    if (origin == nullptr) return;
+    RecordingInfo read;
+    take_text(*origin, "scenario", read.scenario);
+    take_text(*origin, "simulator", read.simulator);
+    take(*origin, "seed", read.seed);
+    take(*origin, "run", read.run);
+    take(*origin, "control_period_us", read.control_period_us);
+    take_text(*origin, "scenario_yaml", read.scenario_yaml);
+    take_text(*origin, "robot_digest", read.robot_digest);
     std::string outcome;
-    take(*info_map, "outcome", outcome);
-    if (!outcome.empty()) info.outcome = outcome_from_text(outcome);
-    if (info.control_period_us <= 0) throw InputError("control_period_us must be positive");
-    return info;
+    take(*origin, "outcome", outcome);
+    if (!outcome.empty()) read.outcome = outcome_from_text(outcome);
+    if (read.control_period_us <= 0) throw InputError("control_period_us must be positive");
+    info = std::move(read);
   } catch (const std::exception& error) {
     throw InputError(fmt::format("{}: config.touchdown: {}", log_name, error.what()));
   }

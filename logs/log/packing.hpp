@@ -39,17 +39,13 @@ inline void pack_float64(msgpack::sbuffer& buffer, double value) {
   buffer.write(bytes.data(), bytes.size());
 }
 
-/// Appends the origin of a run, `config: {touchdown: {…}}`, to a map that is being packed.
-void pack_info(LogPacker& packer, const RecordingInfo& info);
+/// Appends the origin of a log to a map that is being packed: of a run `config: {touchdown: {…}}`,
+/// of a log with the name of its robot `config: {robot: …}`.
+void pack_origin(LogPacker& packer, const RecordingInfo& info);
 
-/// Appends the name of a robot that recorded a log, `config: {robot: …}`.
-void pack_robot(LogPacker& packer, std::string_view robot);
-
-/// Reads the name of the robot from a record of a robot's log; empty if it has none.
-std::string unpack_robot(std::string_view record);
-
-/// Reads `config.touchdown` of a record; empty for a log that touchdown did not write.
-/// Errors: `InputError` for invalid values.
-std::optional<RecordingInfo> unpack_info(std::string_view record, std::string_view log_name);
+/// Reads `config.touchdown` of a record, or the name of the robot of a log that touchdown did not
+/// write; empty if it has none. Errors: `InputError` for invalid values.
+void unpack_origin(std::string_view record, std::string_view log_name,
+                   std::optional<RecordingInfo>& info, std::string& robot);
 
 }  // namespace touchdown::logs

@@ -275,9 +275,7 @@ class PackedRecords final : public RecordSource {
   std::vector<std::string> missing() const override { return parser_.missing(); }
 
   void read_origin(std::optional<RecordingInfo>& info, std::string& robot) const override {
-    if (record_size_ == 0 || !parser_.has_config()) return;
-    info = unpack_info(bytes(), name_);
-    if (!info) robot = unpack_robot(bytes());
+    if (record_size_ > 0 && parser_.has_config()) unpack_origin(bytes(), name_, info, robot);
   }
 
   std::vector<std::string> warnings() const override { return warnings_; }

@@ -44,8 +44,8 @@ LogPresence written_values(const WrittenTruth& truth) {
 LogWriter::LogWriter(std::ostream& stream, RecordingInfo info, const WrittenTruth& truth)
     : LogWriter(stream, written_values(truth)) {
   info_ = std::move(info);
+  info_.robot.clear();
   with_truth_ = truth.of_robot;
-  is_robots_ = false;
   is_first_ = true;
 }
 
@@ -67,24 +67,16 @@ void LogWriter::write(const models::Observation& observation, const models::Acti
 void LogWriter::write(const LogValues& values) {
   const LogKeyTree::Node& record = tree_.node(0);
   packer_.pack_map(static_cast<std::uint32_t>(record.children.size()) + (is_first_ ? 1U : 0U));
-  if (is_first_) pack_origin();
+  if (is_first_) pack_origin(packer_, info_);
   is_first_ = false;
   for (const int child : record.children) pack_node(child, values);
   flush();
 }
 
-void LogWriter::pack_origin() {
-  if (is_robots_) {
-    pack_robot(packer_, info_.robot);
-  } else {
-    pack_info(packer_, info_);
-  }
-}
-
 void LogWriter::finish() {
   if (!is_first_) return;
   packer_.pack_map(1);
-  pack_origin();
+  pack_origin(packer_, info_);
   is_first_ = false;
   flush();
 }

@@ -43,7 +43,6 @@ class LogWriter {
   void finish();
 
  private:
-  void pack_origin();
   void pack_node(int node, const LogValues& values);
   void pack_value(const LogKey& key, const LogValues& values);
   void flush();
@@ -51,7 +50,6 @@ class LogWriter {
   std::ostream& stream_;
   RecordingInfo info_;
   bool with_truth_ = false;
-  bool is_robots_ = true;
   bool is_first_;
   LogKeyTree tree_;
   msgpack::sbuffer buffer_;

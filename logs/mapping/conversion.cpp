@@ -303,23 +303,20 @@ class MappedRecords final : public RecordSource {
 
 std::vector<std::string> warnings_of(const ConvertedLog& converted, const std::string& log) {
   std::vector<std::string> warnings = converted.notes;
-  if (converted.incomplete_rows > 0) {
-    warnings.push_back(fmt::format("{}: {} of {} rows lack a number, which is NaN in the log", log,
-                                   converted.incomplete_rows, converted.rows));
-  }
-  if (converted.time_reversals > 0) {
-    warnings.push_back(fmt::format("{}: time goes back at {} rows", log, converted.time_reversals));
-  }
-  if (converted.completed_rows > 0) {
-    warnings.push_back(
-        fmt::format("{}: {} of {} records hold numbers of an earlier row, for up to {:.4g} ms", log,
-                    converted.completed_rows, converted.rows, 1e3 * converted.oldest));
-  }
-  if (converted.rows_without_joints > 0) {
-    warnings.push_back(
-        fmt::format("{}: {} rows have no number of a joint: they are no records of their own", log,
-                    converted.rows_without_joints));
-  }
+  const auto warn = [&](std::uint64_t count, const std::string& text) {
+    if (count > 0) warnings.push_back(fmt::format("{}: {}", log, text));
+  };
+  warn(converted.incomplete_rows,
+       fmt::format("{} of {} rows lack a number, which is NaN in the log",
+                   converted.incomplete_rows, converted.rows));
+  warn(converted.time_reversals,
+       fmt::format("time goes back at {} rows", converted.time_reversals));
+  warn(converted.completed_rows,
+       fmt::format("{} of {} records hold numbers of an earlier row, for up to {:.4g} ms",
+                   converted.completed_rows, converted.rows, 1e3 * converted.oldest));
+  warn(converted.rows_without_joints,
+       fmt::format("{} rows have no number of a joint: they are no records of their own",
+                   converted.rows_without_joints));
   return warnings;
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -76,9 +77,7 @@ class JoinedBag final : public JoinedSource {
 
   std::vector<std::string> findings() const override {
     std::vector<std::string> findings;
-    for (const TopicRows& one : rows_) {
-      for (std::string& finding : one.findings()) findings.push_back(std::move(finding));
-    }
+    for (const TopicRows& one : rows_) std::ranges::move(one.findings(), back_inserter(findings));
     return findings;
   }
 
@@ -88,14 +87,10 @@ class JoinedBag final : public JoinedSource {
       notes.emplace_back("stamps are zero or missing: the times of recording are used instead");
     }
     for (std::size_t i = 0; i < topics_.size() && !lacks_stamps_ && !uses_log_time_; ++i) {
-      for (std::string& note : clock_notes(topics_[i], topics_[clock()])) {
-        notes.push_back(std::move(note));
-      }
+      std::ranges::move(clock_notes(topics_[i], topics_[clock()]), back_inserter(notes));
     }
-    for (const TopicRows& one : rows_) {
-      for (std::string& note : one.notes()) notes.push_back(std::move(note));
-    }
-    for (std::string& note : JoinedSource::notes()) notes.push_back(std::move(note));
+    for (const TopicRows& one : rows_) std::ranges::move(one.notes(), back_inserter(notes));
+    std::ranges::move(JoinedSource::notes(), back_inserter(notes));
     return notes;
   }
 

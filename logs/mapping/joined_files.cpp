@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -108,11 +109,12 @@ std::vector<TimedFile> files_of(const fs::path& log, const LogSources& sources) 
                     log.string(), fmt::join(all, ", ")));
   }
   std::vector<TimedFile> opened;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const char* const section = i < sources.joints.size()                        ? "joints"
-                                : i < sources.joints.size() + sources.imu.size() ? "imu"
-                                                                                 : "contact";
-    opened.emplace_back(open_file(folder / all[i], section, i));
+  for (const auto& [section, files] : {std::pair("joints", &sources.joints),
+                                       {"imu", &sources.imu},
+                                       {"contact", &sources.contact}}) {
+    for (const std::string& file : *files) {
+      opened.emplace_back(open_file(folder / file, section, opened.size()));
+    }
   }
   return opened;
 }
@@ -129,9 +131,7 @@ class JoinedFiles final : public JoinedSource {
   }
   std::vector<std::string> notes() const override {
     std::vector<std::string> notes = JoinedSource::notes();
-    for (const TimedFile& file : files_) {
-      for (std::string& note : file.notes()) notes.push_back(std::move(note));
-    }
+    for (const TimedFile& file : files_) std::ranges::move(file.notes(), back_inserter(notes));
     return notes;
   }
 

@@ -77,23 +77,6 @@ std::vector<int> index_of(Fields& fields, const SignalKind& kind, bool is_of_one
   return index;
 }
 
-/// The numbers of a signal are columns of one array, or come from one array each.
-std::vector<SourceColumn> columns_of_arrays(Fields& fields, const SignalKind& kind,
-                                            const std::vector<std::string>& from) {
-  const bool is_of_one = from.size() == 1;
-  fields.check(
-      is_of_one || from.size() == kind.count, "from",
-      fmt::format("expected an array with two axes, or {} with one: {}", kind.count, kind.what));
-  const std::vector<int> index = index_of(fields, kind, is_of_one);
-  if (fields.documenting()) return {};
-  std::vector<SourceColumn> columns;
-  for (std::size_t i = 0; i < kind.count; ++i) {
-    SourceColumn& column = columns.emplace_back(SourceColumn{from[is_of_one ? 0 : i]});
-    if (!index.empty()) column.index = static_cast<std::size_t>(index[i]);
-  }
-  return columns;
-}
-
 /// The column of an item of a list: "position[2]"; of "motor_state[].q", "motor_state[2].q".
 std::string item_of(std::string list, int i) {
   const std::size_t at = list.find("[]");
@@ -236,19 +219,22 @@ std::vector<SourceColumn> MappingReader::columns_of(Fields& fields, const Signal
     from.clear();
     for (const int i : index_of(fields, kind, true)) from.push_back(item_of(list, i));
   }
-  fields.check(names().are_arrays || from.size() == kind.count, "from",
-               fmt::format("expected {} of the names of columns: {}", kind.count, kind.what));
-  std::vector<std::size_t> source;
-  for (const std::string& name : from) source.push_back(source_of(fields, "from", name));
-  if (names().are_arrays) {
-    std::vector<SourceColumn> columns = columns_of_arrays(fields, kind, from);
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      columns[i].source = source[source.size() == 1 ? 0 : i];
-    }
-    return columns;
-  }
+  // The numbers of a signal can be columns of one array.
+  const bool are_arrays = names().are_arrays;
+  const bool is_of_one = are_arrays && from.size() == 1;
+  fields.check(
+      is_of_one || from.size() == kind.count, "from",
+      fmt::format(fmt::runtime(are_arrays ? "expected an array with two axes, or {} with one: {}"
+                                          : "expected {} of the names of columns: {}"),
+                  kind.count, kind.what));
+  std::vector<int> index;
+  if (are_arrays) index = index_of(fields, kind, is_of_one);
   std::vector<SourceColumn> columns;
-  for (std::size_t i = 0; i < from.size(); ++i) columns.push_back({from[i], {}, source[i]});
+  for (std::size_t i = 0; i < kind.count && !fields.documenting(); ++i) {
+    const std::string& name = from[is_of_one ? 0 : i];
+    columns.push_back({name, {}, source_of(fields, "from", name)});
+    if (!index.empty()) columns.back().index = static_cast<std::size_t>(index[i]);
+  }
   return columns;
 }
 

@@ -37,9 +37,9 @@ bool ConstantChannels::Channel::is_constant() const { return count >= least_reco
 
 void ConstantChannels::add(const models::Observation& record) {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
-    joints_[i].position.add(record.servo[i].position);
-    joints_[i].velocity.add(record.servo[i].velocity);
-    joints_[i].torque.add(record.servo[i].torque);
+    joints_[i][0].add(record.servo[i].position);
+    joints_[i][1].add(record.servo[i].velocity);
+    joints_[i][2].add(record.servo[i].torque);
   }
   const Eigen::Quaterniond& q = record.imu.orientation;
   const std::array<double, 4> orientation = {q.w(), q.x(), q.y(), q.z()};
@@ -64,26 +64,26 @@ void ConstantChannels::report_missing(std::string_view subject, const char* chan
 }
 
 bool ConstantChannels::lacks_hips() const {
+  const auto is_zero = [](const Channel& channel) { return channel.is_zero(); };
   constexpr std::size_t right = 3;
-  return joints_[0].is_zero() && joints_[right].is_zero();
+  return std::ranges::all_of(joints_[0], is_zero) && std::ranges::all_of(joints_[right], is_zero);
 }
 
 void ConstantChannels::report_joint(std::size_t servo, Findings& findings) const {
-  const Joint& joint = joints_[servo];
+  const auto& [position, velocity, torque] = joints_[servo];
   const std::string_view name = models::servo_names.at(servo);
-  report_missing(name, "position ", joint.position, findings);
-  report_missing(name, "velocity ", joint.velocity, findings);
-  report_missing(name, "torque ", joint.torque, findings);
+  report_missing(name, "position ", position, findings);
+  report_missing(name, "velocity ", velocity, findings);
+  report_missing(name, "torque ", torque, findings);
   if (servo % 3 == 0 && lacks_hips()) return;
-  if (joint.torque.is_constant()) findings.add(name, throughout("torque", joint.torque.first));
+  if (torque.is_constant()) findings.add(name, throughout("torque", torque.first));
   constexpr double moved = 0.1;  // rad/s, mean of its size
-  const bool reports_motion =
-      joint.velocity.sum_of_sizes > moved * static_cast<double>(joint.velocity.count);
-  if (joint.position.is_constant() && reports_motion) {
-    findings.add(name, throughout("position", joint.position.first));
+  const bool reports_motion = velocity.sum_of_sizes > moved * static_cast<double>(velocity.count);
+  if (position.is_constant() && reports_motion) {
+    findings.add(name, throughout("position", position.first));
   }
-  if (joint.velocity.is_constant() && !joint.position.is_constant()) {
-    findings.add(name, throughout("velocity", joint.velocity.first));
+  if (velocity.is_constant() && !position.is_constant()) {
+    findings.add(name, throughout("velocity", velocity.first));
   }
 }
 
@@ -134,66 +134,75 @@ bool is_within(const JointRange& inner, const JointRange& outer, double unit) {
          inner.highest <= unit * (outer.highest + margin);
 }
 
+/// The largest size of a channel of `SensorRangeCheck`.
+struct Bound {
+  std::string_view subject;
+  const char* channel;
+  const char* unit;
+  double largest;
+};
+
+constexpr std::size_t of_joints = 3 * models::servo_count;
+
+Bound bound_of(std::size_t channel) {
+  constexpr std::array<Bound, 3> of_joint = {{{"", "position ", " rad", bounds.leg_position},
+                                              {"", "velocity ", " rad/s", bounds.velocity},
+                                              {"", "torque ", " N·m", bounds.torque}}};
+  constexpr std::array<Bound, 4> of_imu = {
+      {{"orientation", "", "", largest_of_quaternion},
+       {"angular_velocity", "", " rad/s", bounds.angular_velocity},
+       {"linear_acceleration", "", " m/s²", bounds.acceleration},
+       {"proper_acceleration", "", " m/s²", bounds.acceleration}}};
+  if (channel >= of_joints) return of_imu.at(channel - of_joints);
+  Bound bound = of_joint.at(channel % 3);
+  bound.subject = models::servo_names.at(channel / 3);
+  constexpr std::size_t wheel_position = 6;  // of a leg's nine
+  if (channel % 9 == wheel_position) bound.largest = bounds.wheel_position;
+  return bound;
+}
+
 }  // namespace
 
 models::Observation SensorRangeCheck::add(const models::Observation& record) {
   models::Observation usable = record;
-  for (std::size_t i = 0; i < joints_.size(); ++i) {
-    models::ServoReading& servo = usable.servo[i];
-    const bool is_wheel = i % 3 == 2;
-    check(servo.position, is_wheel ? bounds.wheel_position : bounds.leg_position, record.time,
-          joints_[i].position);
-    check(servo.velocity, bounds.velocity, record.time, joints_[i].velocity);
-    check(servo.torque, bounds.torque, record.time, joints_[i].torque);
+  std::size_t channel = 0;
+  const auto check = [&](double& value) {
+    if (!std::isfinite(value) || std::abs(value) <= bound_of(channel).largest) return;
+    Beyond& beyond = channels_.at(channel);
+    if (beyond.count++ == 0) {
+      beyond.first = value;
+      beyond.time = record.time;
+    }
+    value = std::numeric_limits<double>::quiet_NaN();
+  };
+  for (models::ServoReading& servo : usable.servo) {
+    for (double* const value : {&servo.position, &servo.velocity, &servo.torque}) {
+      check(*value);
+      ++channel;
+    }
   }
   models::ImuReading& imu = usable.imu;
-  for (double& part : imu.orientation.coeffs()) {
-    check(part, largest_of_quaternion, record.time, orientation_);
-  }
-  for (double& axis : imu.angular_velocity) {
-    check(axis, bounds.angular_velocity, record.time, angular_velocity_);
-  }
-  for (double& axis : imu.linear_acceleration) {
-    check(axis, bounds.acceleration, record.time, linear_acceleration_);
-  }
-  for (double& axis : imu.raw_linear_acceleration) {
-    check(axis, bounds.acceleration, record.time, proper_acceleration_);
+  for (double& part : imu.orientation.coeffs()) check(part);
+  for (Eigen::Vector3d* const vector :
+       {&imu.angular_velocity, &imu.linear_acceleration, &imu.raw_linear_acceleration}) {
+    ++channel;
+    for (double& axis : *vector) check(axis);
   }
   return usable;
 }
 
-void SensorRangeCheck::check(double& value, double largest, double time, Beyond& beyond) {
-  if (!std::isfinite(value) || std::abs(value) <= largest) return;
-  if (beyond.count++ == 0) {
-    beyond.first = value;
-    beyond.time = time;
-  }
-  value = std::numeric_limits<double>::quiet_NaN();
-}
-
 void SensorRangeCheck::report(Findings& findings) const {
-  const auto add = [&](std::string_view subject, const char* channel, const char* unit,
-                       double largest, const Beyond& beyond) {
-    if (beyond.count == 0) return;
-    findings.add(subject,
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    const Beyond& beyond = channels_.at(i);
+    if (beyond.count == 0) continue;
+    const Bound bound = bound_of(i);
+    findings.add(bound.subject,
                  fmt::format("{}is {:.3g}{} at {:.6g} s{}, beyond any sensor's {:.0f}{}: is it a "
                              "fault of the bus, or of the conversion",
-                             channel, beyond.first, unit, beyond.time,
+                             bound.channel, beyond.first, bound.unit, beyond.time,
                              beyond.count == 1 ? "" : fmt::format(" (first of {})", beyond.count),
-                             largest, unit));
-  };
-  for (std::size_t i = 0; i < joints_.size(); ++i) {
-    const std::string_view name = models::servo_names.at(i);
-    const bool is_wheel = i % 3 == 2;
-    add(name, "position ", " rad", is_wheel ? bounds.wheel_position : bounds.leg_position,
-        joints_[i].position);
-    add(name, "velocity ", " rad/s", bounds.velocity, joints_[i].velocity);
-    add(name, "torque ", " N·m", bounds.torque, joints_[i].torque);
+                             bound.largest, bound.unit));
   }
-  add("orientation", "", "", largest_of_quaternion, orientation_);
-  add("angular_velocity", "", " rad/s", bounds.angular_velocity, angular_velocity_);
-  add("linear_acceleration", "", " m/s²", bounds.acceleration, linear_acceleration_);
-  add("proper_acceleration", "", " m/s²", bounds.acceleration, proper_acceleration_);
 }
 
 JointRangeCheck::JointRangeCheck(const CheckedRobot& robot) {

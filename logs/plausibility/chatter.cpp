@@ -1,8 +1,8 @@
-#include "logs/plausibility/chatter.hpp"
-
 #include <cmath>
 
 #include <fmt/format.h>
+
+#include "logs/plausibility/rules.hpp"
 
 namespace touchdown::logs {
 

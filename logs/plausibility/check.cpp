@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "logs/plausibility/findings.hpp"
 #include "logs/plausibility/rules.hpp"
 
 namespace touchdown::logs {

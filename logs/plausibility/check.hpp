@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "logs/plausibility/chatter.hpp"
 #include "logs/plausibility/rules.hpp"
 #include "logs/sample_times.hpp"
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include <fmt/format.h>
@@ -28,14 +29,11 @@ void HeldChannels::Channel::add(bool changes) {
 }
 
 bool HeldChannels::Channel::is_constant() const {
-  std::int64_t changes = 0;
-  for (const std::int64_t count : gaps) changes += count;
-  return changes < few_changes;
+  return std::reduce(gaps.begin(), gaps.end()) < few_changes;
 }
 
 double HeldChannels::Channel::period() const {
-  std::int64_t changes = 0;
-  for (const std::int64_t count : gaps) changes += count;
+  const std::int64_t changes = std::reduce(gaps.begin(), gaps.end());
   std::int64_t below = 0;
   std::size_t middle = 0;
   while (middle < longest && 2 * (below += gaps.at(middle)) < changes) ++middle;

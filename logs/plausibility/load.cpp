@@ -26,45 +26,42 @@ using Legs = std::array<Leg, 2>;
 
 /// A way in which the joints of a log may differ from what they are taken for.
 struct Hypothesis {
+  enum class Swap { none, torques, joints };
   const char* cause;
-  void (*undo)(Legs& legs);
+  std::array<double, 2> of_leg = {1.0, 1.0};  ///< factors of the torques, left and right
+  double of_knees = 1.0;
+  Swap swap = Swap::none;  ///< of hips and knees
 };
+
+constexpr std::array<Hypothesis, 9> all_hypotheses = {{
+    {""},
+    {"the torques have the other sign", {-1.0, -1.0}},
+    {"the torques of the left leg have the other sign", {-1.0, 1.0}},
+    {"the torques of the right leg have the other sign", {1.0, -1.0}},
+    {"the torques of the knees have the other sign", {1.0, 1.0}, -1.0},
+    {"the torques of hips and knees are swapped", {1.0, 1.0}, 1.0, Hypothesis::Swap::torques},
+    {"hips and knees are swapped", {1.0, 1.0}, 1.0, Hypothesis::Swap::joints},
+    // Units, from `first_unit` on.
+    {"the torques are in cNm", {1e-2, 1e-2}},
+    {"the torques are in mNm", {1e-3, 1e-3}},
+}};
 
 void scale(Leg& leg, double factor) {
   leg.hip.torque *= factor;
   leg.knee.torque *= factor;
 }
 
-constexpr std::array<Hypothesis, 9> all_hypotheses = {{
-    {"", [](Legs& /*legs*/) {}},
-    {"the torques have the other sign",
-     [](Legs& legs) {
-       for (Leg& leg : legs) scale(leg, -1.0);
-     }},
-    {"the torques of the left leg have the other sign", [](Legs& legs) { scale(legs[0], -1.0); }},
-    {"the torques of the right leg have the other sign", [](Legs& legs) { scale(legs[1], -1.0); }},
-    {"the torques of the knees have the other sign",
-     [](Legs& legs) {
-       for (Leg& leg : legs) leg.knee.torque *= -1.0;
-     }},
-    {"the torques of hips and knees are swapped",
-     [](Legs& legs) {
-       for (Leg& leg : legs) std::swap(leg.hip.torque, leg.knee.torque);
-     }},
-    {"hips and knees are swapped",
-     [](Legs& legs) {
-       for (Leg& leg : legs) std::swap(leg.hip, leg.knee);
-     }},
-    // Units, from `first_unit` on.
-    {"the torques are in cNm",
-     [](Legs& legs) {
-       for (Leg& leg : legs) scale(leg, 1e-2);
-     }},
-    {"the torques are in mNm",
-     [](Legs& legs) {
-       for (Leg& leg : legs) scale(leg, 1e-3);
-     }},
-}};
+/// The joints as they would be.
+Legs undone(const Hypothesis& hypothesis, Legs legs) {
+  for (std::size_t side = 0; side < legs.size(); ++side) {
+    Leg& leg = legs.at(side);
+    scale(leg, hypothesis.of_leg.at(side));
+    leg.knee.torque *= hypothesis.of_knees;
+    if (hypothesis.swap == Hypothesis::Swap::torques) std::swap(leg.hip.torque, leg.knee.torque);
+    if (hypothesis.swap == Hypothesis::Swap::joints) std::swap(leg.hip, leg.knee);
+  }
+  return legs;
+}
 
 constexpr std::size_t first_unit = 7;
 
@@ -148,9 +145,7 @@ void LoadCheck::add_still(const CheckedWindow& stretch) {
   const double heaviest = is_known_ ? 1.5 : heaviest_other;
   std::array<Misfit, hypotheses> misfit;
   for (std::size_t i = 0; i < hypotheses; ++i) {
-    Legs undone = legs;
-    all_hypotheses.at(i).undo(undone);
-    misfit.at(i) = misfit_of(geometry_, undone, heaviest);
+    misfit.at(i) = misfit_of(geometry_, undone(all_hypotheses.at(i), legs), heaviest);
     if (!std::isfinite(misfit.at(i).distance + misfit.at(i).error)) return;
   }
   const double weight = gravity_at_rest * geometry_.robot_mass;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,10 +15,26 @@
 #include "estimator/force/leg_geometry.hpp"
 #include "estimator/signal_bounds.hpp"
 #include "estimator/stopped_signals.hpp"
-#include "logs/plausibility/findings.hpp"
 #include "models/robot.hpp"
 
 namespace touchdown::logs {
+
+/// What is implausible about a log: one line per finding. Subjects with the same finding share its
+/// line: "left_knee, right_knee: torque is 0 throughout".
+class Findings {
+ public:
+  void add(std::string_view subject, const std::string& finding);
+
+  /// In the order in which the findings were added.
+  std::vector<std::string> lines() const;
+
+ private:
+  struct Finding {
+    std::string text;
+    std::vector<std::string> subjects;
+  };
+  std::vector<Finding> findings_;
+};
 
 /// The commands that the servos executed when a record was measured. NaN: not known.
 using ServoTargets = std::array<LegTargets, 2>;
@@ -55,7 +72,6 @@ class WindowCollector {
   std::optional<CheckedWindow> add(const models::Observation& record, const ServoTargets& targets);
 
  private:
-  void begin(const models::Observation& record);
   CheckedWindow finish(const models::Observation& record) const;
 
   double period_;
@@ -64,7 +80,6 @@ class WindowCollector {
   CheckedWindow sum_;
   models::Observation first_;
   models::Observation previous_;
-  std::array<double, models::servo_count> change_ = {};
 };
 
 /// The positions that a joint can reach (rad).
@@ -96,19 +111,10 @@ class SensorRangeCheck {
     double first = 0.0;
     double time = 0.0;  ///< of the first (s)
   };
-  struct Joint {
-    Beyond position;
-    Beyond velocity;
-    Beyond torque;
-  };
 
-  static void check(double& value, double largest, double time, Beyond& beyond);
-
-  std::array<Joint, models::servo_count> joints_ = {};
-  Beyond orientation_;
-  Beyond angular_velocity_;
-  Beyond linear_acceleration_;
-  Beyond proper_acceleration_;
+  /// Position, velocity and torque of the joints; orientation, angular velocity, linear and proper
+  /// acceleration.
+  std::array<Beyond, 3 * models::servo_count + 4> channels_ = {};
 };
 
 /// Checks that hips and knees stay within their range.
@@ -149,21 +155,13 @@ class ConstantChannels {
     bool is_constant() const;
     bool is_zero() const { return is_constant() && first == 0.0; }
   };
-  struct Joint {
-    Channel position;
-    Channel velocity;
-    Channel torque;
-
-    bool is_zero() const { return position.is_zero() && velocity.is_zero() && torque.is_zero(); }
-  };
-
   static void report_missing(std::string_view subject, const char* channel, const Channel& of_log,
                              Findings& findings);
   void report_joint(std::size_t servo, Findings& findings) const;
   static void report_vector(const char* name, const std::array<Channel, 3>& axes,
                             Findings& findings);
 
-  std::array<Joint, models::servo_count> joints_;
+  std::array<std::array<Channel, 3>, models::servo_count> joints_;  ///< position, velocity, torque
   std::array<Channel, 4> orientation_;
   std::array<Channel, 3> angular_velocity_;
   std::array<Channel, 3> linear_acceleration_;
@@ -372,6 +370,23 @@ class LoadCheck {
   double axle_offset_ = 0.0;    ///< sum (m)
   int windows_ = 0;
   double largest_torque_ = 0.0;  ///< of hips and knees (N·m)
+};
+
+/// Finds servos in a limit cycle: their torque changes its sign in most records. Noise about zero
+/// changes it in half of them.
+class ChatterCheck {
+ public:
+  void add(const models::Observation& record);
+  void report(Findings& findings) const;
+
+ private:
+  struct Joint {
+    double last = 0.0;      ///< torque (N·m)
+    double changing = 0.5;  ///< share of recent records that change the torque's sign
+    bool cycles = false;
+  };
+  std::array<Joint, models::servo_count> joints_;
+  double since_ = std::numeric_limits<double>::quiet_NaN();  ///< of the first limit cycle (s)
 };
 
 }  // namespace touchdown::logs

@@ -63,14 +63,19 @@ std::optional<CheckedWindow> WindowCollector::add(const models::Observation& rec
   constexpr double longest_step = 5.0;  // periods
   const double step = record.time - previous_.time;
   if (count_ > 0 && !(step >= 0.0 && step <= longest_step * period_ + 0.01)) count_ = 0;
-  if (count_ == 0) begin(record);
-  for (std::size_t i = 0; i < change_.size(); ++i) {
+  if (count_ == 0) {
+    sum_ = {};
+    first_ = record;
+  }
+  for (std::size_t i = 0; i < record.servo.size(); ++i) {
     const models::ServoReading& servo = record.servo[i];
     sum_.joint[i].position += servo.position;
     sum_.joint[i].velocity += servo.velocity;
     sum_.joint[i].torque += servo.torque;
     add_law(servo, target_of(targets, i), target_of(targets, (i + 3) % 6), sum_.joint[i]);
-    if (count_ > 0) change_[i] += step_between(previous_.servo[i].position, servo.position);
+    if (count_ > 0) {
+      sum_.joint[i].position_change += step_between(previous_.servo[i].position, servo.position);
+    }
   }
   sum_.angular_velocity += record.imu.angular_velocity;
   sum_.linear_acceleration += record.imu.linear_acceleration;
@@ -83,24 +88,16 @@ std::optional<CheckedWindow> WindowCollector::add(const models::Observation& rec
   return window;
 }
 
-void WindowCollector::begin(const models::Observation& record) {
-  sum_ = {};
-  first_ = previous_ = record;
-  change_ = {};
-}
-
 CheckedWindow WindowCollector::finish(const models::Observation& record) const {
   CheckedWindow window = sum_;
   const double share = 1.0 / static_cast<double>(count_);
   window.start = first_.time;
   window.duration = record.time - first_.time;
-  for (std::size_t i = 0; i < change_.size(); ++i) {
-    window.joint[i].position *= share;
-    window.joint[i].velocity *= share;
-    window.joint[i].torque *= share;
-    window.joint[i].kp *= share;
-    for (double& law : window.joint[i].law) law *= share;
-    window.joint[i].position_change = change_[i];
+  for (CheckedWindow::Joint& joint : window.joint) {
+    for (double* const sum : {&joint.position, &joint.velocity, &joint.torque, &joint.kp}) {
+      *sum *= share;
+    }
+    for (double& law : joint.law) law *= share;
   }
   window.angular_velocity *= share;
   window.linear_acceleration *= share;
