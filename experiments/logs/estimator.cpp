@@ -152,7 +152,6 @@ LogEstimator log_estimator(LogEstimatorRequest request) {
   if (!request.name.empty()) check_needs(estimator_entry(request.name), request.model);
   if (request.model.empty()) {
     const EstimatorEntry& entry = estimator_entry(request.name);
-    check_needs(entry, request.model);
     check_names(request.hyperparameters, entry);
     return {with_hyperparameters(entry, request.hyperparameters), {}, request};
   }

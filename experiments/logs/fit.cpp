@@ -4,11 +4,14 @@
 #include <cmath>
 #include <deque>
 #include <functional>
+#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "core/stop.hpp"
 #include "estimator/bayes/measurement_fit.hpp"
 #include "estimator/signal_guard.hpp"
 #include "experiments/signals/run_signals.hpp"
@@ -103,25 +106,18 @@ using ClassCounts = std::array<std::size_t, 2>;
 
 /// Errors: `InputError` without samples of one class. `skipped` are those at the beginning of logs.
 void require_both_classes(const ClassCounts& used, const ClassCounts& skipped, double skip) {
-  const auto left_out = [&](std::size_t of_class) {
-    return skipped[of_class] == 0
-               ? std::string()
-               : fmt::format(
-                     " ({} such steps lie in the first {:.4g} s of their logs, which --skip "
-                     "leaves out)",
-                     skipped[of_class] / models::wheel_count, skip);
-  };
-  if (used[0] < 2) {
-    throw InputError(
-        fmt::format("fit: no step of the logs is without contact{}: add a log with flights, or one "
-                    "of a robot that hangs after --no-contact",
-                    left_out(0)));
-  }
-  if (used[1] < 2) {
-    throw InputError(
-        fmt::format("fit: no step of the logs is in contact{}: add a log of a robot that rolls, "
-                    "after --contact if it has no ground truth",
-                    left_out(1)));
+  for (const std::size_t of_class : {0U, 1U}) {
+    if (used[of_class] >= 2) continue;
+    throw InputError(fmt::format(
+        "fit: no step of the logs is {}{}: add a log {}",
+        of_class == 0 ? "without contact" : "in contact",
+        skipped[of_class] == 0
+            ? std::string()
+            : fmt::format(" ({} such steps lie in the first {:.4g} s of their logs, which --skip "
+                          "leaves out)",
+                          skipped[of_class] / models::wheel_count, skip),
+        of_class == 0 ? "with flights, or one of a robot that hangs after --no-contact"
+                      : "of a robot that rolls, after --contact if it has no ground truth"));
   }
 }
 
@@ -146,8 +142,8 @@ MeasurementModel fit_measurement_to_logs(std::span<const FitLog> logs,
 }
 
 /// Errors: `InputError` for a step that a filter of phases cannot be fitted to.
-void check_step(const FitLog& log, const FitLogSteps& /*reader*/, const LogStep& step,
-                double before) {
+/// `before` is the time of the run's last one.
+void check_step(const FitLog& log, const LogStep& step, double before) {
   const auto refuse = [&](std::string_view what) {
     throw InputError(
         fmt::format("{}: at {:.3f} s: {}", log.path.string(), step.signals.time, what));
@@ -165,10 +161,6 @@ void check_step(const FitLog& log, const FitLogSteps& /*reader*/, const LogStep&
   }
 }
 
-/// Throws `InputError` for a step that cannot be used; `before` is the time of the run's last one.
-using CheckStep = void (*)(const FitLog& log, const FitLogSteps& reader, const LogStep& step,
-                           double before);
-
 void append(RunSignals& run, const LogStep& step, std::optional<bool> declared) {
   run.signals.push_back(step.signals);
   for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
@@ -181,7 +173,7 @@ void append(RunSignals& run, const LogStep& step, std::optional<bool> declared) 
 }
 
 /// The log as one run, or as one run per labelled segment.
-void add_runs_of_log(const FitLog& log, const LogFitConfig& config, CheckStep check,
+void add_runs_of_log(const FitLog& log, const LogFitConfig& config, bool is_for_phases,
                      LogFitReport& report, std::vector<RunSignals>& runs) {
   FitLogSteps reader(log, config, report);
   RunSignals run;
@@ -202,7 +194,11 @@ void add_runs_of_log(const FitLog& log, const LogFitConfig& config, CheckStep ch
       finish();
       continue;
     }
-    check(log, reader, *step, run.signals.empty() ? NAN : run.signals.back().time);
+    if (is_for_phases) {
+      check_step(log, *step, run.signals.empty() ? NAN : run.signals.back().time);
+    } else {
+      reader.require_truth();
+    }
     if (run.signals.empty()) run.start = static_cast<double>(k) * reader.steps().period();
     append(run, *step, log.contact);
     ++used;
@@ -214,12 +210,12 @@ void add_runs_of_log(const FitLog& log, const LogFitConfig& config, CheckStep ch
 /// Loads all logs into memory, and adds to the report how much of them is used. `skipped` gets the
 /// samples at the beginning of logs.
 std::vector<RunSignals> signals_of_logs(std::span<const FitLog> logs, const LogFitConfig& config,
-                                        CheckStep check, LogFitReport& report,
+                                        bool is_for_phases, LogFitReport& report,
                                         ClassCounts& skipped_samples) {
   report = {};
   skipped_samples = {};
   std::vector<RunSignals> runs;
-  for (const FitLog& log : logs) add_runs_of_log(log, config, check, report, runs);
+  for (const FitLog& log : logs) add_runs_of_log(log, config, is_for_phases, report, runs);
   for (const RunSignals& run : runs) {
     const std::size_t skipped = skipped_steps(run, config.skip);
     report.seconds += static_cast<double>(run.steps() - skipped) * run.period();
@@ -267,7 +263,7 @@ std::vector<RunSignals> logs_with_takeoffs(std::span<const FitLog> logs, const L
         log.path.string()));
   }
   ClassCounts skipped{};
-  std::vector<RunSignals> runs = signals_of_logs(logs, config, check_step, report, skipped);
+  std::vector<RunSignals> runs = signals_of_logs(logs, config, true, report, skipped);
   const bool takeoff = std::any_of(runs.begin(), runs.end(), [&](const RunSignals& run) {
     return has_takeoff(run, skipped_steps(run, config.skip));
   });
@@ -291,11 +287,7 @@ std::vector<RunSignals> logs_with_takeoffs(std::span<const FitLog> logs, const L
 std::vector<RunSignals> logs_of_both_classes(std::span<const FitLog> logs,
                                              const LogFitConfig& config, LogFitReport& report) {
   ClassCounts skipped{};
-  std::vector<RunSignals> runs = signals_of_logs(
-      logs, config,
-      [](const FitLog& /*log*/, const FitLogSteps& reader, const LogStep& /*step*/,
-         double /*before*/) { reader.require_truth(); },
-      report, skipped);
+  std::vector<RunSignals> runs = signals_of_logs(logs, config, false, report, skipped);
   require_both_classes(report.samples, skipped, config.skip);
   report.takeoffs = takeoffs_of_wheels(runs, config.skip);
   return runs;
@@ -313,7 +305,7 @@ Model fit_model(const EstimatorEntry& entry, std::span<const FitLog> logs,
   FitRuns fitted;
   fitted.whole = pointers_to(runs);
   fitted.scoring.skip = config.skip;
-  fitted.before_density = [&] { stop_if_asked(config); };
+  fitted.before_density = [&] { end_if(config.stop); };
   fitted.servo_load = config.servo_load;
   if (without_takeoffs == nullptr || report.takeoffs.value_or(1) > 0) return entry.fit(fitted);
   report.replaced = true;
@@ -336,7 +328,8 @@ Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
         "--no-contact: are they exchanged?",
         with.sum / with.count, without.sum / without.count));
   }
-  add_digests(report.digests, model);
+  add_to_provenance("logs", fmt::format("{}", fmt::join(std::views::keys(report.digests), ", ")),
+                    model);
   if (!config.robot.name.empty()) report.fitted_to.robots = {config.robot.name};
   if (config.robot.legs) report.fitted_to.legs = *config.robot.legs;
   report.fitted_to.servo_load = config.servo_load;

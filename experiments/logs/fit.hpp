@@ -56,13 +56,8 @@ struct LogFitConfig {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Throws `Stopped` once the configuration's flag is true.
-void stop_if_asked(const LogFitConfig& config);
-
-/// Adds a line "key: value" to the model's provenance, if it has one, …
+/// Adds a line "key: value" to the model's provenance, if it has one.
 void add_to_provenance(const std::string& key, const std::string& value, Model& model);
-/// … and the digests of logs.
-void add_digests(const std::map<std::string, std::string>& digests, Model& model);
 
 /// The data of a fit; index 0 is no contact, 1 is contact.
 struct LogFitReport {

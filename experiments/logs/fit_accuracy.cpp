@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/error.hpp"
+#include "core/stop.hpp"
 #include "experiments/logs/estimator.hpp"
 #include "experiments/logs/fit.hpp"
 #include "experiments/logs/summary.hpp"
@@ -32,7 +33,7 @@ void add_score(const LogEstimator& chosen, const FitLog& log, const LogFitConfig
     if (!reader.is_covered()) known.normal_force.reset();
     score.add(known, estimator->update(step->signals));
   }
-  stop_if_asked(config);
+  end_if(config.stop);
   if (const auto scored = score.finish()) total += *scored;
 }
 

@@ -1,9 +1,9 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "core/stop.hpp"
 #include "estimator/models/parameters.hpp"
 #include "experiments/logs/fit.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
@@ -41,22 +41,12 @@ void add_to_provenance(const std::string& key, const std::string& value, Model& 
   found->second = array_of_text(fmt::format("{}{}: {}\n", provenance_text(model), key, value));
 }
 
-void add_digests(const std::map<std::string, std::string>& digests, Model& model) {
-  std::vector<std::string> texts;
-  for (const auto& [digest, log] : digests) texts.push_back(digest);
-  add_to_provenance("logs", fmt::format("{}", fmt::join(texts, ", ")), model);
-}
-
 bool was_fitted_to(const Model& model, const LogSteps& log, const logs::RecordingInfo& info) {
   const std::string provenance = provenance_text(model);
   const bool is_run = names(provenance, "scenarios", info.scenario) &&
                       names(provenance, "simulators", info.simulator) &&
                       names(provenance, "seed:run", fmt::format("{}:{}", info.seed, info.run));
   return is_run || names(provenance, "logs", log.digest());
-}
-
-void stop_if_asked(const LogFitConfig& config) {
-  if (config.stop != nullptr && *config.stop) throw Stopped("stopped; no model was written");
 }
 
 FitLogSteps::FitLogSteps(const FitLog& log, const LogFitConfig& config, LogFitReport& report)
@@ -119,7 +109,7 @@ void FitLogSteps::compare_with_declared_class() {
 }
 
 void FitLogSteps::finish(std::int64_t used_steps) {
-  stop_if_asked(config_);
+  end_if(config_.stop);
   steps_.require_labels_within();
   const auto [same, is_new] = report_.digests.emplace(steps_.digest(), log_.path.string());
   if (!is_new) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/resources.hpp"
 #include "core/yaml.hpp"
 #include "models/robot_description.hpp"
@@ -55,11 +56,7 @@ std::filesystem::path robot_file_of(const logs::RecordingInfo& log) {
 LogRobot robot_called(const std::string& name_or_file) {
   if (is_robots_file(name_or_file)) return robot_in_file(name_or_file);
   // Another file is no name: the legs would be Upkie's without a word.
-  std::error_code ignored;
-  using Type = std::filesystem::file_type;
-  const Type found = std::filesystem::status(name_or_file, ignored).type();
-  const bool is_other_file =
-      found != Type::none && found != Type::not_found && found != Type::directory;
+  const bool is_other_file = is_there(name_or_file) && !is_folder(name_or_file);
   if (is_other_file || name_or_file.find('/') != std::string::npos) {
     throw InputError(fmt::format("{}: {}, or the name of a robot", name_or_file, expected_file));
   }

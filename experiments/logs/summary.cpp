@@ -245,8 +245,6 @@ void LogSummary::WheelEvents::label(bool contact) {
   times_.pop_front();
 }
 
-void LogSummary::WheelEvents::finish() { interrupt(); }
-
 LogSummary::LogSummary(double period, const scoring::ScoringConfig& scoring)
     : clock_{period, NAN, NAN, NAN},
       skipped_(std::llround(scoring.skip / period)),
@@ -342,7 +340,7 @@ std::string LogSummary::invalid_text() const {
 
 std::string LogSummary::text(const std::optional<scoring::RobotScore>& score, double start,
                              std::size_t findings) {
-  for (const auto& wheel : wheels_) wheel->finish();
+  for (const auto& wheel : wheels_) wheel->interrupt();
   std::string text =
       fmt::format("{:<12} {}\n{:<12} {}\n{:<12} {}\n{:<12} {}\n{:<12} {}\n", "time",
                   clock_.text(start), "contact", contact_text(), "left wheel", events_text(0),

@@ -149,9 +149,8 @@ class LogSummary {
     WheelEvents& operator=(const WheelEvents&) = delete;
 
     void add(double time, bool contact);
-    /// Signals were missing for long: the next decision is no event.
+    /// Signals were missing for long, or the log ends: the next decision is no event.
     void interrupt();
-    void finish();
 
     Events takeoffs;
     Events landings;

@@ -261,15 +261,9 @@ std::vector<scoring::Flight> drops(
 }
 
 std::string_view to_text(DropWheels wheels) {
-  switch (wheels) {
-    case DropWheels::both:
-      return "both wheels";
-    case DropWheels::left:
-      return "the left wheel";
-    case DropWheels::right:
-      return "the right wheel";
-  }
-  return "";
+  constexpr std::array<std::string_view, 3> texts = {"both wheels", "the left wheel",
+                                                     "the right wheel"};
+  return texts.at(static_cast<std::size_t>(wheels));
 }
 
 namespace {

@@ -57,81 +57,58 @@ Columns<SampleRow> sample_columns() {
   return columns;
 }
 
-/// The numbers of a table that an older or newer build wrote, or a user edited.
-class SampleTable {
- public:
-  explicit SampleTable(const fs::path& file) : file_(file), table_(from_csv(read_file(file))) {}
-
-  std::size_t rows() const { return table_.rows.size(); }
-
-  /// The place of a column. Errors: `InputError` without it.
-  std::size_t column(std::string_view name) const {
-    const auto found = std::find(table_.header.begin(), table_.header.end(), name);
-    if (found == table_.header.end()) {
-      throw InputError(fmt::format("{}:1: expected a column '{}'", file_.string(), name));
+/// A table that an older or newer build wrote, or a user edited. Errors: `InputError` for a column
+/// that is missing, and for a cell that is no number of at least 0 of its column's type.
+Table read_table(const fs::path& file) {
+  const TextTable texts = from_csv(read_file(file));
+  const Columns<SampleRow> columns = sample_columns();
+  for (const Column& column : columns.list()) {
+    const auto found = std::ranges::find(texts.header, column.name);
+    const bool is_needed = column.name != "torque_noise_nm";
+    if (found == texts.header.end() && is_needed) {
+      throw InputError(fmt::format("{}:1: expected a column '{}'", file.string(), column.name));
     }
-    return static_cast<std::size_t>(found - table_.header.begin());
-  }
-
-  const std::string& text(std::size_t row, std::size_t column) const {
-    return table_.rows[row][column];
-  }
-
-  /// Errors: `InputError` for a cell that is no non-negative number of this type.
-  template <typename Number>
-  Number number(std::size_t row, std::size_t column) const {
-    const std::string& cell = text(row, column);
-    Number value = {};
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (error != std::errc() || end != cell.data() + cell.size() || !(value >= Number{})) {
+    if (column.type == ColumnType::text || !is_needed) continue;
+    for (std::size_t row = 0; row < texts.rows.size(); ++row) {
+      const std::string& cell =
+          texts.rows[row][static_cast<std::size_t>(found - texts.header.begin())];
+      const bool is_count = column.type == ColumnType::count;
+      const char* const last = cell.data() + cell.size();
+      double value = -1.0;
+      std::int64_t count = -1;
+      const auto [end, error] = is_count ? std::from_chars(cell.data(), last, count)
+                                         : std::from_chars(cell.data(), last, value);
+      if (error == std::errc() && end == last && (is_count ? count >= 0 : value >= 0.0)) continue;
       throw InputError(fmt::format("{}: row {}: {}: expected a number of at least 0, found '{}'",
-                                   file_.string(), row + 1, table_.header[column], cell));
+                                   file.string(), row + 1, column.name, cell));
     }
-    return value;
   }
-
- private:
-  fs::path file_;
-  TextTable table_;
-};
+  return table_of(texts, columns.list());
+}
 
 /// The cells of a table, in its order.
-std::vector<SampledCell> cells_of(const SampleTable& table) {
-  const std::size_t simulator = table.column("simulator");
-  const std::size_t fit_simulator = table.column("fit_simulator");
-  const std::size_t estimator = table.column("estimator");
-  const std::size_t knee = table.column("knee_noise_nm");
-  const std::size_t wheel = table.column("wheel_noise_nm");
-  const std::size_t accelerometer = table.column("accelerometer_noise_mps2");
-  const std::size_t scenario = table.column("scenario");
-  const std::size_t run = table.column("run");
-  const std::size_t segment = table.column("segment");
-  std::array<std::size_t, named_counts.size()> counts = {};
-  for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = table.column(named_counts[i].name);
-
+std::vector<SampledCell> cells_of(const Table& table) {
   std::vector<SampledCell> cells;
   std::map<std::vector<std::string>, std::size_t> places;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
+  const auto whole = [](double number) { return static_cast<std::int64_t>(number); };
+  for (const TableRow& row : table.all()) {
     std::vector<std::string> key;
-    for (const std::size_t column :
-         {simulator, fit_simulator, estimator, knee, wheel, accelerometer})
-      key.push_back(table.text(row, column));
+    for (const char* const column : {"simulator", "fit_simulator", "estimator", "knee_noise_nm",
+                                     "wheel_noise_nm", "accelerometer_noise_mps2"}) {
+      key.push_back(row.text(column));
+    }
     const auto [place, is_new] = places.emplace(std::move(key), cells.size());
     if (is_new) {
       cells.push_back(
-          {{.fit_simulator = table.text(row, fit_simulator),
-            .test_simulator = table.text(row, simulator),
-            .estimator = table.text(row, estimator)},
-           noise::knee_wheel_cell(table.number<double>(row, knee), table.number<double>(row, wheel),
-                                  table.number<double>(row, accelerometer))});
+          {{.fit_simulator = row.text("fit_simulator"),
+            .test_simulator = row.text("simulator"),
+            .estimator = row.text("estimator")},
+           noise::knee_wheel_cell(row.number("knee_noise_nm"), row.number("wheel_noise_nm"),
+                                  row.number("accelerometer_noise_mps2"))});
     }
-    Classification& sample =
-        cells[place->second]
-            .samples[{table.text(row, scenario), table.number<std::int64_t>(row, run),
-                      table.number<std::int64_t>(row, segment)}];
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-      sample.*named_counts[i].count += table.number<std::int64_t>(row, counts[i]);
-    }
+    Classification& sample = cells[place->second].samples[{
+        row.text("scenario"), whole(row.number("run")), whole(row.number("segment"))}];
+    for (const NamedCount& one : named_counts) sample.*one.count += whole(row.number(one.name));
   }
   return cells;
 }
@@ -191,7 +168,7 @@ SampledRun read_samples(const fs::path& run_directory) {
                     "tables/samples.csv; run it again, or `touchdown merge` its shards",
                     run_directory.string()));
   }
-  return {run_directory.string(), cells_of(SampleTable(table)), bootstrap_in(config)};
+  return {run_directory.string(), cells_of(read_table(table)), bootstrap_in(config)};
 }
 
 }  // namespace touchdown::experiments

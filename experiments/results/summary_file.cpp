@@ -85,12 +85,6 @@ void from_json(const Json& json, CellSummary& summary) {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Summary, runs, cells, scores, differences)
 
-namespace {
-
-fs::path file_in(const fs::path& run_directory) { return run_directory / "tables/summary.json"; }
-
-}  // namespace
-
 Summary summary_of(const ExperimentResult& result) {
   Summary summary{{}, result.summaries, result.scores, result.differences};
   for (const Rollout& run : result.runs) {
@@ -105,7 +99,7 @@ void write_summary(const Summary& summary, const fs::path& run_directory) {
 }
 
 Summary read_summary(const fs::path& run_directory) {
-  const fs::path file = file_in(run_directory);
+  const fs::path file = run_directory / "tables/summary.json";
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) {
     throw InputError(

@@ -121,8 +121,11 @@ TextTable table_of(const Experiment& experiment, const std::vector<ScoreSummary>
   return table;
 }
 
-std::string joined(const std::vector<std::string>& cells, const std::string& between) {
-  return fmt::format("{}", fmt::join(cells, between));
+std::string joined(const std::vector<std::string>& cells, const std::string& between,
+                   std::string (*text_of)(const std::string&)) {
+  std::vector<std::string> texts;
+  for (const std::string& cell : cells) texts.push_back(text_of(cell));
+  return fmt::format("{}", fmt::join(texts, between));
 }
 
 /// Escapes characters that are markup in LaTeX.
@@ -137,12 +140,6 @@ std::string latex_text(const std::string& text) {
       result.replace(at, from.size(), to);
     }
   }
-  return result;
-}
-
-std::vector<std::string> latex_cells(const std::vector<std::string>& cells) {
-  std::vector<std::string> result;
-  for (const std::string& cell : cells) result.push_back(latex_text(cell));
   return result;
 }
 
@@ -166,13 +163,10 @@ std::string markdown_text(const std::string& text) {
 }
 
 /// A | would end the cell.
-std::vector<std::string> markdown_cells(const std::vector<std::string>& cells) {
-  std::vector<std::string> result;
-  for (const std::string& cell : cells) {
-    std::string& text = result.emplace_back();
-    for (const char c : markdown_text(cell)) text.append(c == '|' ? "\\|" : std::string(1, c));
-  }
-  return result;
+std::string markdown_cell(const std::string& cell) {
+  std::string text;
+  for (const char c : markdown_text(cell)) text.append(c == '|' ? "\\|" : std::string(1, c));
+  return text;
 }
 
 /// The conditions of one cell's scores, in words.
@@ -341,11 +335,11 @@ std::string to_text(const CaptionedTable& table) {
 
 std::string to_markdown(const CaptionedTable& table) {
   std::string text = markdown_text(table.caption) + "\n\n| " +
-                     joined(markdown_cells(table.table.header), " | ") + " |\n|";
+                     joined(table.table.header, " | ", markdown_cell) + " |\n|";
   for (std::size_t i = 0; i < table.table.header.size(); ++i) text += i < 2 ? "---|" : "---:|";
   text += "\n";
   for (const auto& row : table.table.rows) {
-    text += "| " + joined(markdown_cells(row), " | ") + " |\n";
+    text += "| " + joined(row, " | ", markdown_cell) + " |\n";
   }
   return text;
 }
@@ -360,8 +354,8 @@ std::string to_latex(const CaptionedTable& table) {
   }
   std::string text =
       fmt::format("% {}\n\\begin{{tabular}}{{{}}}\n\\toprule\n{} \\\\\n\\midrule\n", table.caption,
-                  columns, joined(latex_cells(table.table.header), " & "));
-  for (const auto& row : table.table.rows) text += joined(latex_cells(row), " & ") + " \\\\\n";
+                  columns, joined(table.table.header, " & ", latex_text));
+  for (const auto& row : table.table.rows) text += joined(row, " & ", latex_text) + " \\\\\n";
   return text + "\\bottomrule\n\\end{tabular}\n";
 }
 
