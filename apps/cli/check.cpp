@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/cli/log_options.hpp"
 #include "apps/cli/verb.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -22,9 +23,7 @@
 #include "estimator/npz/npz.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
-#include "logs/log/byte_source.hpp"
 #include "logs/log/reader.hpp"
-#include "logs/mapping/conversion.hpp"
 #include "models/mjcf/robot_file.hpp"
 #include "models/robot_description.hpp"
 #include "models/robot_model.hpp"
@@ -221,7 +220,7 @@ std::size_t check_robot(const std::string& path, const CheckFlags& flags,
 /// Returns the number of findings. Errors: `InputError` for a log that cannot be read.
 std::size_t check_log(const std::string& path, const std::string& mapping,
                       const experiments::LogRobot& robot, const CliSession& session) {
-  logs::LogReader reader = logs::open_log(path, mapping, session.stop);
+  logs::LogReader reader = open_log(path, {.mapping = mapping}, session);
   experiments::LogSteps log(reader, nullptr, experiments::checked_robot(robot, reader.info()));
   std::int64_t steps = 0;
   double last = 0.0;
@@ -286,10 +285,6 @@ void require_outputs(const CheckFlags& flags) {
 }
 
 void check(const CheckFlags& flags, const CliSession& session) {
-  const bool is_live = std::find(flags.files.begin(), flags.files.end(), "-") != flags.files.end();
-  if (is_live && !flags.mapping.empty()) {
-    throw InputError("--mapping: expected a file or a bag, found standard input");
-  }
   require_outputs(flags);
   Found found;
   for (const std::string& file : flags.files) check_file(file, flags, session, found);

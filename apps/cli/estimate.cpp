@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/program.hpp"
 #include "core/progress.hpp"
+#include "core/stop.hpp"
 #include "experiments/logs/estimator.hpp"
 #include "experiments/logs/fit.hpp"
 #include "experiments/logs/log_steps.hpp"
@@ -209,7 +210,7 @@ std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* 
     const Evaluation evaluation = evaluate(reader, estimator, labels, writer, session);
     summary = evaluation.summary;
     findings = evaluation.findings.size();
-    if (*session.stop && !live) throw Stopped("stopped; nothing was written");
+    if (!live) end_if(session.stop);
     print_warnings(reader.warnings());
     require_valid_steps(reader, writer, evaluation.findings);
     print_findings(reader.name(), evaluation.findings);
@@ -244,10 +245,7 @@ void estimate(const EstimateFlags& flags, const CliSession& session) {
     findings += estimate_log(flags.logs[i], labels.empty() ? nullptr : &labels[i], estimator, flags,
                              outputs[i], session);
   }
-  if (flags.strict && findings > 0) {
-    throw Error(fmt::format("--strict: {} finding{} about the signals", findings,
-                            findings == 1 ? "" : "s"));
-  }
+  if (flags.strict) require_no_findings(findings);
 }
 
 }  // namespace

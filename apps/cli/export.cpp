@@ -30,26 +30,23 @@ namespace touchdown::cli {
 
 namespace {
 
-/// Files of the conversion of a log in another layout.
-struct ExportedLog {
-  std::string log;         ///< .csv, .npz, a ROS 2 bag, or the folder of several sources
-  std::string mapping;     ///< .yaml
-  std::string output;      ///< .mpack
-  std::string labels;      ///< .csv, or empty
-  bool is_strict = false;  ///< whether implausible signals are an error
+struct ExportFlags {
+  std::string source;
+  std::string folder;
+  experiments::BenchmarkPart part;
+  bool dry_run = false;
+  std::string output;
+  std::string mapping;
+  std::string labels;
+  bool strict = false;
+  ModelUse use;
+  std::vector<std::string> configuration;  ///< key=value
 };
-
-void check_files(const ExportedLog& files) {
-  require_extension(files.output, {".mpack"}, "a log");
-  std::vector<std::filesystem::path> outputs = {files.output};
-  if (!files.labels.empty()) outputs.emplace_back(files.labels);
-  check_outputs({{files.log, "log"}, {files.mapping, "mapping"}}, outputs);
-}
 
 /// Prints what is implausible about the signals of the written log, one line each. Returns their
 /// number.
-std::size_t report_findings(const ExportedLog& files, const CliSession& session) {
-  logs::LogReader reader(files.output, session.stop);
+std::size_t report_findings(const ExportFlags& flags, const CliSession& session) {
+  logs::LogReader reader(flags.output, session.stop);
   std::vector<std::string> findings;
   try {
     experiments::LogSteps log(reader, nullptr, experiments::checked_robot({}, reader.info()));
@@ -58,16 +55,16 @@ std::size_t report_findings(const ExportedLog& files, const CliSession& session)
   } catch (const InputError& error) {
     findings = {error.what()};  // no estimator can read the log
   }
-  print_findings(files.log, findings);
+  print_findings(flags.source, findings);
   return findings.size();
 }
 
 /// Errors: `InputError` for a log without contact labels.
-std::string labels_text(const ExportedLog& files, const logs::ConvertedLog& log) {
+std::string labels_text(const ExportFlags& flags, const logs::ConvertedLog& log) {
   if (log.contact.intervals.empty()) {
     throw InputError(fmt::format(
         "--labels: {} has no contact labels: expected a section 'contact' in {}, and numbers",
-        files.log, files.mapping));
+        flags.source, flags.mapping));
   }
   return logs::to_csv(log.contact);
 }
@@ -92,29 +89,29 @@ std::optional<render::FilmedRun> drawable(const std::string& log, const std::str
 
 /// Converts the log to Upkie's layout, writes its contact column as labels and prints a summary.
 /// Errors: `InputError`; nothing is written then.
-void export_log(const ExportedLog& files, const CliSession& session) {
-  check_files(files);
+void export_log(const ExportFlags& flags, const CliSession& session) {
+  require_extension(flags.output, {".mpack"}, "a log");
+  std::vector<std::filesystem::path> outputs = {flags.output};
+  if (!flags.labels.empty()) outputs.emplace_back(flags.labels);
+  check_outputs({{flags.source, "log"}, {flags.mapping, "mapping"}}, outputs);
   logs::ConvertedLog log;
-  write_stream_atomically(files.output, [&](std::ostream& stream) {
-    log = logs::convert_log(files.log, files.mapping, stream,
-                            {.stop = session.stop, .with_labels = !files.labels.empty()});
+  write_stream_atomically(flags.output, [&](std::ostream& stream) {
+    log = logs::convert_log(flags.source, flags.mapping, stream,
+                            {.stop = session.stop, .with_labels = !flags.labels.empty()});
     stream.flush();  // labels only beside a whole log
     if (!stream) return;
-    if (!files.labels.empty()) write_atomically(files.labels, labels_text(files, log));
+    if (!flags.labels.empty()) write_atomically(flags.labels, labels_text(flags, log));
   });
-  print_warnings(logs::warnings_of(log, files.log));
-  const std::size_t findings = report_findings(files, session);
-  print("log       {}, {} records, from {:.3f} to {:.3f} s of {}\n", files.output, log.rows,
-        log.start, log.end, files.log);
-  if (!files.labels.empty()) {
-    print("labels    {}, {} intervals\n", files.labels, log.contact.intervals.size());
+  print_warnings(logs::warnings_of(log, flags.source));
+  const std::size_t findings = report_findings(flags, session);
+  print("log       {}, {} records, from {:.3f} to {:.3f} s of {}\n", flags.output, log.rows,
+        log.start, log.end, flags.source);
+  if (!flags.labels.empty()) {
+    print("labels    {}, {} intervals\n", flags.labels, log.contact.intervals.size());
   }
-  print("next      touchdown estimate {}{}\n", files.output,
-        files.labels.empty() ? "" : fmt::format(" --labels {}", files.labels));
-  if (files.is_strict && findings > 0) {
-    throw Error(fmt::format("--strict: {} finding{} about the signals", findings,
-                            findings == 1 ? "" : "s"));
-  }
+  print("next      touchdown estimate {}{}\n", flags.output,
+        flags.labels.empty() ? "" : fmt::format(" --labels {}", flags.labels));
+  if (flags.strict) require_no_findings(findings);
 }
 
 /// Writes a log, with the beliefs in it, as an MCAP file and prints a summary. If the log contains
@@ -135,19 +132,6 @@ void export_mcap(const std::string& log, const std::string& robot, const std::st
   print("log       {}, {} records, {:.1f} MB\n", output, rows,
         1e-6 * static_cast<double>(size_of_file(output)));
 }
-
-struct ExportFlags {
-  std::string source;
-  std::string folder;
-  experiments::BenchmarkPart part;
-  bool dry_run = false;
-  std::string output;
-  std::string mapping;
-  std::string labels;
-  bool strict = false;
-  ModelUse use;
-  std::vector<std::string> configuration;  ///< key=value
-};
 
 /// A C++ identifier from the header's file name. Errors: `InputError` if the extension is not a
 /// header's.
@@ -251,7 +235,7 @@ void export_source(const ExportFlags& flags, const CliSession& session) {
     throw InputError("--mapping: expected -o FILE.mpack, for a log in another layout");
   }
   if (!flags.mapping.empty()) {
-    export_log({flags.source, flags.mapping, flags.output, flags.labels, flags.strict}, session);
+    export_log(flags, session);
   } else if (std::filesystem::path(flags.output).extension() == ".mcap") {
     export_mcap(flags.source, flags.part.robots.empty() ? "" : flags.part.robots.front(),
                 flags.output, session);

@@ -12,6 +12,7 @@
 #include "core/files.hpp"
 #include "core/program.hpp"
 #include "core/progress.hpp"
+#include "core/stop.hpp"
 #include "core/table.hpp"
 #include "experiments/logs/estimator.hpp"
 #include "experiments/logs/log_steps.hpp"
@@ -57,7 +58,7 @@ void label(const LabelFlags& flags, const CliSession& session) {
                             experiments::checked_robot(estimator.request.robot, reader.info()));
   const logs::ContactIntervals labels =
       experiments::smoothed_contact(log, estimator, reader.info());
-  if (*session.stop) throw Stopped("stopped; nothing was written");
+  end_if(session.stop);
   print_warnings(reader.warnings());
   print_findings(reader.name(), log.findings());
   if (labels.intervals.empty()) {

@@ -25,40 +25,23 @@ std::string first_sentence(const std::filesystem::path& path) {
   return end == std::string::npos ? comment : comment.substr(0, end + 1);
 }
 
+/// Aligned texts, a row of them for each entry.
+template <typename Entries, typename Row>
+std::string table_of(const Entries& entries, const Row& row) {
+  TextTable table{{}, {}};
+  for (const auto& entry : entries) table.rows.push_back(row(entry));
+  return to_text(table, table.rows.empty() ? 0 : table.rows.front().size());
+}
+
 void print_files(const char* title, const char* folder) {
-  print("{}\n", title);
-  TextTable table{{}, {}};
-  for (const std::filesystem::path& path : resources_in(folder, ".yaml")) {
-    table.rows.push_back({path.string(), first_sentence(find_resource(path))});
-  }
-  print("{}\n", to_text(table, 2));
+  print("{}\n{}\n", title,
+        table_of(resources_in(folder, ".yaml"), [](const std::filesystem::path& path) {
+          return std::vector{path.string(), first_sentence(find_resource(path))};
+        }));
 }
 
-/// Name, title and summary of each entry of a registry.
-template <typename Entries>
-std::string entries_text(const Entries& entries) {
-  TextTable table{{}, {}};
-  for (const auto& entry : entries) {
-    table.rows.push_back({entry.name, entry.title, entry.summary});
-  }
-  return to_text(table, 3);
-}
-
-std::string estimators_text() {
-  TextTable table{{}, {}};
-  for (const experiments::EstimatorEntry& entry : experiments::estimator_entries()) {
-    table.rows.push_back({entry.name, entry.title, entry.summary, entry.reason,
-                          experiments::given_text(entry, true)});
-  }
-  return to_text(table, 5);
-}
-
-std::string families_text(const std::vector<scenarios::Family>& families) {
-  TextTable table{{}, {}};
-  for (const scenarios::Family& family : families) {
-    table.rows.push_back({family.name, family.summary});
-  }
-  return to_text(table, 2);
+std::vector<std::string> row_of(const scenarios::Family& family) {
+  return {family.name, family.summary};
 }
 
 void list() {
@@ -68,13 +51,19 @@ void list() {
   print_files("experiments", "experiments");
   print_files("scenarios", "scenarios");
   print("families of drawn scenarios (touchdown generate)\n{}\n",
-        families_text(scenarios::families()));
+        table_of(scenarios::families(), row_of));
   print("scenes of no family, drawn where a file names them: tests of fits to families\n{}\n",
-        families_text({scenarios::random_scenes()}));
+        table_of(std::vector{scenarios::random_scenes()}, row_of));
   print_files("robots (every MJCF file is a robot, too)", "models");
   print_files("sensors", "noise/profiles");
-  print("simulators\n{}\n", entries_text(simulators::simulator_entries()));
-  print("estimators, why one would take them, and what they are given\n{}", estimators_text());
+  print("simulators\n{}\n", table_of(simulators::simulator_entries(), [](const auto& entry) {
+          return std::vector<std::string>{entry.name, entry.title, entry.summary};
+        }));
+  print("estimators, why one would take them, and what they are given\n{}",
+        table_of(experiments::estimator_entries(), [](const experiments::EstimatorEntry& entry) {
+          return std::vector<std::string>{entry.name, entry.title, entry.summary, entry.reason,
+                                          experiments::given_text(entry, true)};
+        }));
 }
 
 }  // namespace

@@ -60,6 +60,12 @@ logs::LogReader open_log(const std::string& path, const LogOptions& options,
           is_live ? "standard input" : path};
 }
 
+void require_no_findings(std::size_t findings) {
+  if (findings == 0) return;
+  throw Error(
+      fmt::format("--strict: {} finding{} about the signals", findings, findings == 1 ? "" : "s"));
+}
+
 void print_findings(const std::string& log, const std::vector<std::string>& findings) {
   for (const std::string& finding : findings) {
     print_message(fmt::format("touchdown: {}: {}\n", log, finding));

@@ -12,12 +12,12 @@ namespace touchdown::cli {
 
 /// How a log is read, and the estimator that runs on it.
 struct LogOptions {
-  std::string mapping;
-  std::string model;
-  std::string estimator;
-  std::string robot;
+  std::string mapping = {};
+  std::string model = {};
+  std::string estimator = {};
+  std::string robot = {};
   bool transfer = false;
-  std::vector<std::string> hyperparameters;
+  std::vector<std::string> hyperparameters = {};
 };
 
 /// The options must outlive the verb.
@@ -34,6 +34,9 @@ struct LogOpening {
 /// "-" is standard input. Errors: those of the reader; `InputError` for a mapping of "-".
 logs::LogReader open_log(const std::string& path, const LogOptions& options,
                          const CliSession& session, const LogOpening& opening = {});
+
+/// Errors: `Error` with the number of findings.
+void require_no_findings(std::size_t findings);
 
 /// What looks wrong in a log, a line each.
 void print_findings(const std::string& log, const std::vector<std::string>& findings);

@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <filesystem>
-#include <map>
+#include <iterator>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -22,32 +22,47 @@ namespace touchdown::cli {
 
 namespace {
 
-/// An option or positional argument as the program declares it.
-struct DescribedOption {
-  std::vector<std::string> names;    ///< "-o", "--output"; a positional argument has no dash
-  std::string value;                 ///< "DIR"; empty for a flag
-  int count = 0;                     ///< minimum number of values
-  bool more = false;                 ///< whether more values may follow
-  std::string text;                  ///< description on one line
-  std::string fallback;              ///< default value; empty if the help does not show it
-  std::vector<std::string> choices;  ///< possible values, if known
-  bool positional = false;
-  bool required = false;
-};
+/// "-o", "--output"; a positional argument has no dash.
+std::vector<std::string> names_of(const CLI::Option& option) {
+  if (option.get_positional()) return {option.get_name()};
+  std::vector<std::string> names;
+  for (const std::string& name : option.get_snames()) names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
+  return names;
+}
 
-/// The parts of a verb's `--help` text.
-struct DescribedVerb {
-  std::string name;                   ///< "run"
-  std::vector<std::string> examples;  ///< complete command lines
-  std::string text;                   ///< description on one line
-  std::vector<DescribedOption> options;
-};
+/// The last one, which is the longest.
+std::string name_of(const CLI::Option& option) { return names_of(option).back(); }
 
-/// "a" and "b" of "TEXT:{a,b}", which is CLI11's name of a type with choices.
-std::vector<std::string> choices_in(const std::string& type) {
+bool is_flag(const CLI::Option& option) { return option.get_type_size() == 0; }
+
+/// The name of a value: "DIR", of CLI11's "DIR:{a,b}" for a type with choices.
+std::string value_of(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  return type.substr(0, type.find(':'));
+}
+
+/// The least number of values.
+int count_of(const CLI::Option& option) { return is_flag(option) ? 0 : option.get_expected_min(); }
+
+bool takes_more(const CLI::Option& option) {
+  return !is_flag(option) && option.get_expected_max() > option.get_expected_min();
+}
+
+/// The possible values, if they are known: those of the type, or of a registry in which the verb
+/// looks them up only when it runs.
+std::vector<std::string> choices_of(const CLI::Option& option) {
+  const std::string name = name_of(option);
   std::vector<std::string> choices;
+  if (name == "--simulator") return simulators::simulator_names();
+  if (name == "--estimator") return experiments::estimator_names();
+  if (name == "kind") {
+    for (const FileKind& kind : file_kinds()) choices.push_back(kind.name);
+    return choices;
+  }
+  const std::string type = option.get_type_name();
   const std::size_t begin = type.find(":{");
-  if (begin == std::string::npos) return choices;
+  if (is_flag(option) || begin == std::string::npos) return choices;
   std::istringstream listed(type.substr(begin + 2, type.find('}') - begin - 2));
   for (std::string choice; std::getline(listed, choice, ',');) choices.push_back(choice);
   return choices;
@@ -58,45 +73,17 @@ std::string on_one_line(std::string text) {
   return text;
 }
 
-DescribedOption described_option(const CLI::Option& option) {
-  DescribedOption result;
-  for (const std::string& name : option.get_snames()) result.names.push_back("-" + name);
-  for (const std::string& name : option.get_lnames()) result.names.push_back("--" + name);
-  result.positional = result.names.empty();
-  if (result.positional) result.names.push_back(option.get_name());
-  result.text = on_one_line(option.get_description());
-  result.required = option.get_required();
-  if (option.get_type_size() == 0) return result;  // a flag
-  const std::string type = option.get_type_name();
-  result.value = type.substr(0, type.find(':'));
-  result.choices = choices_in(type);
-  result.fallback = option.get_default_str();
-  result.count = option.get_expected_min();
-  result.more = option.get_expected_max() > option.get_expected_min();
-  return result;
+/// The description of a verb: complete command lines, an empty line, a text.
+std::string examples_of(const CLI::App& verb) {
+  const std::string all = verb.get_description();
+  return all.substr(0, all.find("\n\n"));
+}
+std::string text_of(const CLI::App& verb) {
+  return on_one_line(verb.get_description().substr(examples_of(verb).size() + 2));
 }
 
-DescribedVerb described(const CLI::App& app) {
-  DescribedVerb result;
-  result.name = app.get_name();
-  std::istringstream description(app.get_description());
-  for (std::string line; std::getline(description, line) && !line.empty();) {
-    result.examples.push_back(line);
-  }
-  for (std::string line; std::getline(description, line);) {
-    result.text += (result.text.empty() ? "" : " ") + line;
-  }
-  for (const CLI::Option* option : app.get_options())
-    result.options.push_back(described_option(*option));
-  return result;
-}
-
-/// The program's verbs in the order of its help.
-std::vector<DescribedVerb> described_verbs(const CLI::App& program) {
-  std::vector<DescribedVerb> verbs;
-  for (const CLI::App* verb : program.get_subcommands({})) verbs.push_back(described(*verb));
-  return verbs;
-}
+/// In the order of the program's help.
+using Verbs = std::vector<const CLI::App*>;
 
 /// Text for a cell of a table, without `special` characters of Markdown: a bar ends a cell, and `<`
 /// begins HTML outside of code.
@@ -109,39 +96,37 @@ std::string cell(const std::string& text, std::string_view special) {
   return result;
 }
 
-std::string names_of(const DescribedOption& option) {
-  std::string names = fmt::format("{}", fmt::join(option.names, ", "));
-  if (!option.positional) {
-    for (int i = 0; i < option.count; ++i) names += " " + option.value;
+std::string row(const CLI::Option& option) {
+  std::string names = fmt::format("{}", fmt::join(names_of(option), ", "));
+  for (int i = 0; i < count_of(option) && !option.get_positional(); ++i) {
+    names += " " + value_of(option);
   }
-  return option.more ? names + " ..." : names;
+  if (takes_more(option)) names += " ...";
+  std::string text = on_one_line(option.get_description());
+  if (option.get_required()) text += " (required)";
+  const std::string fallback = is_flag(option) ? "" : option.get_default_str();
+  if (!fallback.empty()) text += fmt::format(" (default: {})", fallback);
+  return fmt::format("| `{}` | {} |\n", cell(names, "|"), cell(text, "|<"));
 }
 
-std::string row(const DescribedOption& option) {
-  std::string text = option.text;
-  if (option.required) text += " (required)";
-  if (!option.fallback.empty()) text += fmt::format(" (default: {})", option.fallback);
-  return fmt::format("| `{}` | {} |\n", cell(names_of(option), "|"), cell(text, "|<"));
-}
-
-std::string section(const DescribedVerb& verb) {
-  std::string text = fmt::format("\n## {}\n\n{}\n\n```\n{}\n```\n", verb.name, verb.text,
-                                 fmt::join(verb.examples, "\n"));
-  if (!verb.options.empty()) text += "\n| option | meaning |\n|---|---|\n";
-  for (const DescribedOption& option : verb.options) {
-    if (option.names.back() != "--help") text += row(option);  // of every command
+std::string section(const CLI::App& verb) {
+  std::string text = fmt::format("\n## {}\n\n{}\n\n```\n{}\n```\n", verb.get_name(), text_of(verb),
+                                 examples_of(verb));
+  if (!verb.get_options().empty()) text += "\n| option | meaning |\n|---|---|\n";
+  for (const CLI::Option* option : verb.get_options()) {
+    if (name_of(*option) != "--help") text += row(*option);  // of every command
   }
   return text;
 }
 
 /// The document docs/reference/cli.md: every command with its examples and options.
-std::string markdown_manual(const std::vector<DescribedVerb>& verbs) {
+std::string markdown_manual(const Verbs& verbs) {
   std::string text =
       "# Commands\n\n"
       "Generated by `touchdown manual --markdown > docs/reference/cli.md`. `touchdown COMMAND "
       "--help` prints one of them, an installed program has man pages. Exit codes: 0 success, 1 a "
       "failed run, 2 a wrong request.\n";
-  for (const DescribedVerb& verb : verbs) text += section(verb);
+  for (const CLI::App* verb : verbs) text += section(*verb);
   return text;
 }
 
@@ -161,45 +146,48 @@ std::string quoted(const std::string& text) {
 }
 
 /// One option as a line for `_arguments`: '(-o --output)'{-o,--output=}'[text]:FILE:_files'.
-std::string argument(const DescribedOption& option) {
+std::string argument(const CLI::Option& option) {
   std::vector<std::string> forms;
-  for (const std::string& name : option.names) {
-    forms.push_back(option.count > 0 && name.starts_with("--") ? name + "=" : name);
+  for (const std::string& name : names_of(option)) {
+    forms.push_back(count_of(option) > 0 && name.starts_with("--") ? name + "=" : name);
   }
   std::string names = forms.front();
   if (forms.size() > 1) {
     names = fmt::format("'{{{}}}'", fmt::join(forms, ","));
-    if (!option.more) names = fmt::format("({}){}", fmt::join(option.names, " "), names);
+    if (!takes_more(option)) {
+      names = fmt::format("({}){}", fmt::join(names_of(option), " "), names);
+    }
   }
+  const std::vector<std::string> choices = choices_of(option);
   const std::string values =
-      option.choices.empty() ? "_files" : fmt::format("({})", fmt::join(option.choices, " "));
+      choices.empty() ? "_files" : fmt::format("({})", fmt::join(choices, " "));
   std::string actions;
-  for (int i = 0; i < option.count; ++i) {
-    actions += fmt::format(":{}:{}", quoted(option.value), values);
+  for (int i = 0; i < count_of(option); ++i) {
+    actions += fmt::format(":{}:{}", quoted(value_of(option)), values);
   }
-  return fmt::format("        '{}{}[{}]{}' \\\n", option.more ? "*" : "", names,
-                     quoted(option.text), actions);
+  return fmt::format("        '{}{}[{}]{}' \\\n", takes_more(option) ? "*" : "", names,
+                     quoted(on_one_line(option.get_description())), actions);
 }
 
 /// Completion scripts for verbs, options and values with known choices. All other values complete
 /// to file names.
-std::string bash_completion(const std::vector<DescribedVerb>& verbs) {
+std::string bash_completion(const Verbs& verbs) {
   std::vector<std::string> names;
   std::string options;
   std::string values;
-  for (const DescribedVerb& verb : verbs) {
-    names.push_back(verb.name);
+  for (const CLI::App* verb : verbs) {
+    names.push_back(verb->get_name());
     std::vector<std::string> dashed;
-    for (const DescribedOption& option : verb.options) {
-      if (!option.positional) {
-        dashed.insert(dashed.end(), option.names.begin(), option.names.end());
-      }
-      if (option.choices.empty()) continue;
-      values += fmt::format("    '{} {}') words=\"{}\" ;;\n", verb.name,
-                            option.positional ? verb.name : option.names.back(),
-                            fmt::join(option.choices, " "));
+    for (const CLI::Option* option : verb->get_options()) {
+      if (!option->get_positional())
+        std::ranges::copy(names_of(*option), std::back_inserter(dashed));
+      const std::vector<std::string> choices = choices_of(*option);
+      if (choices.empty()) continue;
+      values += fmt::format("    '{} {}') words=\"{}\" ;;\n", names.back(),
+                            option->get_positional() ? names.back() : name_of(*option),
+                            fmt::join(choices, " "));
     }
-    options += fmt::format("    {}) words=\"{}\" ;;\n", verb.name, fmt::join(dashed, " "));
+    options += fmt::format("    {}) words=\"{}\" ;;\n", names.back(), fmt::join(dashed, " "));
   }
   return fmt::format(R"(# bash completion for touchdown, generated from its options
 _touchdown() {{
@@ -227,17 +215,18 @@ complete -o default -F _touchdown touchdown
                      fmt::join(names, " "), values, options);
 }
 
-std::string zsh_completion(const std::vector<DescribedVerb>& verbs) {
+std::string zsh_completion(const Verbs& verbs) {
   std::string names;
   std::string cases;
-  for (const DescribedVerb& verb : verbs) {
-    names += fmt::format("    '{}:{}'\n", verb.name, quoted(verb.text));
-    cases += fmt::format("    {})\n      _arguments \\\n", verb.name);
-    for (const DescribedOption& option : verb.options) {
-      if (!option.positional) cases += argument(option);
-      if (option.positional && !option.choices.empty()) {
+  for (const CLI::App* verb : verbs) {
+    names += fmt::format("    '{}:{}'\n", verb->get_name(), quoted(text_of(*verb)));
+    cases += fmt::format("    {})\n      _arguments \\\n", verb->get_name());
+    for (const CLI::Option* option : verb->get_options()) {
+      const std::vector<std::string> choices = choices_of(*option);
+      if (!option->get_positional()) cases += argument(*option);
+      if (option->get_positional() && !choices.empty()) {
         cases +=
-            fmt::format("        '1:{}:({})' \\\n", option.value, fmt::join(option.choices, " "));
+            fmt::format("        '1:{}:({})' \\\n", value_of(*option), fmt::join(choices, " "));
       }
     }
     cases += "        '*:file:_files'\n      ;;\n";
@@ -263,33 +252,16 @@ _touchdown "$@"
                      names, cases);
 }
 
-/// Adds the choices that verbs look up in registries only when they run.
-void add_known_names(std::vector<DescribedVerb>& verbs) {
-  std::vector<std::string> kinds;
-  for (const FileKind& kind : file_kinds()) kinds.push_back(kind.name);
-  const std::map<std::string, std::vector<std::string>> known = {
-      {"kind", kinds},
-      {"--simulator", simulators::simulator_names()},
-      {"--estimator", experiments::estimator_names()}};
-  for (DescribedVerb& verb : verbs) {
-    for (DescribedOption& option : verb.options) {
-      const auto names = known.find(option.names.back());
-      if (names != known.end()) option.choices = names->second;
-    }
-  }
-}
-
 struct ManualFlags {
   std::string share;
   bool markdown = false;
 };
 
 void write_manual(const CLI::App& program, const ManualFlags& flags) {
-  std::vector<DescribedVerb> verbs = described_verbs(program);
+  const Verbs verbs = program.get_subcommands({});
   if (flags.markdown) return print(markdown_manual(verbs));
   if (flags.share.empty()) throw InputError("manual: expected DIR or --markdown");
   const std::filesystem::path share = flags.share;
-  add_known_names(verbs);
   write_atomically(share / "bash-completion" / "completions" / "touchdown", bash_completion(verbs));
   write_atomically(share / "zsh" / "site-functions" / "_touchdown", zsh_completion(verbs));
 }

@@ -81,22 +81,18 @@ std::string complaint_about(const std::string& text) {
   }
 }
 
-/// The element of a list, or the variable itself.
+// The element of a list, or the variable itself; only their types are used.
 template <typename T>
-struct Element {
-  using Type = T;
-};
+T element_of(const T* variable);
 template <typename T>
-struct Element<std::vector<T>> {
-  using Type = T;
-};
+T element_of(const std::vector<T>* variables);
 
 }  // namespace
 
 Option Verb::option(const std::string& names, OptionValue value, const std::string& help) {
   const auto add = [&]<typename T>(T* variable) {
     CLI::Option* const option = app_->add_option(names, *variable, help);
-    using Number = typename Element<T>::Type;
+    using Number = decltype(element_of(variable));
     if constexpr (std::is_arithmetic_v<Number>) {
       option->check(
           CLI::Validator([](std::string& text) { return complaint_about<Number>(text); }, "", ""));
