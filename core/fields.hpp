@@ -139,8 +139,7 @@ class Fields {
   /// The same for a value that may be absent: read if the key is present, written if it has one.
   template <typename T, typename... Limits>
   KeyNotes optional(std::string_view key, std::optional<T>& value, Limits... limits) {
-    know(key);
-    if (!present(key, value.has_value())) return {};
+    if (!given(key, value.has_value())) return {};
     if (reading()) value.emplace();
     return (*this)(key, *value, limits...).fallback("none");
   }
@@ -182,11 +181,11 @@ class Fields {
   }
 
   /// An optional nested struct: read if the key is present, written if it has a value.
-  template <typename T>
-  KeyNotes section(std::string_view key, std::optional<T>& value) {
-    if (!present(key, value.has_value())) return {};
+  template <typename T, typename... Context>
+  KeyNotes section(std::string_view key, std::optional<T>& value, const Context&... context) {
+    if (!given(key, value.has_value())) return {};
     if (reading()) value.emplace();
-    return section(key, *value).fallback("none");
+    return section(key, *value, context...).fallback("none");
   }
 
   /// A nested struct that is written only if it is set.
@@ -226,6 +225,11 @@ class Fields {
   bool present(std::string_view key, bool has_value) const;
   /// Declares an optional key, so that it is suggested for a misspelt one.
   void know(std::string_view key);
+  /// The same, and whether it is present.
+  bool given(std::string_view key, bool has_value) {
+    know(key);
+    return present(key, has_value);
+  }
   /// The number of keys.
   std::size_t size() const;
 

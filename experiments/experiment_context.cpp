@@ -9,9 +9,11 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/machine.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/needs.hpp"
 #include "experiments/plan/plan.hpp"
 #include "experiments/run_directory/directory.hpp"
+#include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_directory/shard.hpp"
 #include "experiments/studies/registry.hpp"
 
@@ -39,20 +41,6 @@ std::vector<std::size_t> missing_tasks(const ExperimentContext& context) {
   return missing;
 }
 
-/// An upper bound of what the run may still write.
-DiskNeeds disk_needs(const Plan& plan, const RunDirectory& directory) {
-  DiskNeeds needs;
-  for (const PlannedRun& run : plan.runs) {
-    if (run.kept && !has_stamp(run, directory)) needs.recordings += bytes_of_recording(run);
-  }
-  const std::size_t parts = plan.tasks.size();
-  const std::size_t missing = parts - std::min(parts, directory.store().names(task_parts).size());
-  if (missing > 0) {
-    needs.parts = bytes_of_parts(plan) * static_cast<double>(missing) / static_cast<double>(parts);
-  }
-  return needs;
-}
-
 /// Errors: `InputError` when the saved state of a task belongs to another task or request.
 void require_own(const ExperimentContext& context, const Task& task) {
   const std::optional<WrongPart> wrong =
@@ -63,11 +51,6 @@ void require_own(const ExperimentContext& context, const Task& task) {
 }
 
 }  // namespace
-
-int threads_of(const Experiment& experiment) {
-  if (experiment.workers > 0) return experiment.workers;
-  return machine_share().processors;
-}
 
 Plan whole_plan(const RunRequest& request) {
   require_memory(request, 0.0);
@@ -80,15 +63,11 @@ Plan whole_plan(const RunRequest& request) {
   return plan;
 }
 
-ExperimentContext start(RunRequest request, RunDirectory directory, const RunOptions& options) {
-  Plan plan = whole_plan(request);
-  return start(std::move(request), std::move(plan), std::move(directory), options);
-}
-
 ExperimentContext start(RunRequest request, Plan plan, RunDirectory directory,
                         const RunOptions& options) {
-  const int threads = threads_of(request.experiment);
-  const DiskNeeds needs = disk_needs(plan, directory);
+  const int workers = request.experiment.workers;
+  const int threads = workers > 0 ? workers : machine_share().processors;
+  const DiskNeeds needs = disk_needs(plan, &directory);
   require_free_space(
       directory.path(), static_cast<std::uintmax_t>(needs.all()),
       fmt::format("{:.1f} GB for recordings, {:.1f} GB for {} parts of the evaluation, "
@@ -109,6 +88,17 @@ ExperimentContext start(RunRequest request, Plan plan, RunDirectory directory,
           {options.command, threads, {}},
           tbb::global_control(tbb::global_control::max_allowed_parallelism,
                               static_cast<std::size_t>(threads))};
+}
+
+ExperimentContext reopened(const std::filesystem::path& path, const RunOptions& options) {
+  require_no_links(path);
+  std::optional<DirectoryLock> lock;
+  if (owner_of(path)) lock.emplace(path, Access::alone, options.command);
+  RunRequest request = read_request(path);  // throws if no run owns the directory
+  RunDirectory directory(request.experiment.name, request.id, path);
+  directory.keep(*lock);
+  Plan plan = whole_plan(request);
+  return start(std::move(request), std::move(plan), std::move(directory), options);
 }
 
 std::string what_is_saved(const ExperimentContext& context) {

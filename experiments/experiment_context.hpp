@@ -30,18 +30,18 @@ struct ExperimentContext {
   tbb::global_control limit;
 };
 
-/// The number of threads that an experiment uses on this machine.
-int threads_of(const Experiment& experiment);
-
-/// Plans everything that the experiment file asks for, its studies included.
+/// Plans everything that the experiment file asks for, its studies included. Errors: `InputError`
+/// for a wrong request; `Error` for too little memory.
 Plan whole_plan(const RunRequest& request);
 
-/// Plans the experiment and checks that the disk has room for it. Errors: `InputError` for a wrong
-/// request; `Error` for too little memory or disk space.
-ExperimentContext start(RunRequest request, RunDirectory directory, const RunOptions& options);
-/// The same with a plan that was made before the directory.
+/// Begins an experiment with a plan that was made before the directory. Errors: `Error` for too
+/// little disk space.
 ExperimentContext start(RunRequest request, Plan plan, RunDirectory directory,
                         const RunOptions& options);
+
+/// Locks a run directory of this build, and begins its experiment once more. Errors: those of
+/// `read_request`, `whole_plan` and `start`.
+ExperimentContext reopened(const std::filesystem::path& run_directory, const RunOptions& options);
 
 /// A message for the user who stopped the experiment: how much of it is saved.
 std::string what_is_saved(const ExperimentContext& context);

@@ -70,13 +70,7 @@ void tune_and_fit(ExperimentContext& context, const NeededFit& needed, Computed&
   experiment.simulators = {engine};
   Rollouts streamed = simulate_fit(context, needed, done);
   const Rollouts& runs = streamed.empty() ? done.runs : streamed;
-  RunPointers whole;
-  for (const auto& [index, run] : runs) {
-    const PlannedRun& plan = run.plan;
-    const bool is_wanted = plan.role == RunRole::fit && plan.fit == needed.name &&
-                           plan.group == 0 && plan.simulator == needed.engine;
-    if (is_wanted && !run.failed()) whole.push_back(&run.signals);
-  }
+  const RunPointers whole = whole_fit_runs(runs, engine, fit);
   const RunPointers segments =
       training_segments_of(runs, engine, experiment.training_segments, fit);
   TunedHyperparameters chosen = chosen_in(done.trials);

@@ -60,6 +60,35 @@ double held_memory(const RunRequest& request, const Needs& needs) {
          (signal_step_bytes + (needs.motion ? motion_step_bytes : 0.0));
 }
 
+/// Size of the files of a plan's parts (bytes).
+double bytes_of_parts(const Plan& plan) {
+  constexpr double block = 4096.0;  // of a disk
+  constexpr double head = 256.0;
+  std::vector<double> of_group;
+  for (const RunGroup& group : plan.groups) {
+    double estimators = 0.0;
+    for (const Condition& condition : group.conditions) {
+      const auto tested =
+          static_cast<double>(tested_on(group.conditions, condition.test_simulator).size());
+      estimators = std::max(estimators, tested);
+    }
+    double bytes_of_run = head;
+    double bytes_of_prediction = sizeof(scoring::RobotScore);
+    for (const Measure& measure : group.measures) {
+      bytes_of_run += static_cast<double>(measure.bytes_of_run);
+      bytes_of_prediction += head + static_cast<double>(measure.bytes_of_prediction);
+    }
+    const double bytes =
+        bytes_of_run +
+        estimators * (static_cast<double>(group.counted.size()) * sizeof(scoring::Classification) +
+                      static_cast<double>(group.scored.size()) * bytes_of_prediction);
+    of_group.push_back(block * std::ceil(bytes / block));
+  }
+  double bytes = 0.0;
+  for (const Task& task : plan.tasks) bytes += of_group[plan.runs[task.run].group];
+  return bytes;
+}
+
 }  // namespace
 
 Needs needs_of(const RunRequest& request) {
@@ -106,47 +135,20 @@ void require_memory(const RunRequest& request, double share_of_runs, double memo
                : "lower test.runs or noise.seeds"));
 }
 
-double bytes_of_recording(const PlannedRun& run) {
+DiskNeeds disk_needs(const Plan& plan, const RunDirectory* directory) {
   constexpr double recorded_step_bytes = 1100.0;  // 1.05 kB were measured
-  return recorded_step_bytes * run.scenario.end.duration /
-         (1e-6 * static_cast<double>(run.scenario.simulation.steps.control_us));
-}
-
-DiskNeeds disk_needs(const Plan& plan) {
   DiskNeeds needs;
   for (const PlannedRun& run : plan.runs) {
-    if (run.kept) needs.recordings += bytes_of_recording(run);
+    if (!run.kept || (directory != nullptr && has_stamp(run, *directory))) continue;
+    needs.recordings += recorded_step_bytes * run.scenario.end.duration /
+                        (1e-6 * static_cast<double>(run.scenario.simulation.steps.control_us));
   }
-  needs.parts = bytes_of_parts(plan);
+  if (plan.tasks.empty()) return needs;
+  const auto parts = static_cast<double>(plan.tasks.size());
+  const double saved =
+      directory == nullptr ? 0.0 : static_cast<double>(directory->store().names(task_parts).size());
+  needs.parts = bytes_of_parts(plan) * std::max(0.0, parts - saved) / parts;
   return needs;
-}
-
-double bytes_of_parts(const Plan& plan) {
-  constexpr double block = 4096.0;  // of a disk
-  constexpr double head = 256.0;
-  std::vector<double> of_group;
-  for (const RunGroup& group : plan.groups) {
-    double estimators = 0.0;
-    for (const Condition& condition : group.conditions) {
-      const auto tested =
-          static_cast<double>(tested_on(group.conditions, condition.test_simulator).size());
-      estimators = std::max(estimators, tested);
-    }
-    double bytes_of_run = head;
-    double bytes_of_prediction = sizeof(scoring::RobotScore);
-    for (const Measure& measure : group.measures) {
-      bytes_of_run += static_cast<double>(measure.bytes_of_run);
-      bytes_of_prediction += head + static_cast<double>(measure.bytes_of_prediction);
-    }
-    const double bytes =
-        bytes_of_run +
-        estimators * (static_cast<double>(group.counted.size()) * sizeof(scoring::Classification) +
-                      static_cast<double>(group.scored.size()) * bytes_of_prediction);
-    of_group.push_back(block * std::ceil(bytes / block));
-  }
-  double bytes = 0.0;
-  for (const Task& task : plan.tasks) bytes += of_group[plan.runs[task.run].group];
-  return bytes;
 }
 
 }  // namespace touchdown::experiments

@@ -29,13 +29,7 @@ struct DiskNeeds {
   double all() const { return recordings + parts + results; }
 };
 
-/// An upper bound for a whole plan in an empty run directory.
-DiskNeeds disk_needs(const Plan& plan);
-
-/// An upper bound of the size of a run's recording (bytes).
-double bytes_of_recording(const PlannedRun& run);
-
-/// Size of the files of a plan's parts (bytes).
-double bytes_of_parts(const Plan& plan);
+/// What a plan may still write into this run directory; without one, what it writes in all.
+DiskNeeds disk_needs(const Plan& plan, const RunDirectory* directory = nullptr);
 
 }  // namespace touchdown::experiments

@@ -9,10 +9,10 @@
 
 #include "core/error.hpp"
 #include "core/progress.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/needs.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/stages.hpp"
-#include "experiments/studies/experiment_file.hpp"
 
 namespace touchdown::experiments {
 
@@ -132,14 +132,8 @@ ShardReport run_shard(const Experiment& experiment, const Shard& shard, const Ru
 }
 
 ExperimentResult merge_run(const std::filesystem::path& path, const RunOptions& options) {
-  require_no_links(path);
-  std::optional<DirectoryLock> lock;
-  if (owner_of(path)) lock.emplace(path, Access::alone, options.command);
-  RunRequest request = read_request(path);  // throws if no run owns the directory
-  require_memory(request, 1.0);
-  RunDirectory directory(request.experiment.name, request.id, path);
-  directory.keep(*lock);
-  ExperimentContext context = start(std::move(request), std::move(directory), options);
+  ExperimentContext context = reopened(path, options);
+  require_memory(context.request, 1.0);
   require_all_shards(context);
   const std::set<std::string> processors = shard_processors(context.directory.path());
   if (processors.size() > 1) {

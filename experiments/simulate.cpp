@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -26,8 +27,7 @@ Computed::Computed(const Plan& plan, const TaskRange& of_plan, MissingRun if_mis
 StageTimer::~StageTimer() {
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
   auto& timings = context_.provenance.timings;
-  auto same = std::find_if(timings.begin(), timings.end(),
-                           [&](const auto& timing) { return timing.first == stage_; });
+  auto same = std::ranges::find(timings, stage_, &std::pair<std::string, double>::first);
   if (same == timings.end()) same = timings.insert(same, {stage_, 0.0});
   same->second += elapsed.count();
 }
@@ -62,16 +62,9 @@ Rollouts hold_rollouts(const ExperimentContext& context, const std::set<std::siz
   return runs;
 }
 
-namespace {
-
-bool is_whole_fit_run(const PlannedRun& run) { return run.role == RunRole::fit && run.group == 0; }
-
-}  // namespace
-
 FitRunCheck::FitRunCheck(const Experiment& experiment, const Plan& plan,
                          const std::set<std::size_t>& needed) {
-  const bool has_segments = std::ranges::any_of(
-      plan.runs, [](const auto& run) { return run.role == RunRole::fit && run.group != 0; });
+  const bool has_segments = std::ranges::any_of(plan.runs, &PlannedRun::is_of_segments);
   for (const std::string& name : experiment.estimators) {
     const EstimatorEntry& entry = estimator_entry(experiment, name);
     const bool has_other_runs = has_segments && entry.fitting.learns_from_segments;
@@ -81,22 +74,17 @@ FitRunCheck::FitRunCheck(const Experiment& experiment, const Plan& plan,
   }
   for (const std::size_t index : needed) {
     const PlannedRun& run = plan.runs[index];
-    if (is_whole_fit_run(run)) ++fits_[{run.fit, run.simulator}].left;
+    if (run.is_of_whole_fit()) ++fits_[{run.fit, run.simulator}].left;
   }
 }
 
 void FitRunCheck::add(const Rollout& run) {
-  if (!is_whole_fit_run(run.plan)) return;
-  Contents own;
+  if (!run.plan.is_of_whole_fit()) return;
+  std::array<bool, 3> own = {};
   if (!run.failed()) {
-    const auto& [lefts, rights] = run.signals.contact;
-    for (std::size_t k = 0; k < lefts.size(); ++k) {
-      const bool left = lefts[k] != 0;
-      const bool right = rights[k] != 0;
-      own.contact = own.contact || left || right;
-      own.no_contact = own.no_contact || !left || !right;
-      own.rolling = own.rolling || (left && right);
-      own.flight = own.flight || (!left && !right);
+    const auto& [left, right] = run.signals.contact;
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      own.at(static_cast<std::size_t>(left[k] + right[k])) = true;
     }
   }
   const std::lock_guard lock(mutex_);
@@ -104,11 +92,9 @@ void FitRunCheck::add(const Rollout& run) {
   runs.scenes.insert(run.plan.scenario.name);
   runs.is_any_usable = runs.is_any_usable || !run.failed();
   if (run.failed()) runs.failures[run.plan.file] = run.report.ending;
-  Contents& all = runs.contents;
-  all.contact = all.contact || own.contact;
-  all.no_contact = all.no_contact || own.no_contact;
-  all.rolling = all.rolling || own.rolling;
-  all.flight = all.flight || own.flight;
+  for (std::size_t wheels = 0; wheels < own.size(); ++wheels) {
+    runs.has_contact[wheels] = runs.has_contact[wheels] || own[wheels];
+  }
   if (--runs.left > 0) return;
   const std::string& simulator = run.plan.simulator;
   if (!runs.is_any_usable) {
@@ -117,12 +103,12 @@ void FitRunCheck::add(const Rollout& run) {
                                  simulator, fmt::join(whole_run_estimators_, ", "),
                                  failures_text(runs.failures)));
   }
-  require(all.rolling, phase_estimators_, "rolling on both wheels", simulator, runs);
-  require(all.flight, phase_estimators_,
-          all.no_contact ? "flight of both wheels at once, only of one" : "flight", simulator,
-          runs);
-  require(all.contact, measurement_estimators_, "contact", simulator, runs);
-  require(all.no_contact, measurement_estimators_, "step without contact", simulator, runs);
+  const auto& [flight, one_wheel, rolling] = runs.has_contact;
+  require(rolling, phase_estimators_, "rolling on both wheels", simulator, runs);
+  require(flight, phase_estimators_,
+          one_wheel ? "flight of both wheels at once, only of one" : "flight", simulator, runs);
+  require(rolling || one_wheel, measurement_estimators_, "contact", simulator, runs);
+  require(flight || one_wheel, measurement_estimators_, "step without contact", simulator, runs);
 }
 
 void FitRunCheck::require(bool holds, const std::vector<std::string>& estimators,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <map>
@@ -106,17 +107,10 @@ class FitRunCheck {
   void add(const Rollout& run);
 
  private:
-  /// What the runs of a fit contain at any step.
-  struct Contents {
-    bool contact = false;     ///< of a wheel
-    bool no_contact = false;  ///< of a wheel
-    bool rolling = false;     ///< both wheels in contact
-    bool flight = false;      ///< no wheel in contact
-  };
   /// The whole runs of one fit on one engine.
   struct Runs {
-    std::size_t left = 0;  ///< not simulated yet
-    Contents contents = {};
+    std::size_t left = 0;                  ///< not simulated yet
+    std::array<bool, 3> has_contact = {};  ///< of so many wheels, at any step
     bool is_any_usable = false;
     std::set<std::string> scenes = {};
     std::map<std::string, std::string> failures = {};  ///< endings by file

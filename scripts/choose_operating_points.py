@@ -17,6 +17,8 @@ import statistics
 import subprocess
 import tempfile
 
+from scene_tables import table
+
 EXPERIMENT = "experiments/shipped_operating_points.yaml"
 ROBOTS = ["upkie.xml", "upkie_actuated.yaml", "upkie_straight.yaml", "upkie_straight_actuated.yaml"]
 NAMED = ["stairs", "roam", "lift_slowly", "hop", "kerb"]
@@ -24,7 +26,7 @@ CROUCHED = 2  # the first of them
 MOST_SWITCHES = {"balanced": 22.0, "quiet": 10.0}  # per minute, on crouched legs under noise
 
 
-def table(program, folder, name, *settings):
+def rows_of(program, folder, name, *settings):
     """Rows of a run's table `name`."""
     flags = [flag for setting in settings for flag in ("--set", setting)]
     subprocess.run([program, "run", EXPERIMENT, "--no-pictures", "--out", folder, *flags],
@@ -61,29 +63,26 @@ def main():
     switches = collections.defaultdict(list)    # under noise, by robot
     with tempfile.TemporaryDirectory() as folder:
         for robot in ROBOTS:
-            rows = table(program, f"{folder}/{robot}", "operating_points.csv", f"robot=models/{robot}")
+            rows = rows_of(program, f"{folder}/{robot}", "operating_points.csv", f"robot=models/{robot}")
             for row in filter(is_scored, rows):
                 accuracies[point_of(row)].append(float(row["balanced_accuracy"]))
                 if is_noisy(row):
                     switches[point_of(row)].append(float(row["extra_switches_per_minute"]))
         files = ", ".join(f"scenarios/{scene}.yaml" for scene in NAMED)
         named = collections.defaultdict(lambda: collections.defaultdict(list))  # of each point, by scene
-        for row in table(program, f"{folder}/named", "operating_points_by_scene.csv", f"test.scenarios=[{files}]",
-                         "test.runs=6", "noise.torque=[0]", "noise.accelerometer=[0]",
-                         "highlights=[{torque: 0, accelerometer: 0}]"):
+        for row in rows_of(program, f"{folder}/named", "operating_points_by_scene.csv", f"test.scenarios=[{files}]",
+                           "test.runs=6", "noise.torque=[0]", "noise.accelerometer=[0]",
+                           "highlights=[{torque: 0, accelerometer: 0}]"):
             if is_scored(row):
                 named[point_of(row)][row["scenario"]].append(float(row["balanced_accuracy"]))
     scenes = list(next(iter(named.values())))
     cells = ["leave_below, return_above, settle_at", *(f"{pathlib.Path(robot).stem}, {noise}" for robot in ROBOTS
                                             for noise in ("no noise", "(1, 5)")),
              *(f"switches, {pathlib.Path(robot).stem}" for robot in ROBOTS), *scenes]
-    print("| " + " | ".join(cells) + " |\n|" + "---|" * len(cells))
-    for point in sorted(accuracies):
-        cells = [f"{point[0]:g}, {point[1]:g}, {point[2]:g}", *(f"{x:.4f}" for x in accuracies[point]),
-                 *(f"{x:.1f}" for x in switches[point]),
-                 *(f"{statistics.mean(named[point][scene]):.4f}" for scene in scenes)]
-        print("| " + " | ".join(cells) + " |")
-    print()
+    table(cells, [[f"{point[0]:g}, {point[1]:g}, {point[2]:g}", *(f"{x:.4f}" for x in accuracies[point]),
+                   *(f"{x:.1f}" for x in switches[point]),
+                   *(f"{statistics.mean(named[point][scene]):.4f}" for scene in scenes)]
+                  for point in sorted(accuracies)])
     for name, most in MOST_SWITCHES.items():
         point = choose(accuracies, switches, most)
         print(f"{name}: leave_below {point[0]:g}, return_above {point[1]:g}, settle_at {point[2]:g} (0: none)")

@@ -6,7 +6,7 @@
 #include "apps/training/config/training.hpp"
 #include "core/error.hpp"
 #include "core/fields.hpp"
-#include "experiments/studies/experiment_file.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "logs/mapping/mapping.hpp"
 #include "noise/sensor_profile.hpp"
 #include "scenarios/scenario_file.hpp"

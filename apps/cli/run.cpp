@@ -11,12 +11,12 @@
 #include "core/files.hpp"
 #include "core/program.hpp"
 #include "core/resources.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/config/yaml_kind.hpp"
 #include "experiments/plan/rollouts.hpp"
 #include "experiments/results/result_files.hpp"
 #include "experiments/results/text_tables.hpp"
 #include "experiments/run_experiment.hpp"
-#include "experiments/studies/experiment_file.hpp"
 #include "render/report/report.hpp"
 #include "render/studies/registry.hpp"
 

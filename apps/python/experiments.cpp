@@ -17,11 +17,11 @@
 #include "core/error.hpp"
 #include "core/resources.hpp"
 #include "core/yaml.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/config/yaml_kind.hpp"
 #include "experiments/estimators/entry.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/run_experiment.hpp"
-#include "experiments/studies/experiment_file.hpp"
 
 namespace touchdown::python {
 

@@ -19,29 +19,30 @@ LegSignals with_torques(const TorqueSample& torque) noexcept {
 BatchedMeasurement::BatchedMeasurement(MeasurementModel model, const BayesFilterConfig& config,
                                        std::span<const BatchNoise> levels)
     : model_(std::move(model), config.measurement),
-      sigmas_(levels),
-      memory_(sigmas_.sigma.size(), TorqueMemory(config.measurement, config.sample_rate)),
-      torque_(sigmas_.sigma.size()) {
+      sigmas_(torque_sigmas(levels)),
+      memory_(sigmas_.value.size(), TorqueMemory(config.measurement, config.sample_rate)),
+      torque_(sigmas_.value.size()) {
   check_measurement_config(config.measurement, config.threshold);
   likelihoods_.fill(std::vector<Likelihoods>(levels.size()));
   p_contact_.fill(std::vector(levels.size(), 0.5));
 }
 
 void BatchedMeasurement::update(const Signals& clean, const NoiseStep& draws) noexcept {
-  for (std::size_t i = 0; i < sigmas_.sigma.size(); ++i) {
+  for (std::size_t i = 0; i < sigmas_.value.size(); ++i) {
     std::array<double, 2> knee{};
     std::array<double, 2> wheel{};
     for (std::size_t side = 0; side < 2; ++side) {
       const TorqueSample noisy =
-          noisy_torque(clean.leg[side], draws.torque[side], sigmas_.sigma[i]);
+          noisy_torque(clean.leg[side], draws.torque[side], sigmas_.value[i]);
       knee[side] = noisy.knee;
       wheel[side] = noisy.wheel;
       torque_[i][side] = memory_[i].leg[side].update(with_torques(noisy));  // Eq. (4)
     }
     memory_[i].noise.update(knee, wheel);
   }
-  for (std::size_t i = 0; i < sigmas_.element.size(); ++i) {
-    const auto [knee, wheel] = sigmas_.element[i];
+  for (std::size_t i = 0; i < likelihoods_[0].size(); ++i) {
+    const std::size_t knee = sigmas_.index[2 * i];
+    const std::size_t wheel = sigmas_.index[2 * i + 1];
     const MeasurementModel& model = model_.at(memory_[knee].noise.level(memory_[wheel].noise));
     for (std::size_t side = 0; side < 2; ++side) {
       const TorqueSample m = {torque_[knee][side].knee, torque_[wheel][side].wheel};
@@ -53,10 +54,10 @@ void BatchedMeasurement::update(const Signals& clean, const NoiseStep& draws) no
 
 BatchedBayesFilter::BatchedBayesFilter(MeasurementModel model, const BayesFilterConfig& config,
                                        std::span<const BatchNoise> levels)
-    : torque_(levels, torque_part),
-      acceleration_(levels, &BatchNoise::acceleration),
-      measurement_(std::move(model), config, torque_.level),
-      transition_(acceleration_.level.size(),
+    : torque_(torque_levels(levels)),
+      acceleration_(acceleration_levels(levels)),
+      measurement_(std::move(model), config, torque_.value),
+      transition_(acceleration_.value.size(),
                   TransitionModel(config.transition, config.sample_rate)) {
   for (auto* belief : {&contact_, &no_contact_}) belief->fill(std::vector(levels.size(), 0.5));
 }
@@ -64,7 +65,7 @@ BatchedBayesFilter::BatchedBayesFilter(MeasurementModel model, const BayesFilter
 void BatchedBayesFilter::update(const Signals& clean, const NoiseStep& draws) noexcept {
   for (std::size_t i = 0; i < transition_.size(); ++i) {  // Eq. (7) to (13)
     transition_[i].update(clean.vertical_acceleration +
-                          acceleration_.level[i] * draws.acceleration);
+                          acceleration_.value[i] * draws.acceleration);
   }
   measurement_.update(clean, draws);  // Eq. (4) to (6)
   for (std::size_t side = 0; side < 2; ++side) {
@@ -73,11 +74,11 @@ void BatchedBayesFilter::update(const Signals& clean, const NoiseStep& draws) no
     double* const contact = contact_[side].data();
     double* const no_contact = no_contact_[side].data();
     for (std::size_t i = 0; i < contact_[side].size(); ++i) {
-      const Transition& transition = transition_[acceleration_.level_index[i]].transition();
+      const Transition& transition = transition_[acceleration_.index[i]].transition();
       const ContactState before{contact[i], no_contact[i]};
       const ContactState predicted = predict(transition, before);  // Eq. (2a)
       const ContactState after =
-          correct(likelihoods[torque_.level_index[i]], predicted, before);  // Eq. (2b) and (3)
+          correct(likelihoods[torque_.index[i]], predicted, before);  // Eq. (2b) and (3)
       contact[i] = after.contact;
       no_contact[i] = after.no_contact;
     }

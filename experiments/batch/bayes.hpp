@@ -36,7 +36,7 @@ class BatchedMeasurement {
 
  private:
   NoisyMeasurement model_;
-  TorqueSigmas sigmas_;
+  Distinct<double> sigmas_;                          ///< standard deviations of torque noise
   std::vector<TorqueMemory> memory_;                 ///< by standard deviation
   std::vector<std::array<TorqueSample, 2>> torque_;  ///< m_t of both legs, by standard deviation
   std::array<std::vector<Likelihoods>, 2> likelihoods_;
@@ -63,8 +63,8 @@ class BatchedBayesFilter {
   }
 
  private:
-  BatchByLevel<BatchNoise> torque_;
-  BatchByLevel<double> acceleration_;
+  Distinct<BatchNoise> torque_;
+  Distinct<double> acceleration_;
   BatchedMeasurement measurement_;           ///< by level of torque noise
   std::vector<TransitionModel> transition_;  ///< by level of accelerometer noise
   /// bel(S_t = C) and bel(S_t = ¬C) per wheel and element.

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "experiments/batch/noise_level.hpp"
 
 namespace touchdown::experiments {
 namespace {
@@ -89,16 +88,13 @@ void multiply(const Product& product) noexcept {
   multiply_by<NarrowVector>(product);
 }
 
-Eigen::RowVectorXf checked_sigmas(std::span<const double> sigmas) {
-  if (sigmas.empty()) throw InputError("neural batch: expected at least one noise level");
-  Eigen::RowVectorXf row(static_cast<Eigen::Index>(sigmas.size()));
-  for (std::size_t i = 0; i < sigmas.size(); ++i) {
-    if (!(std::isfinite(sigmas[i]) && sigmas[i] >= 0.0)) {
-      throw InputError("neural batch: noise levels must be finite and not negative (m/s²)");
-    }
-    row[static_cast<Eigen::Index>(i)] = static_cast<float>(sigmas[i]);
+Eigen::RowVectorXf sigmas_of(std::span<const BatchNoise> levels) {
+  check_levels(levels);
+  Eigen::RowVectorXf sigmas(static_cast<Eigen::Index>(levels.size()));
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    sigmas[static_cast<Eigen::Index>(i)] = static_cast<float>(levels[i].acceleration);
   }
-  return row;
+  return sigmas;
 }
 
 }  // namespace
@@ -151,13 +147,13 @@ const BatchedNeuralForward::Columns& BatchedNeuralForward::step(const Columns& i
 
 BatchedNeuralNetwork::BatchedNeuralNetwork(std::shared_ptr<const NeuralNetwork> network,
                                            const NeuralEstimatorConfig& config,
-                                           std::span<const double> sigmas)
-    : sigmas_(checked_sigmas(sigmas)),
+                                           std::span<const BatchNoise> levels)
+    : sigmas_(sigmas_of(levels)),
       forward_(std::move(network), sigmas_.size()),
       clean_(neural_stride(config.sample_rate, forward_.network().period)),
       draws_(clean_),
       inputs_(neural_input_count, sigmas_.size()),
-      p_contact_(sigmas.size(), 0.5) {}
+      p_contact_(levels.size(), 0.5) {}
 
 void BatchedNeuralNetwork::update(const Signals& clean, const Eigen::Vector3d& draw) noexcept {
   if (!neural_input(clean).allFinite() || !draw.allFinite()) {

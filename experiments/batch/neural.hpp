@@ -8,6 +8,7 @@
 
 #include "estimator/neural/estimator.hpp"
 #include "estimator/neural/forward.hpp"
+#include "experiments/batch/noise_level.hpp"
 
 namespace touchdown::experiments {
 
@@ -72,17 +73,14 @@ class BatchedNeuralForward {
 /// with a value that is not finite. `update` does not throw.
 class BatchedNeuralNetwork {
  public:
-  /// `sigmas`: standard deviation on each axis of the accelerometer (m/s²), one per noise level.
   /// Errors: `InputError` as `NeuralEstimator`, and for no levels or bad ones.
   BatchedNeuralNetwork(std::shared_ptr<const NeuralNetwork> network,
-                       const NeuralEstimatorConfig& config, std::span<const double> sigmas);
+                       const NeuralEstimatorConfig& config, std::span<const BatchNoise> levels);
 
   /// Processes one step of clean signals. Each element scales the standard normal draws by its
   /// sigma.
   void update(const Signals& clean, const Eigen::Vector3d& acceleration_draw) noexcept;
 
-  /// The number of noise levels.
-  [[nodiscard]] std::size_t size() const noexcept { return p_contact_.size(); }
   /// P(S_t = C | m_0:t) of the robot, per noise level.
   [[nodiscard]] std::span<const double> p_contact() const noexcept { return p_contact_; }
 

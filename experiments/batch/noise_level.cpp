@@ -17,17 +17,30 @@ void check_levels(std::span<const BatchNoise> levels) {
   }
 }
 
-TorqueSigmas::TorqueSigmas(std::span<const BatchNoise> batch) {
+Distinct<double> acceleration_levels(std::span<const BatchNoise> batch) {
   check_levels(batch);
-  const auto place = [this](double wanted) {
-    const auto same = std::find(sigma.begin(), sigma.end(), wanted);
-    const auto index = static_cast<std::uint32_t>(same - sigma.begin());
-    if (same == sigma.end()) sigma.push_back(wanted);
-    return index;
-  };
-  for (const BatchNoise& one : batch) {
-    element.push_back({place(one.knee_torque), place(one.wheel_torque)});
+  Distinct<double> levels;
+  for (const BatchNoise& element : batch) levels.add(element.acceleration);
+  return levels;
+}
+
+Distinct<BatchNoise> torque_levels(std::span<const BatchNoise> batch) {
+  check_levels(batch);
+  Distinct<BatchNoise> levels;
+  for (const BatchNoise& element : batch) {
+    levels.add({element.knee_torque, element.wheel_torque, 0.0});
   }
+  return levels;
+}
+
+Distinct<double> torque_sigmas(std::span<const BatchNoise> batch) {
+  check_levels(batch);
+  Distinct<double> sigmas;
+  for (const BatchNoise& element : batch) {
+    sigmas.add(element.knee_torque);
+    sigmas.add(element.wheel_torque);
+  }
+  return sigmas;
 }
 
 }  // namespace touchdown::experiments

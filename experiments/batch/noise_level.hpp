@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
-#include <functional>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -36,30 +35,28 @@ struct BatchNoise {
 /// Throws InputError for no levels, and for one that is negative or not finite.
 void check_levels(std::span<const BatchNoise> levels);
 
-/// The distinct levels of one part of the noise, and the index of each batch element's level. Work
-/// that depends on this part alone is done once per distinct level.
-template <typename Level>
-struct BatchByLevel {
-  std::vector<Level> level;
-  std::vector<std::uint32_t> level_index;
+/// The distinct values of a list, and the index of each item's value. Work that depends on the
+/// value alone is done once per distinct value.
+template <typename Value>
+struct Distinct {
+  std::vector<Value> value;
+  std::vector<std::size_t> index;
 
-  /// `part` selects the part of an element's noise. Throws InputError as `check_levels`.
-  template <typename Part>
-  BatchByLevel(std::span<const BatchNoise> batch, const Part& part) {
-    check_levels(batch);
-    for (const BatchNoise& element : batch) {
-      const Level wanted = std::invoke(part, element);
-      const auto same = std::find(level.begin(), level.end(), wanted);
-      level_index.push_back(static_cast<std::uint32_t>(same - level.begin()));
-      if (same == level.end()) level.push_back(wanted);
-    }
+  void add(const Value& item) {
+    const auto same = std::find(value.begin(), value.end(), item);
+    index.push_back(static_cast<std::size_t>(same - value.begin()));
+    if (same == value.end()) value.push_back(item);
   }
 };
 
-/// The torque noise of a batch element.
-inline BatchNoise torque_part(const BatchNoise& element) {
-  return {element.knee_torque, element.wheel_torque, 0.0};
-}
+/// The levels of accelerometer noise, and those of torque noise. Throw InputError as
+/// `check_levels`.
+Distinct<double> acceleration_levels(std::span<const BatchNoise> batch);
+Distinct<BatchNoise> torque_levels(std::span<const BatchNoise> batch);
+/// The standard deviations of torque noise at knees or wheels: element i has that of 2i at its
+/// knees and that of 2i + 1 at its wheels. Whatever depends on one joint alone is computed once per
+/// standard deviation, for a robot with that at all joints. Throws InputError as `check_levels`.
+Distinct<double> torque_sigmas(std::span<const BatchNoise> batch);
 
 /// Standard normal draws of one step, shared by all elements of a batch. The sensors of an element
 /// report clean + standard deviation × draw, with torques in the joints' own signs.
@@ -67,22 +64,6 @@ struct NoiseStep {
   std::array<TorqueSample, 2> torque;
   double acceleration = 0.0;                    ///< along the world's vertical
   std::array<double, 3> linear_acceleration{};  ///< in the IMU frame
-};
-
-/// The standard deviations of torque noise that a batch has at knees or wheels, without repetition,
-/// and for each element the index of that at its knees and at its wheels. Whatever depends on one
-/// joint alone is computed once per standard deviation, for a robot with that at all joints.
-struct TorqueSigmas {
-  struct Element {
-    std::uint32_t knee;
-    std::uint32_t wheel;
-  };
-
-  /// Throws InputError as `check_levels`.
-  explicit TorqueSigmas(std::span<const BatchNoise> batch);
-
-  std::vector<double> sigma;
-  std::vector<Element> element;
 };
 
 /// What the knee's and the wheel's sensors report if both have this noise.

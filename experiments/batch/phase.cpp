@@ -21,13 +21,13 @@ BatchedPhaseFilter::BatchedPhaseFilter(std::shared_ptr<const PhaseModel> model,
                                        std::span<const BatchNoise> levels)
     : config_(config),
       prepared_(std::move(model), config),
-      torque_(levels, torque_part),
-      sigmas_(torque_.level),
-      joint_(sigmas_.sigma.size(), {prepared_.knee_noise, prepared_.wheel_noise, {}, {}}),
-      torque_rows_(torque_.level.size()),
-      acceleration_(levels, &BatchNoise::acceleration),
-      acceleration_noise_(acceleration_.level.size(), prepared_.acceleration_noise),
-      acceleration_rows_(acceleration_.level.size()),
+      torque_(torque_levels(levels)),
+      sigmas_(torque_sigmas(torque_.value)),
+      joint_(sigmas_.value.size(), {prepared_.knee_noise, prepared_.wheel_noise, {}, {}}),
+      torque_rows_(torque_.value.size()),
+      acceleration_(acceleration_levels(levels)),
+      acceleration_noise_(acceleration_.value.size(), prepared_.acceleration_noise),
+      acceleration_rows_(acceleration_.value.size()),
       alpha_((levels.size() + block_size - 1) / block_size) {
   for (PhaseValues<block_size>& alpha : alpha_) {
     for (std::size_t k = 0; k < phase_count; ++k) alpha[k].setConstant(PhaseRecursion::prior[k]);
@@ -41,7 +41,7 @@ void BatchedPhaseFilter::update_torques(const Signals& clean, const NoiseStep& d
     JointTorques& joint = joint_[i];
     for (std::size_t side = 0; side < 2; ++side) {
       const TorqueSample noisy =
-          noisy_torque(clean.leg[side], draws.torque[side], sigmas_.sigma[i]);
+          noisy_torque(clean.leg[side], draws.torque[side], sigmas_.value[i]);
       joint.knee[side] = noisy.knee;
       joint.wheel[side] = noisy.wheel;
     }
@@ -50,8 +50,8 @@ void BatchedPhaseFilter::update_torques(const Signals& clean, const NoiseStep& d
     joint.wheel_noise.update(joint.wheel);
   }
   for (std::size_t i = 0; i < torque_rows_.size(); ++i) {
-    const JointTorques& knees = joint_[sigmas_.element[i].knee];
-    const JointTorques& wheels = joint_[sigmas_.element[i].wheel];
+    const JointTorques& knees = joint_[sigmas_.index[2 * i]];
+    const JointTorques& wheels = joint_[sigmas_.index[2 * i + 1]];
     const PhaseNoiseLevel& knee_level = prepared_.knee_levels[knees.knee_noise.level()];
     const PhaseNoiseLevel& wheel_level = prepared_.wheel_levels[wheels.wheel_noise.level()];
     torque_rows_[i] =
@@ -61,8 +61,8 @@ void BatchedPhaseFilter::update_torques(const Signals& clean, const NoiseStep& d
 }
 
 void BatchedPhaseFilter::update_accelerations(double clean, double draw) noexcept {
-  for (std::size_t i = 0; i < acceleration_.level.size(); ++i) {
-    const double acceleration = clean + acceleration_.level[i] * draw;
+  for (std::size_t i = 0; i < acceleration_.value.size(); ++i) {
+    const double acceleration = clean + acceleration_.value[i] * draw;
     NoiseEstimate<1>& noise = acceleration_noise_[i];
     if (!config_.noise) noise.update({acceleration});
     acceleration_rows_[i] =
@@ -75,9 +75,9 @@ void BatchedPhaseFilter::update_block(std::size_t block) noexcept {
   const auto element = [block](int f) { return block * block_size + static_cast<std::size_t>(f); };
   PhaseValues<block_size> log_likelihood;
   for (int f = 0; f < block_size; ++f) {
-    const std::size_t i = std::min(element(f), torque_.level_index.size() - 1);
-    const PhaseRow& torque = torque_rows_[torque_.level_index[i]];
-    const PhaseRow& acceleration = acceleration_rows_[acceleration_.level_index[i]];
+    const std::size_t i = std::min(element(f), torque_.index.size() - 1);
+    const PhaseRow& torque = torque_rows_[torque_.index[i]];
+    const PhaseRow& acceleration = acceleration_rows_[acceleration_.index[i]];
     for (std::size_t k = 0; k < phase_count; ++k) {
       log_likelihood[k][f] = static_cast<double>(torque[k] + acceleration[k]);
     }

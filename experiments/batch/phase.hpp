@@ -32,11 +32,11 @@ class BatchedPhaseFilter {
 
   /// P(S_t = C | m_0:t) of one wheel, per noise level.
   [[nodiscard]] std::span<const double> p_contact(Side side) const noexcept {
-    return std::span(p_contact_[static_cast<std::size_t>(side)]).first(torque_.level_index.size());
+    return std::span(p_contact_[static_cast<std::size_t>(side)]).first(torque_.index.size());
   }
   /// The decision about one wheel, per noise level: 1 for contact, 0 for none.
   [[nodiscard]] std::span<const double> contact(Side side) const noexcept {
-    return std::span(contact_[static_cast<std::size_t>(side)]).first(torque_.level_index.size());
+    return std::span(contact_[static_cast<std::size_t>(side)]).first(torque_.index.size());
   }
 
  private:
@@ -53,11 +53,11 @@ class BatchedPhaseFilter {
 
   PhaseFilterConfig config_;
   PreparedPhaseModel prepared_;
-  BatchByLevel<BatchNoise> torque_;
-  TorqueSigmas sigmas_;                ///< of the levels of torque noise
+  Distinct<BatchNoise> torque_;
+  Distinct<double> sigmas_;            ///< of the levels of torque noise
   std::vector<JointTorques> joint_;    ///< by standard deviation
   std::vector<PhaseRow> torque_rows_;  ///< log likelihoods of both legs, by level of torque noise
-  BatchByLevel<double> acceleration_;
+  Distinct<double> acceleration_;
   std::vector<NoiseEstimate<1>> acceleration_noise_;
   std::vector<PhaseRow> acceleration_rows_;
   std::vector<PhaseValues<block_size>> alpha_;

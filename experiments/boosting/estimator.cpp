@@ -29,7 +29,7 @@ float BoostedTrees::logit(std::span<const float> features) const noexcept {
   return sum;
 }
 
-void check_trees(const BoostedTrees& trees, std::size_t features) {
+static void check_trees(const BoostedTrees& trees, std::size_t features) {
   constexpr std::size_t deepest = 16;
   const bool is_whole = trees.depth >= 1 && trees.depth <= deepest && !trees.leaf.empty() &&
                         trees.leaf.size() % trees.leaves() == 0 &&

@@ -27,10 +27,6 @@ struct BoostedTrees {
   [[nodiscard]] float logit(std::span<const float> features) const noexcept;
 };
 
-/// Throws InputError for incomplete trees, features beyond this count and numbers that are not
-/// finite.
-void check_trees(const BoostedTrees& trees, std::size_t features);
-
 /// A reference upper bound of a benchmark: boosted trees on `SignalWindow` or `ChannelInputs`. It
 /// shows how much these inputs contain. It is for studies, not for robots.
 template <typename Inputs>
@@ -41,7 +37,7 @@ class BoostedTreesEstimator : public ContactEstimator {
     OperatingPoint point = network_point;
   };
 
-  /// Errors: those of `check_trees`.
+  /// Throws InputError for incomplete trees, unknown features and numbers that are not finite.
   BoostedTreesEstimator(BoostedTrees trees, const Config& config);
 
   void reset() noexcept override;

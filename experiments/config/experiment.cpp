@@ -16,7 +16,7 @@ const EstimatorEntry& estimator_entry(const Experiment& experiment, std::string_
 
 static std::vector<StudyFiles> study_files(const Experiment& experiment) {
   std::vector<StudyFiles> files;
-  for (const StudySection& study : experiment.studies.known()) {
+  for (const StudySection& study : study_sections()) {
     if (study.files) files.push_back(study.files(experiment));
   }
   return files;

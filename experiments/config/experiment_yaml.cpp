@@ -20,15 +20,13 @@ using HyperparametersByEstimator = std::map<std::string, HyperparameterValues>;
 static void describe_estimators(Fields& all, HyperparametersByEstimator& values,
                                 const Experiment& experiment) {
   for (const std::string& name : all.documenting() ? estimator_names() : experiment.estimators) {
-    all.know(name);
-    if (!all.present(name, values.contains(name))) continue;
+    if (!all.given(name, values.contains(name))) continue;
     if (all.documenting() && estimator_entry(name).hyperparameters.empty()) continue;
     HyperparameterValues& hyperparameters = values[name];
     const auto describe_own = [&](Fields& own) {
       for (const Hyperparameter& one :
            estimator_entry(name, experiment.external_estimators).hyperparameters) {
-        own.know(one.name);
-        if (!own.present(one.name, hyperparameters.contains(one.name))) continue;
+        if (!own.given(one.name, hyperparameters.contains(one.name))) continue;
         own(one.name, hyperparameters[one.name])
             .fallback(value_text(YAML::Node(one.value)))
             .doc(fmt::format("Tuning draws it from {:g} to {:g}.", one.lowest, one.highest));
@@ -44,10 +42,9 @@ static void read_hyperparameters(const std::string& file, Experiment& experiment
   Fields fields(YamlDocument::load(find_resource(file)));
   fields.know("manifest");
   for (const std::string& engine : simulators::simulator_names()) {
-    fields.know(engine);
     const auto& own = experiment.simulators;
-    if (std::find(own.begin(), own.end(), engine) == own.end()) continue;
-    if (!fields.present(engine, false)) continue;
+    const bool is_own = std::find(own.begin(), own.end(), engine) != own.end();
+    if (!fields.given(engine, false) || !is_own) continue;
     fields.within(engine, [&](Fields& of_engine) {
       for (const std::string& name : estimator_names()) of_engine.know(name);
       describe_estimators(of_engine, experiment.engine_hyperparameters[engine], experiment);
@@ -60,22 +57,19 @@ static void read_hyperparameters(const std::string& file, Experiment& experiment
 /// file of a tuning.
 static void describe_hyperparameters(Fields& fields, Experiment& experiment) {
   constexpr const char* key = "hyperparameters";
-  fields.know(key);
   auto& of_engines = experiment.engine_hyperparameters;
-  if (!fields.present(key, !experiment.hyperparameters.empty() || !of_engines.empty())) return;
+  if (!fields.given(key, !experiment.hyperparameters.empty() || !of_engines.empty())) return;
   const auto describe_all = [&](Fields& all) {
     std::string file;
-    all.know("tuned");
-    if (all.present("tuned", false) || all.documenting()) {
+    if (all.given("tuned", false) || all.documenting()) {
       all("tuned", file)
           .fallback("none")
           .doc("Values by engine that `fit.tuning` chose: `tables/hyperparameters.yaml` of a run.");
       if (!all.documenting()) all.check("tuned", [&] { read_hyperparameters(file, experiment); });
     }
     for (const std::string& engine : experiment.simulators) {
-      all.know(engine);
-      const bool is_given = of_engines.contains(engine);
-      if (all.documenting() || !all.present(engine, is_given)) continue;
+      const bool is_given = all.given(engine, of_engines.contains(engine));
+      if (all.documenting() || !is_given) continue;
       all.within(engine, [&](Fields& of_engine) {
         describe_estimators(of_engine, of_engines[engine], experiment);
       });
@@ -102,7 +96,6 @@ static KeyNotes describe_names(Fields& fields, std::string_view key,
 /// Files and drawn scenarios. A written experiment has the names of both.
 static void describe_scenarios(Fields& section, RunsConfig& runs) {
   describe_names(section, "files", runs.scenarios).doc("Scenario files, before the drawn ones.");
-  section.know("generate");
   std::optional<scenarios::Generation> generation;
   section.section("generate", generation).doc("Scenarios to draw (`touchdown generate`).");
   if (!generation || section.documenting()) return;
@@ -149,8 +142,7 @@ static void describe(Fields& fields, TuningConfig& tuning, const Experiment& exp
     fields.list("noise", tuning.noise).doc("Noise settings of the trials.");
   }
   fields.check(!tuning.noise.empty(), "noise", "expected at least one noise setting");
-  fields.know("fixed");
-  if (fields.present("fixed", !tuning.fixed.empty())) {
+  if (fields.given("fixed", !tuning.fixed.empty())) {
     own_estimators(fields, "fixed", experiment, tuning.fixed)
         .fallback("none")
         .doc("Estimators that keep their defaults, such as a second operating point.");
@@ -166,35 +158,28 @@ static void describe_fit(Fields& fit, Experiment& experiment) {
   describe(fit, experiment.fit);
   fit.list_if_any("segments", experiment.training_segments)
       .doc("Segments of runs: phase models are fitted to these instead, others to both.");
-  fit.know("tuning");
-  if (fit.present("tuning", experiment.tuning.has_value())) {
-    if (fit.reading()) experiment.tuning.emplace();
-    fit.section("tuning", *experiment.tuning, experiment)
-        .fallback("none")
-        .doc("The same number of trials for every ranked estimator with hyperparameters.");
-  }
-  if (fit.present("servo_load", experiment.fit_servo_load)) {
+  fit.section("tuning", experiment.tuning, experiment)
+      .doc("The same number of trials for every ranked estimator with hyperparameters.");
+  if (fit.given("servo_load", experiment.fit_servo_load)) {
     fit("servo_load", experiment.fit_servo_load)
         .doc(
             "Whether networks and evidence curves get the load by the servos' laws as one more "
             "channel.");
   }
-  if (!fit.present("seed", experiment.fit_seed.has_value())) return;
   fit.optional("seed", experiment.fit_seed)
       .fallback("the experiment's")
       .doc("Seed of the fitted runs.");
 }
 
-/// The study that alone has an estimator with this name, or null.
-static const StudySection* owner_of_estimator(const Experiment& experiment,
-                                              const std::string& name) {
-  for (const StudySection& study : experiment.studies.known()) {
+/// The key of the study that alone has an estimator with this name; empty without one.
+static std::string owner_of_estimator(const std::string& name) {
+  for (const StudySection& study : study_sections()) {
     if (!study.estimators) continue;
     for (const EstimatorEntry& entry : study.estimators()) {
-      if (entry.name == name) return &study;
+      if (entry.name == name) return study.key;
     }
   }
-  return nullptr;
+  return {};
 }
 
 /// Estimators that only some experiments have: those written in Python, if Python runs the
@@ -212,19 +197,18 @@ static void require_available(const Fields& fields, const Experiment& experiment
                       fmt::format("'{}' is written in Python: run the experiment from there, by "
                                   "'python3 -m touchdown run' or touchdown.run",
                                   name));
-    const StudySection* const owner = is_present ? nullptr : owner_of_estimator(experiment, name);
-    if (owner == nullptr) continue;
-    fields.check_item(false, "estimators", i,
+    const std::string owner = is_present ? "" : owner_of_estimator(name);
+    fields.check_item(owner.empty(), "estimators", i,
                       fmt::format("'{0}' belongs to the study '{1}': expected the section '{1}' "
                                   "beside it",
-                                  name, owner->key));
+                                  name, owner));
   }
 }
 
 /// Makes the estimators that only the sections of this experiment have.
 static void add_study_estimators(const Fields& fields, Experiment& experiment) {
   if (!fields.reading() || fields.documenting()) return;
-  for (const StudySection& study : experiment.studies.known()) {
+  for (const StudySection& study : study_sections()) {
     if (!study.estimators || !fields.present(study.key, false)) continue;
     for (EstimatorEntry& entry : study.estimators()) {
       experiment.external_estimators.push_back(std::move(entry));
@@ -234,9 +218,8 @@ static void add_study_estimators(const Fields& fields, Experiment& experiment) {
 
 /// Describes the studies' sections that are written before one of the experiment's own keys.
 static void describe_studies(Fields& fields, std::string_view before, Experiment& experiment) {
-  for (const StudySection& study : experiment.studies.known()) {
+  for (const StudySection& study : study_sections()) {
     if (study.before != before) continue;
-    fields.know(study.key);
     study.describe(fields, experiment);
   }
 }
@@ -258,8 +241,7 @@ static void describe(Fields& fields, Experiment& experiment) {
   describe_hyperparameters(fields, experiment);
   fields.section("test", experiment.test).doc("Runs for scoring; no model is fitted to them.");
   const auto file_if_any = [&](const char* key, std::string& file) {
-    fields.know(key);
-    if (!fields.present(key, !file.empty())) return KeyNotes();
+    if (!fields.given(key, !file.empty())) return KeyNotes();
     const KeyNotes notes = fields(key, file);
     fields.check(!file.empty(), key, "expected a file");
     return notes;
@@ -270,8 +252,7 @@ static void describe(Fields& fields, Experiment& experiment) {
   file_if_any("sensors", experiment.sensors)
       .fallback("ideal sensors")
       .doc("Sensor profile of all runs.");
-  fields.know("transfer");
-  if (fields.present("transfer", experiment.transfer)) {
+  if (fields.given("transfer", experiment.transfer)) {
     fields("transfer", experiment.transfer)
         .doc(
             "Whether `shipped` may run on another robot, or at another rate, than its "
@@ -311,36 +292,32 @@ static void describe(Fields& fields, Experiment& experiment) {
   fields.check(!draws || experiment.recordings != KeptRecordings::none, "recordings",
                "expected all or pictured: the video and the detail are drawn from them; none goes "
                "with video.enabled: false and without the detail");
-  for (const StudySection& study : experiment.studies.known()) fields.know(study.key);
+  for (const StudySection& study : study_sections()) fields.know(study.key);
   describe_studies(fields, "", experiment);
 }
 
-static Experiment default_experiment(std::vector<StudySection> sections,
-                                     std::vector<EstimatorEntry> external_estimators) {
+static Experiment default_experiment() {
   Experiment defaults;
-  defaults.studies = StudySections(std::move(sections));
-  defaults.external_estimators = std::move(external_estimators);
   defaults.fit = {.scenarios = {}, .runs = 1};
   defaults.test = {.scenarios = {}, .runs = 8};
   return defaults;
 }
 
-Experiment experiment_from_yaml(const YamlDocument& document, std::vector<StudySection> sections,
+Experiment experiment_from_yaml(const YamlDocument& document,
                                 std::vector<EstimatorEntry> external_estimators) {
   check_external_names(external_estimators);
-  return from_yaml(document,
-                   default_experiment(std::move(sections), std::move(external_estimators)));
+  Experiment experiment = default_experiment();
+  experiment.external_estimators = std::move(external_estimators);
+  return from_yaml(document, std::move(experiment));
 }
 
-std::vector<Key> experiment_keys(std::vector<StudySection> sections) {
-  return documented_keys(default_experiment(std::move(sections), {}));
-}
+std::vector<Key> experiment_keys() { return documented_keys(default_experiment()); }
 
-void require_files(const YamlDocument& document, const std::vector<StudySection>& sections) {
+void require_files(const YamlDocument& document) {
   std::vector<std::string> keys = {
       "fit.scenarios", "fit.scenarios.files",  "test.scenarios", "test.scenarios.files", "robot",
       "sensors",       "fit.segments.scenario"};
-  for (const StudySection& section : sections) {
+  for (const StudySection& section : study_sections()) {
     keys.insert(keys.end(), section.file_keys.begin(), section.file_keys.end());
   }
   require_resources(document, keys, [](const std::string& name) {

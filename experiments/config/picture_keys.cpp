@@ -71,10 +71,7 @@ void describe(Fields& fields, PosteriorConfig& posterior, const Experiment& expe
 template <typename Config>
 KeyNotes describe_switched(Fields& parent, std::string_view key, std::optional<Config>& config,
                            const Experiment& experiment) {
-  if (!parent.present(key, config.has_value())) {
-    parent.know(key);
-    return {};
-  }
+  if (!parent.given(key, config.has_value())) return {};
   bool enabled = true;
   if (parent.reading()) config.emplace();
   const KeyNotes notes = parent.within(key, [&](Fields& fields) {
@@ -103,9 +100,8 @@ void describe(Fields& fields, VideoConfig& video, const Experiment& experiment) 
   own_estimators(fields, "estimators", experiment, video.estimators)
       .fallback("all of them")
       .doc("Estimators with probabilities shown.");
-  fields.know("noise");
   if (fields.reading() && !fields.documenting()) video.noise = experiment.highlights.front();
-  if (fields.present("noise", true)) {
+  if (fields.given("noise", true)) {
     fields.section("noise", video.noise)
         .fallback("the first highlight")
         .doc("Noise setting of the film.");

@@ -3,7 +3,6 @@
 #include <any>
 #include <functional>
 #include <map>
-#include <memory>
 #include <string>
 #include <typeindex>
 #include <utility>
@@ -41,17 +40,14 @@ struct StudySection {
   std::function<std::vector<EstimatorEntry>()> estimators = {};
 };
 
+/// The sections that an experiment file may have, in the order of writing: those of all studies. It
+/// is defined beside them (experiments/studies/registry.cpp), which the folders below do not know.
+std::vector<StudySection> study_sections();
+
 /// The studies' sections of one experiment, at most one of each type. The folders below the studies
 /// know no type of a section.
 class StudySections {
  public:
-  StudySections() = default;
-  /// `known` are the sections that the experiment file may have, in the order of writing.
-  explicit StudySections(std::vector<StudySection> known)
-      : known_(std::make_shared<const std::vector<StudySection>>(std::move(known))) {}
-
-  const std::vector<StudySection>& known() const { return *known_; }
-
   /// The section of this type, or null.
   template <typename Section>
   const Section* find() const {
@@ -81,8 +77,6 @@ class StudySections {
   }
 
  private:
-  std::shared_ptr<const std::vector<StudySection>> known_ =
-      std::make_shared<const std::vector<StudySection>>();
   std::map<std::type_index, std::any> values_;
 };
 

@@ -5,6 +5,7 @@
 
 #include "estimator/free_fall.hpp"
 #include "estimator/upkie_observer.hpp"
+#include "experiments/estimators/entries.hpp"
 
 namespace touchdown::experiments {
 
@@ -52,8 +53,8 @@ EstimatorPointer make_upkie_observer(const EstimatorEntry& entry, const Estimato
       UpkieObserverConfig{.wheel = wheel, .time_step = 1.0 / setup.sample_rate});
 }
 
-}  // namespace
-
+/// An estimator that ignores all signals. Its accuracy is the share of contact in the test runs,
+/// the reference for every other accuracy.
 EstimatorEntry always_contact_entry() {
   return {.name = std::string(always_contact_name),
           .title = "Always contact",
@@ -61,28 +62,6 @@ EstimatorEntry always_contact_entry() {
           .reason = "reference: the score without any signal",
           .sensors = {},
           .making = {.by_step = make_always_contact}};
-}
-
-void Oracle::reset() noexcept {
-  step_ = 0;
-  belief_ = {};
-}
-
-const Belief& Oracle::estimate(const Signals& signals) noexcept {
-  belief_ = {};
-  const double steps = std::round((signals.time - time_) * sample_rate_);
-  if (step_ > 0 && steps > 1.0 && steps < 1e9) step_ += static_cast<std::size_t>(steps) - 1;
-  time_ = signals.time;
-  if (step_ >= std::min(contact_[0].size(), contact_[1].size())) return belief_;
-  for (std::size_t side = 0; side < 2; ++side) {
-    const bool in_contact = contact_[side][step_] != 0;
-    belief_.wheel[side] = {.p_contact = in_contact ? 1.0 : 0.0, .contact = in_contact};
-  }
-  const auto [fewer, more] = std::minmax(belief_.wheel[0].p_contact, belief_.wheel[1].p_contact);
-  belief_.p_both_wheels = fewer;
-  belief_.p_any_wheel = more;
-  ++step_;
-  return belief_;
 }
 
 EstimatorEntry oracle_entry() {
@@ -118,5 +97,35 @@ EstimatorEntry upkie_observer_entry() {
                               around("cutoff", WheelContactConfig{}.cutoff, 10.0)},
           .making = {.by_step = make_upkie_observer}};
 }
+
+}  // namespace
+
+void Oracle::reset() noexcept {
+  step_ = 0;
+  belief_ = {};
+}
+
+const Belief& Oracle::estimate(const Signals& signals) noexcept {
+  belief_ = {};
+  const double steps = std::round((signals.time - time_) * sample_rate_);
+  if (step_ > 0 && steps > 1.0 && steps < 1e9) step_ += static_cast<std::size_t>(steps) - 1;
+  time_ = signals.time;
+  if (step_ >= std::min(contact_[0].size(), contact_[1].size())) return belief_;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const bool in_contact = contact_[side][step_] != 0;
+    belief_.wheel[side] = {.p_contact = in_contact ? 1.0 : 0.0, .contact = in_contact};
+  }
+  const auto [fewer, more] = std::minmax(belief_.wheel[0].p_contact, belief_.wheel[1].p_contact);
+  belief_.p_both_wheels = fewer;
+  belief_.p_any_wheel = more;
+  ++step_;
+  return belief_;
+}
+
+std::vector<EstimatorEntry> observer_entries() {
+  return {upkie_observer_entry(), free_fall_entry()};
+}
+
+std::vector<EstimatorEntry> reference_entries() { return {oracle_entry(), always_contact_entry()}; }
 
 }  // namespace touchdown::experiments

@@ -12,10 +12,6 @@ namespace touchdown::experiments {
 /// The estimator that every table shows as a baseline.
 inline constexpr std::string_view always_contact_name = "always_contact";
 
-/// An estimator that ignores all signals: P(contact) = 1. Its accuracy is the share of contact in
-/// the test runs, the reference for every other accuracy.
-EstimatorEntry always_contact_entry();
-
 /// The ground truth as an estimator: it repeats a run's labels step by step. Scores, tables and
 /// plots can thereby be checked against perfect scores. `Signals` hold no ground truth, so an
 /// oracle is made for one run, with that run's labels. It skips the labels of missing steps by
@@ -38,13 +34,5 @@ class Oracle : public ContactEstimator {
   double time_ = 0.0;     ///< of the previous step (s)
   Belief belief_;
 };
-
-EstimatorEntry oracle_entry();
-
-/// The simplest baseline: a threshold on the vertical acceleration.
-EstimatorEntry free_fall_entry();
-
-/// The contact observer of Upkie's own software.
-EstimatorEntry upkie_observer_entry();
 
 }  // namespace touchdown::experiments

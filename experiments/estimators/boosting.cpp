@@ -87,12 +87,7 @@ EstimatorEntry boosted_entry(const char* name, const char* title, const char* su
           .title = title,
           .summary = summary,
           .reason = "reference: what its inputs contain",
-          .sensors = {.hip_torque = true,
-                      .knee_torque = true,
-                      .wheel_torque = true,
-                      .acceleration = true,
-                      .joint_position = true,
-                      .joint_velocity = true},
+          .sensors = all_sensors,
           .knows = knows,
           .is_upper_bound = true,
           .hyperparameters = {fitted_with(whole_between("trees", BoostingConfig{}.trees, 40, 240)),
@@ -105,18 +100,16 @@ EstimatorEntry boosted_entry(const char* name, const char* title, const char* su
 
 }  // namespace
 
-EstimatorEntry boosted_channels_entry() {
-  return boosted_entry<ChannelInputs>(
-      "boosted_channels", "Boosted trees, own channels",
-      "Classifies the channels of the evidence curves by boosted trees, as their upper bound",
-      {.geometry = true, .mass = true, .targets = true});
-}
-
-EstimatorEntry boosted_signals_entry() {
-  return boosted_entry<SignalWindow>(
-      "boosted_signals", "Boosted trees, all signals",
-      "Classifies 100 ms of all raw signals by boosted trees, as an upper bound",
-      {.targets = true});
+std::vector<EstimatorEntry> boosted_entries() {
+  return {
+      boosted_entry<ChannelInputs>(
+          "boosted_channels", "Boosted trees, own channels",
+          "Classifies the channels of the evidence curves by boosted trees, as their upper bound",
+          {.geometry = true, .mass = true, .targets = true}),
+      boosted_entry<SignalWindow>(
+          "boosted_signals", "Boosted trees, all signals",
+          "Classifies 100 ms of all raw signals by boosted trees, as an upper bound",
+          {.targets = true})};
 }
 
 }  // namespace touchdown::experiments

@@ -117,29 +117,25 @@ EstimatorEntry shipped_entry(const char* name, const char* title, EstimatorEntry
   return entry;
 }
 
-}  // namespace
-
-const char* shipped_file(std::string_view estimator) {
-  return estimator == "shipped_quiet" ? "models/evidence_curves_quiet.npz"
-                                      : "models/evidence_curves.npz";
-}
-
+/// A small network with interpretable input features (estimator/decision).
 EstimatorEntry decision_network_entry() {
   return {
       .name = "decision_network",
       .title = "Decision network",
       .summary = "Classifies each wheel's load and motion at eight time scales by a small network",
       .reason = "reference: what the transparency of evidence curves costs",
-      .sensors = {.hip_torque = true,
-                  .knee_torque = true,
-                  .wheel_torque = true,
-                  .acceleration = true,
-                  .joint_position = true,
-                  .joint_velocity = true},
+      .sensors = all_sensors,
       .knows = {.geometry = true, .mass = true, .targets = true},
       .hyperparameters = and_thresholds({decay()}, network_point),
       .fitting = {.fit = fit_network, .learns_from_segments = true},
       .making = {.by_step = make_of_model}};
+}
+
+}  // namespace
+
+const char* shipped_file(std::string_view estimator) {
+  return estimator == "shipped_quiet" ? "models/evidence_curves_quiet.npz"
+                                      : "models/evidence_curves.npz";
 }
 
 EstimatorEntry evidence_curves_entry() {
@@ -153,15 +149,12 @@ EstimatorEntry evidence_curves_entry() {
   return entry;
 }
 
-EstimatorEntry quiet_evidence_curves_entry() { return at_quiet_point(evidence_curves_entry()); }
-
-EstimatorEntry shipped_curves_entry() {
-  return shipped_entry("shipped", "Evidence curves, shipped", evidence_curves_entry());
-}
-
-EstimatorEntry quiet_shipped_curves_entry() {
-  return shipped_entry("shipped_quiet", "Evidence curves, shipped, quiet",
-                       quiet_evidence_curves_entry());
+std::vector<EstimatorEntry> evidence_entries() {
+  const EstimatorEntry balanced = evidence_curves_entry();
+  const EstimatorEntry quiet = at_quiet_point(balanced);
+  return {decision_network_entry(), balanced, quiet,
+          shipped_entry("shipped", "Evidence curves, shipped", balanced),
+          shipped_entry("shipped_quiet", "Evidence curves, shipped, quiet", quiet)};
 }
 
 std::optional<EvidenceCurveSets> evidence_in(const Model& model) {

@@ -10,6 +10,7 @@
 #include "core/yaml.hpp"
 #include "estimator/models/make_estimator.hpp"
 #include "estimator/numerics/number_text.hpp"
+#include "experiments/signals/reserved_seeds.hpp"
 
 namespace touchdown::experiments {
 
@@ -36,6 +37,13 @@ double EstimatorEntry::chosen(std::string_view hyperparameter) const {
     throw Error(fmt::format("'{}' has no hyperparameter '{}'", name, hyperparameter));
   }
   return found->value;
+}
+
+Model EstimatorEntry::fit(const FitRuns& runs) const {
+  for (const auto* group : {&runs.whole, &runs.segments}) {
+    for (const RunSignals* run : *group) check_may_be_fitted(run->info);
+  }
+  return fitting.fit(*this, runs);
 }
 
 std::unique_ptr<ContactEstimator> EstimatorEntry::make(const EstimatorSetup& setup) const {

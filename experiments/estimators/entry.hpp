@@ -48,6 +48,7 @@ struct Sensors {
   bool joint_position = false;
   bool joint_velocity = false;
 };
+inline constexpr Sensors all_sensors = {true, true, true, true, true, true};
 
 /// The part of the noise that these sensors have; all else is zero. An estimator is evaluated only
 /// once for levels with the same part.
@@ -150,8 +151,9 @@ struct EstimatorEntry {
 
   /// Whether experiments fit a model of it.
   bool fits() const { return fitting.fit != nullptr; }
-  /// Fits its model, still without metadata.
-  Model fit(const FitRuns& runs) const { return fitting.fit(*this, runs); }
+  /// Fits its model, still without metadata. Errors: `InputError` for runs of reserved seeds; those
+  /// of its function.
+  Model fit(const FitRuns& runs) const;
   /// Makes it step by step. Errors: `InputError` for an estimator that processes whole runs only;
   /// the errors of its library class.
   std::unique_ptr<ContactEstimator> make(const EstimatorSetup& setup) const;

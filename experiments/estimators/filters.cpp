@@ -111,15 +111,14 @@ std::unique_ptr<ContactEstimator> make_network(const EstimatorEntry& entry,
 /// The elements of a batch share the encoder signals, so a batch does not support encoder noise.
 std::optional<BatchedEstimator> neural_batch(const EstimatorEntry& entry,
                                              const EstimatorSetup& setup, Levels levels) {
-  std::vector<double> sigmas;
-  for (const noise::SensorNoise& level : levels) {
-    if (level.joint_position != 0.0 || level.joint_velocity != 0.0) return std::nullopt;
-    sigmas.push_back(level.acceleration);
-  }
+  const bool has_encoder_noise = std::ranges::any_of(levels, [](const noise::SensorNoise& level) {
+    return level.joint_position != 0.0 || level.joint_velocity != 0.0;
+  });
+  if (has_encoder_noise) return std::nullopt;
   const NeuralEstimatorConfig config = neural_config(entry, setup);
   const auto batch = std::make_shared<BatchedNeuralNetwork>(
       std::make_shared<const NeuralNetwork>(neural_network_of(network(entry).arrays)), config,
-      sigmas);
+      batch_noise(levels));
   return BatchedEstimator{[batch](const Signals& clean, const NoiseStep& draws) {
                             const auto& [x, y, z] = draws.linear_acceleration;
                             batch->update(clean, {x, y, z});
@@ -147,6 +146,9 @@ EstimatorEntry bayes_entry(const std::string& name, const std::string& summary,
   return entry;
 }
 
+namespace {
+
+/// The paper's ablation: the robust measurement model without transitions.
 EstimatorEntry measurement_only_entry() {
   EstimatorEntry entry = bayes_entry(
       "measurement_only",
@@ -179,6 +181,7 @@ EstimatorEntry phase_entry() {
       .batching = phase_batch};
 }
 
+/// The phase filter without phases, with its inputs, bandwidths and hysteresis.
 EstimatorEntry hmm_entry() {
   EstimatorEntry entry = phase_entry();
   entry.name = "hmm";
@@ -189,14 +192,6 @@ EstimatorEntry hmm_entry() {
   labels.unloading = labels.impact = {0.0, 0.0, 0.0};
   labels.held_margin = std::numeric_limits<double>::infinity();
   return entry;
-}
-
-PhaseFilter phase_filter(const EstimatorEntry& entry, const EstimatorSetup& setup) {
-  return PhaseFilter(setup.model->phase, configured<PhaseFilterConfig>(entry, setup.sample_rate));
-}
-
-TransitionConfig transition_of(const EstimatorEntry& entry) {
-  return configured<BayesFilterConfig>(entry, BayesFilterConfig{}.sample_rate).transition;
 }
 
 EstimatorEntry neural_entry() {
@@ -211,6 +206,7 @@ EstimatorEntry neural_entry() {
           .batching = neural_batch};
 }
 
+/// Trained with the sensor model and noise of a benchmark (experiments/nmn_retrained.yaml).
 EstimatorEntry retrained_neural_entry() {
   EstimatorEntry entry = neural_entry();
   entry.name = "nmn_retrained";
@@ -220,6 +216,34 @@ EstimatorEntry retrained_neural_entry() {
       "Runs the paper's network, retrained on the benchmark's fit scenes with sensor noise";
   entry.reason = "history: the paper's neural baseline on this project's scenes";
   return entry;
+}
+
+}  // namespace
+
+PhaseFilter phase_filter(const EstimatorEntry& entry, const EstimatorSetup& setup) {
+  return PhaseFilter(setup.model->phase, configured<PhaseFilterConfig>(entry, setup.sample_rate));
+}
+
+TransitionConfig transition_of(const EstimatorEntry& entry) {
+  return configured<BayesFilterConfig>(entry, BayesFilterConfig{}.sample_rate).transition;
+}
+
+std::vector<EstimatorEntry> filter_entries() {
+  return {
+      bayes_entry("robust", "Runs the paper's Bayes filter with changes for noisy sensors",
+                  "history: the paper's filter, for noisy sensors", BayesFilterConfig::robust()),
+      bayes_entry("reference", "Runs the paper's Bayes filter as in the authors' robot code",
+                  "history: the authors' robot code", BayesFilterConfig::reference()),
+      bayes_entry("paper", "Runs the paper's Bayes filter exactly as published",
+                  "history: the paper's filter", BayesFilterConfig::paper()),
+      bayes_entry("paper_rms",
+                  "Runs the paper's Bayes filter with the power read as a root mean square",
+                  "history: another reading of the paper's filter", BayesFilterConfig::paper_rms()),
+      measurement_only_entry(),
+      phase_entry(),
+      hmm_entry(),
+      neural_entry(),
+      retrained_neural_entry()};
 }
 
 }  // namespace touchdown::experiments

@@ -12,7 +12,6 @@
 #include "estimator/signal_bounds.hpp"
 #include "estimator/signal_guard.hpp"
 #include "experiments/estimators/fit_runs.hpp"
-#include "experiments/signals/reserved_seeds.hpp"
 #include "scoring/score.hpp"
 
 namespace touchdown::experiments {
@@ -75,7 +74,6 @@ Model fit_phases(std::span<const RunSignals* const> runs, const PhaseFitConfig& 
   std::vector<PhaseFitRun> segments;
   std::list<std::vector<Signals>> filled_runs;
   for (const RunSignals* run : runs) {
-    check_may_be_fitted(run->info);
     if (run->info.control_period_us != runs.front()->info.control_period_us) {
       throw InputError("phase filter: fitted runs must share one control period");
     }
@@ -97,7 +95,6 @@ MeasurementModel fit(std::span<const RunSignals* const> runs, const MeasurementC
   std::vector<TorqueSample> contact;
   std::vector<TorqueSample> no_contact;
   for (const RunSignals* run : runs) {
-    check_may_be_fitted(run->info);
     const double period = run->period();
     const std::size_t skip = scoring::first_scored_step(run->info.control_period_us, scoring);
     for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
@@ -117,7 +114,6 @@ Model fit_parameters(const EstimatorEntry& entry, const FitRuns& runs, const Fit
   std::vector<LabelledRun> labelled;
   std::deque<std::vector<Signals>> copies;
   for (const RunSignals* run : runs.whole) {
-    check_may_be_fitted(run->info);
     labelled.push_back({.signals = usable_signals(*run, copies),
                         .contact = {run->contact[0], run->contact[1]},
                         .sample_rate = 1.0 / run->period(),

@@ -20,8 +20,8 @@ bool may_be_held(const logs::RecordingInfo& info);
 
 /// Fits the phase filter's model to noiseless runs, each without its first `skip` seconds. Its
 /// provenance lists scenarios, simulators, seeds, runs and seconds.
-/// Errors: `InputError` for runs of reserved seeds, of different control periods, or without
-/// rolling or flight; exceptions from `before_density`, see `fit_phase_model`.
+/// Errors: `InputError` for runs of different control periods, or without rolling or flight;
+/// exceptions from `before_density`, see `fit_phase_model`.
 Model fit_phases(std::span<const RunSignals* const> runs, const PhaseFitConfig& config, double skip,
                  const std::function<void()>& before_density = {});
 
@@ -34,8 +34,7 @@ MeasurementModel fit(std::span<const RunSignals* const> runs, const MeasurementC
 using FitParameters = std::function<Parameters(std::span<const LabelledRun> runs)>;
 
 /// Fits the model of an entry with parameters of its own, and records its provenance. It uses whole
-/// runs, each without its beginning. Errors: `InputError` for runs of reserved seeds, and the
-/// errors of `fit`.
+/// runs, each without its beginning. Errors: those of `fit`.
 Model fit_parameters(const EstimatorEntry& entry, const FitRuns& runs, const FitParameters& fit);
 
 }  // namespace touchdown::experiments

@@ -31,8 +31,7 @@ std::unique_ptr<ContactEstimator> make_support_force(const EstimatorEntry& entry
                          .release = contact * entry.chosen("release_share")});
 }
 
-}  // namespace
-
+/// A threshold on each wheel's load, as teams with wheeled legs use it. It needs no fit.
 EstimatorEntry support_force_entry() {
   return {.name = "support_force",
           .title = "Support force",
@@ -64,6 +63,12 @@ EstimatorEntry force_kinematics_entry() {
                           fitted_with(around("leak", ForceKinematicsConfig{}.leak, 4.0))},
       .fitting = {.fit = fit_wheel_states},
       .making = {.by_step = make_of_model}};
+}
+
+}  // namespace
+
+std::vector<EstimatorEntry> force_entries() {
+  return {support_force_entry(), force_kinematics_entry()};
 }
 
 }  // namespace touchdown::experiments

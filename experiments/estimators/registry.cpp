@@ -20,35 +20,14 @@ const EstimatorEntry* find(std::span<const EstimatorEntry> entries, std::string_
 }  // namespace
 
 std::span<const EstimatorEntry> estimator_entries() {
-  static const std::vector<EstimatorEntry> entries = {
-      bayes_entry("robust", "Runs the paper's Bayes filter with changes for noisy sensors",
-                  "history: the paper's filter, for noisy sensors", BayesFilterConfig::robust()),
-      bayes_entry("reference", "Runs the paper's Bayes filter as in the authors' robot code",
-                  "history: the authors' robot code", BayesFilterConfig::reference()),
-      bayes_entry("paper", "Runs the paper's Bayes filter exactly as published",
-                  "history: the paper's filter", BayesFilterConfig::paper()),
-      bayes_entry("paper_rms",
-                  "Runs the paper's Bayes filter with the power read as a root mean square",
-                  "history: another reading of the paper's filter", BayesFilterConfig::paper_rms()),
-      measurement_only_entry(),
-      phase_entry(),
-      hmm_entry(),
-      neural_entry(),
-      retrained_neural_entry(),
-      upkie_observer_entry(),
-      free_fall_entry(),
-      support_force_entry(),
-      force_kinematics_entry(),
-      decision_network_entry(),
-      evidence_curves_entry(),
-      quiet_evidence_curves_entry(),
-      shipped_curves_entry(),
-      quiet_shipped_curves_entry(),
-      boosted_channels_entry(),
-      boosted_signals_entry(),
-      oracle_entry(),
-      always_contact_entry(),
-  };
+  static const std::vector<EstimatorEntry> entries = [] {
+    std::vector<EstimatorEntry> all;
+    for (const auto& of_file : {filter_entries(), observer_entries(), force_entries(),
+                                evidence_entries(), boosted_entries(), reference_entries()}) {
+      all.insert(all.end(), of_file.begin(), of_file.end());
+    }
+    return all;
+  }();
   return entries;
 }
 

@@ -78,29 +78,14 @@ class BatchCounts {
 NoiseStep draws_at(const NoiseRun& noise, std::size_t step) {
   NoiseStep draws;
   for (std::size_t side = 0; side < models::wheel_count; ++side) {
-    draws.torque[side] = {noise.knee_torque[side][step], noise.wheel_torque[side][step]};
+    const auto& torque = noise.joint[side].torque;
+    draws.torque[side] = {torque[1][step], torque[2][step]};
   }
   draws.acceleration = noise.vertical_acceleration[step];
   draws.linear_acceleration = {noise.acceleration[0][step], noise.acceleration[1][step],
                                noise.acceleration[2][step]};
   return draws;
 }
-
-/// The noise levels that differ for an estimator with these sensors, and the index of each cell's
-/// level among them.
-struct DifferentLevels {
-  DifferentLevels(const Sensors& sensors, std::span<const noise::SensorNoise> levels) {
-    for (const noise::SensorNoise& level : levels) {
-      const noise::SensorNoise part = noise_of(sensors, level);
-      const auto known = std::find(different.begin(), different.end(), part);
-      of_cell.push_back(static_cast<std::size_t>(known - different.begin()));
-      if (known == different.end()) different.push_back(part);
-    }
-  }
-
-  std::vector<noise::SensorNoise> different;
-  std::vector<std::size_t> of_cell;
-};
 
 std::vector<noise::SensorNoise> levels_of(std::span<const noise::NoiseCell> cells) {
   std::vector<noise::SensorNoise> levels;
@@ -197,20 +182,19 @@ std::vector<scoring::Classification> sweep_run(std::span<const Condition> condit
   for (const Condition& condition : conditions) {
     const EstimatorEntry entry = entry_of(experiment, condition, models);
     const EstimatorSetup setup = setup_of(experiment, condition, models, run);
-    const DifferentLevels levels(entry.sensors, all_levels);
+    Distinct<noise::SensorNoise> levels;  // that differ for the estimator's sensors
+    for (const noise::SensorNoise& level : all_levels) levels.add(noise_of(entry.sensors, level));
     std::optional<BatchedEstimator> batch;
     if (can_batch && entry.batching != nullptr) {
-      batch = entry.batching(entry, setup, levels.different);
+      batch = entry.batching(entry, setup, levels.value);
     }
     const auto one_by_one = [&] {
-      return sweep_levels(entry.runner(setup), levels.different, run, noise, scoring,
-                          should_continue);
+      return sweep_levels(entry.runner(setup), levels.value, run, noise, scoring, should_continue);
     };
     const std::vector<scoring::Classification> by_level =
-        batch
-            ? count_in_batch(*batch, levels.different.size(), run, noise, scoring, should_continue)
-            : one_by_one();
-    for (const std::size_t level : levels.of_cell) {
+        batch ? count_in_batch(*batch, levels.value.size(), run, noise, scoring, should_continue)
+              : one_by_one();
+    for (const std::size_t level : levels.index) {
       const auto first = by_level.begin() + static_cast<std::ptrdiff_t>(level * segments);
       counts.insert(counts.end(), first, first + static_cast<std::ptrdiff_t>(segments));
     }

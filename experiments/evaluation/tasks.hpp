@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <compare>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -109,9 +110,7 @@ class NoiseFreeScores {
     std::size_t condition;  ///< index among those of the run's engine
     std::size_t cell;       ///< index among the group's scored cells
 
-    friend bool operator<(const Key& a, const Key& b) {
-      return std::tie(a.run, a.condition, a.cell) < std::tie(b.run, b.condition, b.cell);
-    }
+    auto operator<=>(const Key&) const = default;
   };
   using Scores = std::vector<scoring::RobotScore>;
 
@@ -159,10 +158,7 @@ std::vector<ConditionSamples<Sample>> own(std::vector<ConditionSamples<Sample>> 
 template <typename Sample>
 const std::vector<Sample>& samples_of(const std::vector<ConditionSamples<Sample>>& all,
                                       const Condition& condition, std::size_t cell) {
-  return std::find_if(
-             all.begin(), all.end(),
-             [&](const ConditionSamples<Sample>& one) { return one.condition == condition; })
-      ->samples[cell];
+  return std::ranges::find(all, condition, &ConditionSamples<Sample>::condition)->samples[cell];
 }
 
 using ConditionCounts = ConditionSamples<scoring::Classification>;  ///< both wheels added

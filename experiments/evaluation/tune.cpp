@@ -118,7 +118,7 @@ std::vector<SceneCounts> run_fold(const FoldJob& job, const Fold& fold,
       const HyperparameterValues& hyperparameters = trials[number].hyperparameters;
       const EstimatorEntry entry = with_hyperparameters(*job.entry, hyperparameters);
       if (entry.fits()) {
-        if (number == numbers.front()) model = fit_model(entry, runs);
+        if (number == numbers.front()) model = entry.fit(runs);
         model.metadata = new_metadata(entry.name, runs, hyperparameters);
       }
       counts[number] = counts_on(held_out, entry, model, experiment, stop_if_asked);

@@ -10,7 +10,6 @@
 #include "core/error.hpp"
 #include "core/progress.hpp"
 #include "core/random.hpp"
-#include "experiments/signals/reserved_seeds.hpp"
 
 namespace touchdown::experiments {
 
@@ -151,13 +150,6 @@ RunPointers of_engine(const RunPointers& runs, const std::string& simulator) {
   return own;
 }
 
-Model fit_model(const EstimatorEntry& entry, const FitRuns& runs) {
-  for (const auto* group : {&runs.whole, &runs.segments}) {
-    for (const RunSignals* run : *group) check_may_be_fitted(run->info);
-  }
-  return entry.fit(runs);
-}
-
 ModelMetadata new_metadata(const std::string& estimator, const FitRuns& runs,
                            const HyperparameterValues& hyperparameters) {
   FittedTo fitted_to;
@@ -195,7 +187,7 @@ FittedModels fit_models(const Experiment& experiment, const RunPointers& fit_run
     Job& job = *in_order[next++];
     const std::string& simulator = job.simulator;
     try {
-      job.model = fit_model(job.entry, runs_of(simulator));
+      job.model = job.entry.fit(runs_of(simulator));
     } catch (const InputError& error) {
       throw InputError(fmt::format("fit on {}: {}", simulator, error.what()));
     }

@@ -22,10 +22,6 @@ TunedHyperparameters or_given(TunedHyperparameters chosen, const Experiment& exp
 /// The runs of one engine.
 RunPointers of_engine(const RunPointers& runs, const std::string& simulator);
 
-/// Fits one model, still without metadata. Errors: `InputError` for runs of reserved seeds; the
-/// errors of the entry's `fit`.
-Model fit_model(const EstimatorEntry& entry, const FitRuns& runs);
-
 /// The metadata of an estimator's model that is fitted to these runs. Its configuration takes over
 /// chosen values as `put_into` does.
 ModelMetadata new_metadata(const std::string& estimator, const FitRuns& runs,

@@ -91,8 +91,7 @@ void require_distinct(const PlannedRun& first, const PlannedRun& second, const P
 }  // namespace
 
 void add_measure(Measure measure, RunGroup& group) {
-  const auto same = std::find_if(group.measures.begin(), group.measures.end(),
-                                 [&](const Measure& one) { return one.name == measure.name; });
+  const auto same = std::ranges::find(group.measures, measure.name, &Measure::name);
   if (same == group.measures.end()) group.measures.push_back(std::move(measure));
 }
 
@@ -110,15 +109,13 @@ std::uint64_t seed_of_fit(const Experiment& experiment) {
 }
 
 std::optional<std::size_t> Plan::group_called(std::string_view name) const {
-  const auto group = std::find_if(groups.begin(), groups.end(),
-                                  [&](const RunGroup& one) { return one.name == name; });
+  const auto group = std::ranges::find(groups, name, &RunGroup::name);
   if (group == groups.end()) return std::nullopt;
   return static_cast<std::size_t>(group - groups.begin());
 }
 
 const ModelTasks& Plan::model_tasks_called(std::string_view name) const {
-  const auto found = std::find_if(model_tasks.begin(), model_tasks.end(),
-                                  [&](const ModelTasks& one) { return one.name == name; });
+  const auto found = std::ranges::find(model_tasks, name, &ModelTasks::name);
   if (found == model_tasks.end()) throw Error(fmt::format("'{}' is not in the plan", name));
   return *found;
 }

@@ -114,6 +114,9 @@ struct PlannedRun {
   std::size_t sensors = 0;  ///< of its signals: index in the plan's sensors
   std::string fit = {};     ///< of fitted runs: the name of their fit
   bool kept = true;         ///< whether its recording is kept
+
+  bool is_of_whole_fit() const { return role == RunRole::fit && group == 0; }
+  bool is_of_segments() const { return role == RunRole::fit && group > 0; }
 };
 
 /// Test runs with the same evaluation. Counts are computed for all conditions; scores and measures

@@ -181,8 +181,7 @@ std::vector<NamedSensors> read_sensors(const Experiment& experiment,
 }
 
 noise::SensorProfile profile_of(const std::vector<NamedSensors>& sensors, const std::string& file) {
-  const auto named = std::find_if(sensors.begin(), sensors.end(),
-                                  [&](const NamedSensors& one) { return one.file == file; });
+  const auto named = std::ranges::find(sensors, file, &NamedSensors::file);
   return named == sensors.end() ? noise::SensorProfile{} : named->profile;
 }
 
@@ -265,7 +264,7 @@ void write_request(const RunRequest& request, const RunDirectory& directory, boo
   write_atomically(directory.path() / "config.yaml", to_yaml(request.experiment));
 }
 
-RunRequest read_request(const fs::path& directory, std::vector<StudySection> sections) {
+RunRequest read_request(const fs::path& directory) {
   const std::optional<RunDirectoryOwner> owner = owner_of(directory);
   if (!owner || owner->key.empty()) {
     throw InputError(fmt::format("{}: holds no part of an experiment", directory.string()));
@@ -276,8 +275,7 @@ RunRequest read_request(const fs::path& directory, std::vector<StudySection> sec
                     directory.string()));
   }
   RunRequest request;
-  request.experiment =
-      experiment_from_yaml(YamlDocument::load(directory / "config.yaml"), std::move(sections), {});
+  request.experiment = experiment_from_yaml(YamlDocument::load(directory / "config.yaml"));
   request.sensors = read_sensors(request.experiment, directory);
   request.scenarios = scenarios_of(
       request.experiment,

@@ -87,9 +87,8 @@ bool is_written(const RunRequest& request, const std::filesystem::path& director
 /// lock.
 void write_request(const RunRequest& request, const RunDirectory& directory, bool overwrite);
 
-/// Reads the request of a directory, which may have these studies' sections. Errors: `InputError`
-/// when the directory holds none, one of another build, or a request with an input that was changed
-/// after it was written, which is named.
-RunRequest read_request(const std::filesystem::path& directory, std::vector<StudySection> sections);
+/// Reads the request of a directory. Errors: `InputError` when the directory holds none, one of
+/// another build, or a request with an input that was changed after it was written, which is named.
+RunRequest read_request(const std::filesystem::path& directory);
 
 }  // namespace touchdown::experiments

@@ -181,14 +181,6 @@ std::string simulation_key(const PlannedRun& run) {
       .text();
 }
 
-std::vector<const RunSignals*> scored_runs(const std::vector<Rollout>& runs) {
-  std::vector<const RunSignals*> scored;
-  for (const Rollout& run : runs) {
-    if (run.plan.role == RunRole::test && !run.failed()) scored.push_back(&run.signals);
-  }
-  return scored;
-}
-
 bool is_any_scored(const Rollouts& runs) {
   return std::any_of(runs.begin(), runs.end(), [](const auto& entry) {
     return entry.second.plan.role == RunRole::test && !entry.second.failed();

@@ -40,9 +40,6 @@ struct Rollout {
 /// Rollouts by their index in the plan.
 using Rollouts = std::map<std::size_t, Rollout>;
 
-/// The signals of the scored test runs: all that did not fail.
-std::vector<const RunSignals*> scored_runs(const std::vector<Rollout>& runs);
-
 /// Whether any test run can be scored: did not fail.
 bool is_any_scored(const Rollouts& runs);
 

@@ -39,28 +39,19 @@ RunSignals segment_of(const RunSignals& run, const TrainingSegments& segments, s
   return cut(run, earliest + later, length);
 }
 
-bool is_of_segment(const PlannedRun& run) {
-  return run.role == RunRole::fit && run.group >= segment_group(0);
-}
-
 auto queue_of(const PlannedRun& run) { return std::tuple(run.fit, run.simulator, run.group); }
 
 }  // namespace
 
 TrainingPieces training_pieces(const Rollouts& runs, const Experiment& experiment) {
   TrainingPieces pieces;
+  const std::vector<TrainingSegments>& segments = experiment.training_segments;
   for (const std::string& simulator : experiment.simulators) {
-    const RunPointers segments =
-        training_segments_of(runs, simulator, experiment.training_segments);
-    pieces.runs.insert(pieces.runs.end(), segments.begin(), segments.end());
+    const RunPointers more = segments.empty() ? whole_fit_runs(runs, simulator)
+                                              : training_segments_of(runs, simulator, segments);
+    pieces.runs.insert(pieces.runs.end(), more.begin(), more.end());
   }
-  if (!experiment.training_segments.empty()) return pieces;
-  pieces.skip = experiment.scoring.skip;
-  for (const auto& [index, run] : runs) {
-    const PlannedRun& plan = run.plan;
-    const bool is_wanted = plan.role == RunRole::fit && plan.fit.empty() && plan.group == 0;
-    if (is_wanted && !run.failed()) pieces.runs.push_back(&run.signals);
-  }
+  if (segments.empty()) pieces.skip = experiment.scoring.skip;
   return pieces;
 }
 
@@ -91,13 +82,13 @@ double used_seconds(const RunSignals& piece, double skip) {
 SegmentCutter::SegmentCutter(std::span<const TrainingSegments> segments, Rollouts& runs)
     : segments_(segments), runs_(runs) {
   for (const auto& [index, run] : runs) {
-    if (is_of_segment(run.plan)) queues_[queue_of(run.plan)].runs.push_back(index);
+    if (run.plan.is_of_segments()) queues_[queue_of(run.plan)].runs.push_back(index);
   }
 }
 
 void SegmentCutter::add(std::size_t index) {
   const PlannedRun& plan = runs_.at(index).plan;
-  if (!is_of_segment(plan)) return;
+  if (!plan.is_of_segments()) return;
   const std::lock_guard lock(mutex_);
   there_.insert(index);
   Queue& queue = queues_.at(queue_of(plan));
@@ -106,6 +97,17 @@ void SegmentCutter::add(std::size_t index) {
     if (run.failed()) continue;
     run.signals = segment_of(run.signals, segments_[plan.group - segment_group(0)], queue.good++);
   }
+}
+
+RunPointers whole_fit_runs(const Rollouts& runs, const std::string& simulator,
+                           const std::string& fit) {
+  RunPointers all;
+  for (const auto& [index, run] : runs) {
+    const PlannedRun& plan = run.plan;
+    const bool is_wanted = plan.is_of_whole_fit() && plan.fit == fit && plan.simulator == simulator;
+    if (is_wanted && !run.failed()) all.push_back(&run.signals);
+  }
+  return all;
 }
 
 RunPointers training_segments_of(const Rollouts& runs, const std::string& simulator,

@@ -39,6 +39,10 @@ class SegmentCutter {
   std::set<std::size_t> there_;  ///< runs that `add` got
 };
 
+/// The whole runs of one fit on one engine that did not fail. `runs` must outlive the result.
+RunPointers whole_fit_runs(const Rollouts& runs, const std::string& simulator,
+                           const std::string& fit = {});
+
 /// The cut segments of one fit on one engine: for every entry, those of the first `runs` runs that
 /// did not fail. `runs` must outlive the result.
 RunPointers training_segments_of(const Rollouts& runs, const std::string& simulator,

@@ -1,6 +1,6 @@
 #include "experiments/run_directory/shard.hpp"
 
-#include <charconv>
+#include <optional>
 #include <regex>
 #include <utility>
 #include <vector>
@@ -19,32 +19,31 @@ namespace {
 
 fs::path mark_folder(const fs::path& run_directory) { return run_directory / "state" / "shards"; }
 
+/// Two whole numbers with `between` between them; nothing for another text.
+std::optional<Shard> read_shard(const std::string& text, const char* between) {
+  const std::regex shape(fmt::format(R"((\d{{1,6}}){}(\d{{1,6}}))", between));
+  std::smatch part;
+  if (!std::regex_match(text, part, shape)) return std::nullopt;
+  return Shard{std::stoi(part[1]), std::stoi(part[2])};
+}
+
 /// The marks of started shards, with their files.
 std::vector<std::pair<fs::path, Shard>> marks_in(const fs::path& run_directory) {
-  static const std::regex shape(R"((\d{1,6})_of_(\d{1,6}))");
   std::vector<std::pair<fs::path, Shard>> found;
   for (const fs::path& mark : entries_in(mark_folder(run_directory))) {
-    const std::string name = mark.filename().string();
-    std::smatch part;
-    if (!std::regex_match(name, part, shape)) continue;
-    found.push_back({mark, {std::stoi(part[1]), std::stoi(part[2])}});
+    const std::optional<Shard> shard = read_shard(mark.filename().string(), "_of_");
+    if (shard) found.emplace_back(mark, *shard);
   }
   return found;
 }
 
 }  // namespace
 
-Shard shard_from(std::string_view text) {
+Shard shard_from(const std::string& text) {
   constexpr int most = 100'000;
-  Shard shard{0, 0};
-  const char* const end = text.data() + text.size();
-  const auto [slash, first_error] = std::from_chars(text.data(), end, shard.index);
-  if (first_error == std::errc{} && slash != end && *slash == '/') {
-    const auto [rest, second_error] = std::from_chars(slash + 1, end, shard.count);
-    if (second_error == std::errc{} && rest == end && shard.index >= 1 &&
-        shard.index <= shard.count && shard.count <= most) {
-      return shard;
-    }
+  const std::optional<Shard> shard = read_shard(text, "/");
+  if (shard && shard->index >= 1 && shard->index <= shard->count && shard->count <= most) {
+    return *shard;
   }
   throw InputError(
       fmt::format("'{}' is no shard: expected k/n with k from 1 to n, for example 1/3", text));

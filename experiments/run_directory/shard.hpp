@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <set>
 #include <string>
-#include <string_view>
 
 namespace touchdown::experiments {
 
@@ -26,7 +25,7 @@ struct Shard {
 };
 
 /// Reads "2/3". Errors: `InputError` unless it is k/n with 1 ≤ k ≤ n ≤ 100,000.
-Shard shard_from(std::string_view text);
+Shard shard_from(const std::string& text);
 std::string to_text(const Shard& shard);
 
 /// Marks a shard as started in its run directory, so that `merge` can name missing shards, and

@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "logs/signals_from.hpp"
+#include "noise/sensor_chain.hpp"
 
 namespace touchdown::experiments {
 
@@ -106,12 +107,6 @@ NoiseRun noise_run(const RunSignals& run, const noise::NoiseKey& key) {
     return draws;
   };
   NoiseRun noise;
-  noise.hip_torque = {column(noise::NoiseChannel::left_hip_torque),
-                      column(noise::NoiseChannel::right_hip_torque)};
-  noise.knee_torque = {column(noise::NoiseChannel::left_knee_torque),
-                       column(noise::NoiseChannel::right_knee_torque)};
-  noise.wheel_torque = {column(noise::NoiseChannel::left_wheel_torque),
-                        column(noise::NoiseChannel::right_wheel_torque)};
   noise.acceleration = {column(noise::NoiseChannel::accelerometer_x),
                         column(noise::NoiseChannel::accelerometer_y),
                         column(noise::NoiseChannel::accelerometer_z)};
@@ -123,10 +118,11 @@ NoiseRun noise_run(const RunSignals& run, const noise::NoiseKey& key) {
   }
   for (int i = 0; i < models::servo_count; ++i) {
     const auto servo = static_cast<models::Servo>(i);
-    const auto leg = static_cast<std::size_t>(i / 3);
+    JointNoise& leg = noise.joint[static_cast<std::size_t>(i / 3)];
     const auto joint = static_cast<std::size_t>(i % 3);
-    noise.encoder[leg].position[joint] = column(noise::position_channel(servo));
-    noise.encoder[leg].velocity[joint] = column(noise::velocity_channel(servo));
+    leg.torque[joint] = column(noise::torque_channel(servo));
+    leg.position[joint] = column(noise::position_channel(servo));
+    leg.velocity[joint] = column(noise::velocity_channel(servo));
   }
   return noise;
 }
@@ -137,8 +133,8 @@ void add_encoder_noise(Signals& signals, const NoiseRun& noise, const noise::Sen
     LegSignals& leg = signals.leg[i];
     std::size_t joint = 0;
     for (JointSignals* servo : {&leg.hip, &leg.knee, &leg.wheel}) {
-      servo->position += levels.joint_position * noise.encoder[i].position[joint][step];
-      servo->velocity += levels.joint_velocity * noise.encoder[i].velocity[joint][step];
+      servo->position += levels.joint_position * noise.joint[i].position[joint][step];
+      servo->velocity += levels.joint_velocity * noise.joint[i].velocity[joint][step];
       ++joint;
     }
   }

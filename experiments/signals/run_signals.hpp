@@ -71,8 +71,9 @@ RunPointers pointers_to(const std::vector<RunSignals>& runs);
 RunSignals signals_of(const logs::Recording& recording, const scoring::LabelConfig& labels,
                       const scoring::ScoringConfig& scoring, scoring::SampleUnit unit);
 
-/// Position and velocity of each joint of one leg, per step: hip, knee, wheel.
-struct EncoderNoise {
+/// Draws for each joint of one leg, per step: hip, knee, wheel.
+struct JointNoise {
+  std::array<std::vector<double>, 3> torque;
   std::array<std::vector<double>, 3> position;
   std::array<std::vector<double>, 3> velocity;
 };
@@ -80,12 +81,9 @@ struct EncoderNoise {
 /// Standard normal draws for all signals of one run. Each noise level of a sweep scales them. The
 /// draws equal those of `with_noise` with the same key.
 struct NoiseRun {
-  std::array<std::vector<double>, models::wheel_count> hip_torque;
-  std::array<std::vector<double>, models::wheel_count> knee_torque;
-  std::array<std::vector<double>, models::wheel_count> wheel_torque;
+  std::array<JointNoise, models::wheel_count> joint;
   std::array<std::vector<double>, 3> acceleration;  ///< in the IMU frame
   std::vector<double> vertical_acceleration;        ///< the same, along the world's vertical
-  std::array<EncoderNoise, models::wheel_count> encoder;
 };
 
 NoiseRun noise_run(const RunSignals& run, const noise::NoiseKey& key);
@@ -99,9 +97,10 @@ inline Signals noisy(const RunSignals& run, const NoiseRun& noise, const noise::
                      std::size_t step) {
   Signals signals = run.signals[step];
   for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
-    signals.leg[leg].hip.torque += levels.hip_torque * noise.hip_torque[leg][step];
-    signals.leg[leg].knee.torque += levels.knee_torque * noise.knee_torque[leg][step];
-    signals.leg[leg].wheel.torque += levels.wheel_torque * noise.wheel_torque[leg][step];
+    const auto& torque = noise.joint[leg].torque;
+    signals.leg[leg].hip.torque += levels.hip_torque * torque[0][step];
+    signals.leg[leg].knee.torque += levels.knee_torque * torque[1][step];
+    signals.leg[leg].wheel.torque += levels.wheel_torque * torque[2][step];
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     signals.linear_acceleration[static_cast<int>(axis)] +=

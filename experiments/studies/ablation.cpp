@@ -11,6 +11,7 @@
 #include "core/rows.hpp"
 #include "experiments/config/experiment_yaml.hpp"
 #include "experiments/estimators/entries.hpp"
+#include "experiments/estimators/registry.hpp"
 #include "experiments/evaluation/joint_bootstrap.hpp"
 #include "experiments/figures/figure_spec.hpp"
 #include "experiments/results/captions.hpp"
@@ -55,7 +56,7 @@ void describe(Fields& fields, AblationConfig& config, const Experiment& experime
 }
 
 EstimatorEntry hmm_without_memory() {
-  EstimatorEntry entry = hmm_entry();
+  EstimatorEntry entry = estimator_entry("hmm");
   entry.name = "hmm_without_memory";
   entry.title = entry.name;
   entry.summary = "Runs the two-state HMM with uniform transition probabilities";

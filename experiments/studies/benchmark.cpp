@@ -40,8 +40,7 @@ static void describe(Fields& fields, BenchmarkConfig& benchmark, const Experimen
   fields("refits_everywhere", benchmark.refits_everywhere)
       .doc("Whether refits cover all robots and sensors, or the experiment's own.");
   fields("clips", benchmark.clips).doc("Whether the worst segment of every estimator is filmed.");
-  fields.know("table");
-  if (!fields.present("table", !benchmark.table.empty())) return;
+  if (!fields.given("table", !benchmark.table.empty())) return;
   own_estimators(fields, "table", experiment, benchmark.table)
       .fallback("all that are ranked")
       .doc("Estimators of `benchmark_unseen.md`.");

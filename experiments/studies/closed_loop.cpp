@@ -34,9 +34,8 @@ std::size_t points_of(const ClosedLoopScene& scene) {
 
 static void describe(Fields& fields, ClosedLoopScene& scene, const Experiment& experiment) {
   fields.require("scenario", scene.scenario).doc("Scenario file.");
-  fields.know("key");
-  fields.know("values");
-  if (fields.present("key", !scene.key.empty()) || fields.present("values", false)) {
+  const bool has_key = fields.given("key", !scene.key.empty());
+  if (fields.given("values", false) || has_key) {
     fields.require("key", scene.key)
         .fallback("none")
         .doc("Dotted key of the scenario that is varied.");
@@ -104,12 +103,7 @@ static void describe(Fields& fields, ClosedLoopConfig& config, const Experiment&
   fields.check(!config.scenes.empty(), "scenes", "expected at least one scene");
   fields("runs", config.runs, 1, 100'000)
       .doc("Runs per scene and value, the same for all contact sources.");
-  fields.know("film");
-  if (!fields.present("film", config.film.has_value())) return;
-  if (fields.reading()) config.film.emplace();
-  fields.within("film", [&](Fields& film) { describe(film, *config.film, config); })
-      .fallback("none")
-      .doc("The run that is filmed.");
+  fields.section("film", config.film, config).doc("The run that is filmed.");
 }
 
 namespace {

@@ -92,12 +92,8 @@ static void describe(Fields& section, CrossSimulatorConfig& config, const Experi
                     .doc("Estimators that must pass, or the run fails.");
               })
       .doc("What an estimator must achieve.");
-  if (section.present("causes", config.causes.has_value())) {
-    if (section.reading()) config.causes.emplace();
-    section.section("causes", *config.causes, experiment)
-        .fallback("none")
-        .doc("How much of the difference is edges, tyres, physics step and solver.");
-  }
+  section.section("causes", config.causes, experiment)
+      .doc("How much of the difference is edges, tyres, physics step and solver.");
   section
       .within("overlay",
               [&](Fields& fields) {

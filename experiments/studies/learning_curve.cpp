@@ -67,10 +67,7 @@ void describe(Fields& fields, LearningCurveConfig& config, const Experiment& exp
 
 /// The segments are planned already if one of the estimators learns from them anyway.
 void require_segments(const RunRequest& request, Plan& plan) {
-  const bool are_planned = std::any_of(plan.runs.begin(), plan.runs.end(), [](const auto& run) {
-    return run.role == RunRole::fit && run.group >= segment_group(0);
-  });
-  if (are_planned) return;
+  if (std::ranges::any_of(plan.runs, &PlannedRun::is_of_segments)) return;
   const std::vector<TrainingSegments>& entries = request.experiment.training_segments;
   for (std::size_t entry = 0; entry < entries.size(); ++entry) {
     plan_segment_runs(request, {}, entry, 0, entries[entry].runs, plan);

@@ -4,28 +4,16 @@
 
 namespace touchdown::experiments {
 
-namespace {
-
-template <typename... Studies>
-std::vector<std::unique_ptr<const Study>> listed(Studies... studies) {
-  std::vector<std::unique_ptr<const Study>> all;
-  (all.push_back(std::move(studies)), ...);
-  return all;
-}
-
-}  // namespace
-
 const std::vector<std::unique_ptr<const Study>>& studies() {
-  static const auto all = listed(labels_study(),            //
-                                 cross_simulator_study(),   //
-                                 benchmark_study(),         //
-                                 odometry_study(),          //
-                                 operating_points_study(),  //
-                                 closed_loop_study(),       //
-                                 moments_study(),           //
-                                 sensor_sweep_study(),      //
-                                 learning_curve_study(),    //
-                                 ablation_study());
+  static const auto all = [] {
+    std::vector<std::unique_ptr<const Study>> made;
+    for (const auto make : {labels_study, cross_simulator_study, benchmark_study, odometry_study,
+                            operating_points_study, closed_loop_study, moments_study,
+                            sensor_sweep_study, learning_curve_study, ablation_study}) {
+      made.push_back(make());
+    }
+    return made;
+  }();
   return all;
 }
 

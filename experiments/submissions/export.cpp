@@ -11,10 +11,10 @@
 #include "core/files.hpp"
 #include "core/resources.hpp"
 #include "core/table.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/config/yaml_kind.hpp"
 #include "experiments/results/scores.hpp"
 #include "experiments/run_directory/directory.hpp"
-#include "experiments/studies/experiment_file.hpp"
 
 namespace touchdown::experiments {
 
@@ -251,7 +251,9 @@ std::string export_outline(const ExportRequest& wanted) {
 ExportReport export_benchmark(const ExportRequest& wanted, const RunOptions& options) {
   RunRequest request = request_in(wanted.source);
   const auto write = [&](RunDirectory directory) {
-    ExperimentContext context = start(std::move(request), std::move(directory), options);
+    Plan whole = whole_plan(request);
+    ExperimentContext context =
+        start(std::move(request), std::move(whole), std::move(directory), options);
     Plan& plan = context.plan;
     const std::vector<ExportedRun> runs =
         part_of(exported_runs(context.request, plan), wanted.part, plan);

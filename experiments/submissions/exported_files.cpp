@@ -100,17 +100,12 @@ ModelArray array_of(const std::vector<Signals>& steps, std::size_t columns, cons
   return array;
 }
 
-ModelArray joints(const std::vector<Signals>& steps, double JointSignals::*member) {
+/// One number of each joint: of what its sensors report, or of its target.
+template <typename Leg, typename Joint>
+ModelArray joints(const std::vector<Signals>& steps, std::array<Leg, 2> Signals::*legs,
+                  double Joint::*member) {
   return array_of(steps, 6, [&](const Signals& signals, std::vector<double>& data) {
-    for (const LegSignals& leg : signals.leg) {
-      data.insert(data.end(), {leg.hip.*member, leg.knee.*member, leg.wheel.*member});
-    }
-  });
-}
-
-ModelArray targets(const std::vector<Signals>& steps, double JointTarget::*member) {
-  return array_of(steps, 6, [&](const Signals& signals, std::vector<double>& data) {
-    for (const LegTargets& leg : signals.target) {
+    for (const Leg& leg : signals.*legs) {
       data.insert(data.end(), {leg.hip.*member, leg.knee.*member, leg.wheel.*member});
     }
   });
@@ -146,18 +141,18 @@ ModelArrays arrays_of(const RunSignals& run,
   }
   return {{"time", numbers(steps, &Signals::time)},
           {"has_record", std::move(recorded)},
-          {"position", joints(steps, &JointSignals::position)},
-          {"velocity", joints(steps, &JointSignals::velocity)},
-          {"torque", joints(steps, &JointSignals::torque)},
+          {"position", joints(steps, &Signals::leg, &JointSignals::position)},
+          {"velocity", joints(steps, &Signals::leg, &JointSignals::velocity)},
+          {"torque", joints(steps, &Signals::leg, &JointSignals::torque)},
           {"linear_acceleration", vectors(steps, &Signals::linear_acceleration)},
           {"angular_velocity", vectors(steps, &Signals::angular_velocity)},
           {"vertical_acceleration", numbers(steps, &Signals::vertical_acceleration)},
           {"ground_velocity_command", numbers(steps, &Signals::ground_velocity_command)},
-          {"target_position", targets(steps, &JointTarget::position)},
-          {"target_velocity", targets(steps, &JointTarget::velocity)},
-          {"target_torque", targets(steps, &JointTarget::feedforward_torque)},
-          {"target_kp", targets(steps, &JointTarget::kp)},
-          {"target_kd", targets(steps, &JointTarget::kd)},
+          {"target_position", joints(steps, &Signals::target, &JointTarget::position)},
+          {"target_velocity", joints(steps, &Signals::target, &JointTarget::velocity)},
+          {"target_torque", joints(steps, &Signals::target, &JointTarget::feedforward_torque)},
+          {"target_kp", joints(steps, &Signals::target, &JointTarget::kp)},
+          {"target_kd", joints(steps, &Signals::target, &JointTarget::kd)},
           {"contact", std::move(contact)}};
 }
 

@@ -15,12 +15,12 @@
 #include "core/files.hpp"
 #include "core/terminal_text.hpp"
 #include "core/yaml.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/plan/rollouts.hpp"
 #include "experiments/results/long_table.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/studies/benchmark.hpp"
-#include "experiments/studies/experiment_file.hpp"
 #include "experiments/submissions/export.hpp"
 
 namespace touchdown::experiments {
@@ -324,17 +324,11 @@ SubmittedPrediction prediction_of(const logs::Beliefs& beliefs, const RunSignals
 }
 
 BeliefReport score_beliefs(const BeliefRequest& wanted, const RunOptions& options) {
-  require_no_links(wanted.run);
-  std::optional<DirectoryLock> lock;
-  if (owner_of(wanted.run)) lock.emplace(wanted.run, Access::alone, options.command);
-  RunRequest request = read_request(wanted.run);  // throws if no run owns the directory
+  ExperimentContext context = reopened(wanted.run, options);
   if (!is_there(wanted.run / "manifest.json")) {
     throw InputError(fmt::format("{}: is not finished: run the same experiment again first",
                                  wanted.run.string()));
   }
-  RunDirectory directory(request.experiment.name, request.id, wanted.run);
-  directory.keep(*lock);
-  ExperimentContext context = start(std::move(request), std::move(directory), options);
   try {
     return scored(wanted, context);
   } catch (const Stopped&) {

@@ -4,9 +4,9 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/results/result_files.hpp"
 #include "experiments/results/summary_file.hpp"
-#include "experiments/studies/experiment_file.hpp"
 
 namespace touchdown::render {
 

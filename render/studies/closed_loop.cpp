@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/results/odometry.hpp"
-#include "experiments/studies/experiment_file.hpp"
 #include "render/film/video.hpp"
 #include "render/palette.hpp"
 #include "render/report/filmed_run.hpp"

@@ -11,6 +11,8 @@ import re
 import sys
 import unicodedata
 
+from pages import lines_outside_blocks
+
 ENDINGS = {'.cpp', '.hpp', '.h', '.c', '.py', '.yaml', '.yml', '.txt', '.sh', '.cmake', '.in', '.toml', '.cff', '.md'}
 LEFT_OUT = ('build', 'runs', 'tests/documents', 'tests/words', 'tests/fuzz')
 LINK = re.compile(r'\]\(([^)\s]+)\)')
@@ -27,16 +29,6 @@ def files_of(root):
                 yield place / name
 
 
-def lines_outside_code(text):
-    """Numbered lines of a page; lines of code blocks and spans of code are empty."""
-    in_code = False
-    for number, line in enumerate(text.splitlines(), 1):
-        if re.match(r'\s*(```|~~~)', line):
-            in_code = not in_code
-            line = ''
-        yield number, '' if in_code else re.sub(r'`[^`]*`', lambda code: ' ' * len(code[0]), line)
-
-
 def anchor_of(heading):
     """The anchor that GitHub gives a heading."""
     text = re.sub(r'\[([^\]]*)\]\([^)]*\)', r'\1', heading).replace('`', '')
@@ -48,12 +40,8 @@ def anchor_of(heading):
 def anchors_of(text):
     """The anchors of a page; a repeated heading has a number."""
     found = {}
-    in_code = False
-    for line in text.splitlines():
-        if re.match(r'\s*(```|~~~)', line):
-            in_code = not in_code
-        heading = None if in_code else re.match(r'#{1,6} +(.*?)(?: +#+)? *$', line)
-        if heading:
+    for _, line in lines_outside_blocks(text):
+        if heading := re.match(r'#{1,6} +(.*?)(?: +#+)? *$', line):
             name = anchor_of(heading[1])
             found[name] = found.get(name, -1) + 1
     return {name if i == 0 else f'{name}-{i}' for name, times in found.items() for i in range(times + 1)}
@@ -61,8 +49,8 @@ def anchors_of(text):
 
 def missing_targets(root, page, text):
     """Yields (line, target, what is missing) for the links of a page."""
-    for number, line in lines_outside_code(text):
-        for target in LINK.findall(line):
+    for number, line in lines_outside_blocks(text):
+        for target in LINK.findall(re.sub(r'`[^`]*`', ' ', line)):
             if re.match(r'[a-z]+:', target):
                 continue
             path, _, anchor = target.partition('#')

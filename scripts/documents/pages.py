@@ -16,15 +16,21 @@ def blocks(text):
             start = None
 
 
-def spans(text):
-    """Yields (line number, text) of every span of code outside blocks."""
+def lines_outside_blocks(text):
+    """Yields (line number, text) of every line outside blocks of code."""
     in_block = False
     for number, line in enumerate(text.split('\n'), 1):
-        if line.startswith('```'):
+        if re.match(r'\s*(```|~~~)', line):
             in_block = not in_block
         elif not in_block:
-            for code in re.findall(r'`([^`]+)`', line):
-                yield number, code
+            yield number, line
+
+
+def spans(text):
+    """Yields (line number, text) of every span of code outside blocks."""
+    for number, line in lines_outside_blocks(text):
+        for code in re.findall(r'`([^`]+)`', line):
+            yield number, code
 
 
 def shell_lines(text):

@@ -7,10 +7,10 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_experiment.hpp"
-#include "experiments/studies/experiment_file.hpp"
 #include "render/report/report.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/experiments/studies/study_test.hpp"

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/experiment_context.hpp"
-#include "experiments/studies/experiment_file.hpp"
 
 namespace touchdown::experiments {
 namespace {
@@ -65,8 +65,8 @@ TEST(Needs, LeaveOutSignalsThatLeaveTheMemoryAfterTheirEvaluation) {
 
 TEST(Needs, CountPartsInWholeDiskBlocks) {
   const Plan plan = whole_plan(request_of(experiment_with("seed=3")));
-  EXPECT_GE(bytes_of_parts(plan), 4096.0 * static_cast<double>(plan.tasks.size()));
-  EXPECT_LE(bytes_of_parts(plan), 1e6 * static_cast<double>(plan.tasks.size()));
+  EXPECT_GE(disk_needs(plan).parts, 4096.0 * static_cast<double>(plan.tasks.size()));
+  EXPECT_LE(disk_needs(plan).parts, 1e6 * static_cast<double>(plan.tasks.size()));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@
 #include "core/error.hpp"
 #include "core/fields.hpp"
 #include "core/files.hpp"
-#include "experiments/studies/experiment_file.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "logs/mapping/conversion.hpp"
 #include "models/robot_description.hpp"
 #include "noise/sensor_profile.hpp"

@@ -3,8 +3,8 @@
 
 #include "core/fields.hpp"
 #include "experiments/config/experiment.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/config/yaml_kind.hpp"
-#include "experiments/studies/experiment_file.hpp"
 #include "models/robot_description.hpp"
 #include "scenarios/scenario.hpp"
 #include "tests/fuzz/entry.hpp"

@@ -55,9 +55,11 @@ BENCHMARK(neural_update);
 
 /// A batch of noise levels. The time per item is that of one level's update at 1 kHz.
 void neural_batch_update(benchmark::State& state) {
-  std::vector<double> sigmas;
-  for (std::int64_t i = 0; i < state.range(0); ++i) sigmas.push_back(0.3 * static_cast<double>(i));
-  experiments::BatchedNeuralNetwork batch(network(), {}, sigmas);
+  std::vector<experiments::BatchNoise> levels;
+  for (std::int64_t i = 0; i < state.range(0); ++i) {
+    levels.push_back({.acceleration = 0.3 * static_cast<double>(i)});
+  }
+  experiments::BatchedNeuralNetwork batch(network(), {}, levels);
   const std::vector<Signals> stream = bench::signals(bench::stream_length);
   std::size_t i = 0;
   for (auto _ : state) {

@@ -5,11 +5,11 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/evaluation/tasks.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/condition.hpp"
-#include "experiments/studies/experiment_file.hpp"
 #include "noise/sensor_noise.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 

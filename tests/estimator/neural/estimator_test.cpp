@@ -210,20 +210,21 @@ TEST(NeuralEstimator, RefusesInvalidNetworksAndSettings) {
 
 TEST(BatchedNeuralNetwork, EqualsOneEstimatorPerNoiseLevel) {
   const auto net = network();
-  const std::vector<double> sigmas = {0.0, 0.23, 5.0, 10.0};
-  std::vector<NeuralEstimator> estimators(sigmas.size(), NeuralEstimator(net));
+  const std::vector<experiments::BatchNoise> levels = {
+      {}, {.acceleration = 0.23}, {.acceleration = 5.0}, {.acceleration = 10.0}};
+  std::vector<NeuralEstimator> estimators(levels.size(), NeuralEstimator(net));
   test::Normal normal(9);
   for (const bool again : {false, true}) {
-    experiments::BatchedNeuralNetwork batch(net, {}, sigmas);
+    experiments::BatchedNeuralNetwork batch(net, {}, levels);
     for (auto& estimator : estimators) {
       if (again) estimator.reset();
     }
     for (const Signals& clean : moving_robot(300)) {
       const Eigen::Vector3d draw(normal(), normal(), normal());
       batch.update(clean, draw);
-      for (std::size_t i = 0; i < sigmas.size(); ++i) {
+      for (std::size_t i = 0; i < levels.size(); ++i) {
         Signals noisy = clean;
-        noisy.linear_acceleration += sigmas[i] * draw;
+        noisy.linear_acceleration += levels[i].acceleration * draw;
         ASSERT_NEAR(batch.p_contact()[i], estimators[i].update(noisy).p_any_wheel, 1e-5);
       }
     }
@@ -232,7 +233,10 @@ TEST(BatchedNeuralNetwork, EqualsOneEstimatorPerNoiseLevel) {
 
 TEST(BatchedNeuralNetwork, SkipsSignalsThatAreNotFiniteAndRefusesInvalidLevels) {
   const auto net = network();
-  experiments::BatchedNeuralNetwork batch(net, {}, std::vector{1.0});
+  const auto batch_with = [&](const std::vector<experiments::BatchNoise>& levels) {
+    return experiments::BatchedNeuralNetwork(net, {}, levels);
+  };
+  experiments::BatchedNeuralNetwork batch = batch_with({{.acceleration = 1.0}});
   const auto stream = moving_robot(20);
   for (const Signals& s : stream) batch.update(s, Eigen::Vector3d::Zero());
   const double before = batch.p_contact()[0];
@@ -240,9 +244,9 @@ TEST(BatchedNeuralNetwork, SkipsSignalsThatAreNotFiniteAndRefusesInvalidLevels) 
   bad.angular_velocity.y() = std::nan("");
   for (int k = 0; k < 20; ++k) batch.update(bad, Eigen::Vector3d::Zero());
   EXPECT_EQ(batch.p_contact()[0], before);
-  EXPECT_THROW(experiments::BatchedNeuralNetwork(net, {}, std::vector<double>{}), InputError);
-  EXPECT_THROW(experiments::BatchedNeuralNetwork(net, {}, std::vector{-1.0}), InputError);
-  EXPECT_THROW(experiments::BatchedNeuralNetwork(net, {}, std::vector{std::nan("")}), InputError);
+  EXPECT_THROW(batch_with({}), InputError);
+  EXPECT_THROW(batch_with({{.acceleration = -1.0}}), InputError);
+  EXPECT_THROW(batch_with({{.acceleration = std::nan("")}}), InputError);
 }
 
 }  // namespace

@@ -1,5 +1,3 @@
-#include "experiments/studies/experiment_file.hpp"
-
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "experiments/config/experiment.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/plan/request.hpp"
 #include "tests/documented_defaults.hpp"
 

@@ -8,10 +8,10 @@
 namespace touchdown::experiments {
 namespace {
 
-class BoostedEntry : public ::testing::TestWithParam<EstimatorEntry (*)()> {};
+class BoostedEntry : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(BoostedEntry, RefusesInvalidTrees) {
-  const EstimatorEntry entry = GetParam()();
+  const EstimatorEntry entry = estimator_entry(GetParam());
   const RunSignals run = synthetic_run(1'000'000, 1500);
   const Model fitted = entry.fit({.whole = {&run}});
   const auto refused = [&](const char* name, const auto& change) {
@@ -52,7 +52,7 @@ RunSignals shown_by_targets(std::int64_t seed) {
 }
 
 TEST_P(BoostedEntry, UsesTargetsIfItsFitDoes) {
-  const EstimatorEntry entry = GetParam()();
+  const EstimatorEntry entry = estimator_entry(GetParam());
   const RunSignals run = shown_by_targets(1'000'000);
   const RunSignals other = shown_by_targets(3);
   const auto right = [&](bool servo_load) {
@@ -69,8 +69,8 @@ TEST_P(BoostedEntry, UsesTargetsIfItsFitDoes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Inputs, BoostedEntry,
-                         ::testing::Values(boosted_channels_entry, boosted_signals_entry),
-                         [](const auto& entry) { return entry.param().name; });
+                         ::testing::Values("boosted_channels", "boosted_signals"),
+                         [](const auto& name) { return std::string(name.param); });
 
 }  // namespace
 }  // namespace touchdown::experiments

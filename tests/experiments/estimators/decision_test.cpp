@@ -9,7 +9,7 @@ namespace touchdown::experiments {
 namespace {
 
 TEST(DecisionNetworkEntry, LearnsFromSegmentsToo) {
-  const EstimatorEntry entry = decision_network_entry();
+  const EstimatorEntry entry = estimator_entry("decision_network");
   RunSignals standing = synthetic_run(1'000'000, 600);
   RunSignals segment = synthetic_run(1'000'001, 1500);
   segment.info.scenario = "segment";
@@ -20,7 +20,7 @@ TEST(DecisionNetworkEntry, LearnsFromSegmentsToo) {
 }
 
 TEST(DecisionNetworkEntry, RefusesModelsWithoutALayerOrWithOtherFeatures) {
-  const EstimatorEntry entry = decision_network_entry();
+  const EstimatorEntry entry = estimator_entry("decision_network");
   const RunSignals run = synthetic_run(1'000'000, 1500);
   const Model good = entry.fit({.whole = {&run}});
   for (const char* const part : {"second_weight", "senses"}) {
@@ -51,8 +51,8 @@ RunSignals with_targets(RunSignals run) {
 
 TEST(DecisionEntries, HaveTheServoLoadIfTheirFitDoes) {
   const RunSignals run = with_targets(synthetic_run(1'000'000, 1500));
-  for (const EstimatorEntry& entry :
-       {decision_network_entry(), evidence_curves_entry(), quiet_evidence_curves_entry()}) {
+  for (const EstimatorEntry& entry : {estimator_entry("decision_network"), evidence_curves_entry(),
+                                      estimator_entry("evidence_curves_quiet")}) {
     const Model with = entry.fit({.whole = {&run}, .servo_load = true});
     const Model without = entry.fit({.whole = {&run}});
     const auto has = [](const Model& model, const char* name) {

@@ -56,7 +56,7 @@ TEST(EvidenceEntries, DecideByTheThresholdsInTheirMetadata) {
 
 TEST(EvidenceEntries, ShareAFitAndDifferInTheirOperatingPoint) {
   const EstimatorEntry balanced = evidence_curves_entry();
-  const EstimatorEntry quiet = quiet_evidence_curves_entry();
+  const EstimatorEntry quiet = estimator_entry("evidence_curves_quiet");
   EXPECT_TRUE(share_model(balanced, quiet));
   EXPECT_EQ(balanced.chosen("leave_below"), balanced_point.leave_below);
   EXPECT_EQ(quiet.chosen("leave_below"), quiet_point.leave_below);
@@ -76,10 +76,7 @@ TEST(EvidenceEntries, ShareAFitAndDifferInTheirOperatingPoint) {
       }
       for (const EstimatorEntry& entry : {balanced, quiet}) {
         const OperatingPoint& point = entry.name == balanced.name ? balanced_point : quiet_point;
-        EvidenceCurves expected(evidence_in(model).value(), {.leave_below = point.leave_below,
-                                                             .return_above = point.return_above,
-                                                             .settle_at = point.settle_at,
-                                                             .settle_after = point.settle_after});
+        EvidenceCurves expected(evidence_in(model).value(), {.point = point});
         EXPECT_EQ(decide(*entry.make({.model = &model}), other, noise_run(other, {}), {}),
                   decide(expected, other, noise_run(other, {}), {}))
             << fitted.name << " as " << entry.name;

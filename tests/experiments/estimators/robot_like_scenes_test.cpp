@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/run_experiment.hpp"
-#include "experiments/studies/experiment_file.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {

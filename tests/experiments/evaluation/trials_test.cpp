@@ -69,7 +69,7 @@ std::vector<double> beliefs(const EstimatorEntry& plain,
   const FitRuns runs{{&fitted}};
   Model model;
   if (entry.fits()) {
-    model = fit_model(entry, runs);
+    model = entry.fit(runs);
     model.metadata = new_metadata(entry.name, runs, hyperparameters);
   }
   EstimatorRunner runner = entry.runner({1000.0, &model, run.legs, &run.contact});

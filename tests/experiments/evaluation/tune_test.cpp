@@ -36,7 +36,7 @@ Experiment tuned_experiment(const std::vector<std::string>& estimators, int tria
 
 /// Support force with a default threshold above every wheel load.
 EstimatorEntry rigged() {
-  EstimatorEntry entry = support_force_entry();
+  EstimatorEntry entry = estimator_entry("support_force");
   entry.name = "rigged";
   for (Hyperparameter& hyperparameter : entry.hyperparameters) {
     if (hyperparameter.name == "contact") hyperparameter = around("contact", 400.0, 200.0);

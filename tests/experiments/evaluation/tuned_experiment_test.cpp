@@ -5,10 +5,10 @@
 
 #include "core/files.hpp"
 #include "core/table.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/evaluation/tuning_table.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_experiment.hpp"
-#include "experiments/studies/experiment_file.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "core/error.hpp"
 #include "experiments/config/experiment.hpp"
-#include "experiments/studies/experiment_file.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 
 namespace touchdown::experiments {
 namespace {

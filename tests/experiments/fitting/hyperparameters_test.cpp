@@ -3,10 +3,10 @@
 
 #include "core/error.hpp"
 #include "estimator/numerics/number_text.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/results/captions.hpp"
-#include "experiments/studies/experiment_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 #include "tests/scratch_folder.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "experiments/studies/experiment_file.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {

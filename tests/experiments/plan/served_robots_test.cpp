@@ -4,10 +4,10 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/experiment_context.hpp"
 #include "experiments/plan/plan.hpp"
 #include "experiments/run_experiment.hpp"
-#include "experiments/studies/experiment_file.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {

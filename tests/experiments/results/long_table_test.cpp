@@ -7,11 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/results/scores.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_experiment.hpp"
-#include "experiments/studies/experiment_file.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"
 

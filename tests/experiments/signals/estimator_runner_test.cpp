@@ -8,11 +8,11 @@
 #include "core/error.hpp"
 #include "estimator/free_fall.hpp"
 #include "experiments/config/experiment.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/plan/request.hpp"
-#include "experiments/studies/experiment_file.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 
 namespace touchdown::experiments {

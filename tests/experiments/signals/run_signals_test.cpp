@@ -120,9 +120,9 @@ TEST(NoiseRun, ScaledByTheLevelEqualsNoisySensorsExactly) {
       const std::size_t knee =
           index(leg == 0 ? models::Servo::left_knee : models::Servo::right_knee);
       const std::size_t wheel = index(models::wheel_servos[leg]);
-      ASSERT_EQ(clean.servo[knee].torque + 2.5 * noise.knee_torque[leg][step],
+      ASSERT_EQ(clean.servo[knee].torque + 2.5 * noise.joint[leg].torque[1][step],
                 reported.servo[knee].torque);
-      ASSERT_EQ(clean.servo[wheel].torque + 0.7 * noise.wheel_torque[leg][step],
+      ASSERT_EQ(clean.servo[wheel].torque + 0.7 * noise.joint[leg].torque[2][step],
                 reported.servo[wheel].torque);
     }
   }

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "core/random.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/studies/benchmark.hpp"
-#include "experiments/studies/experiment_file.hpp"
 
 namespace touchdown::experiments {
 namespace {

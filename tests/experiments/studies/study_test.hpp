@@ -8,9 +8,9 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/run_directory/shard.hpp"
 #include "experiments/run_experiment.hpp"
-#include "experiments/studies/experiment_file.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"
 
