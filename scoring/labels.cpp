@@ -134,10 +134,11 @@ std::array<ContactSequence, models::wheel_count> contact_labels(const logs::Reco
   return labels;
 }
 
-std::vector<Flight> flights(const ContactSequence& contact) {
+std::vector<Flight> flights(const ContactSequence& contact, std::size_t shortest) {
   std::vector<Flight> result;
   for (const StateInterval& part : state_intervals(contact)) {
-    if (part.state == 0) result.push_back({part.begin, part.end});
+    const bool is_flight = part.state == 0 && part.end - part.begin >= shortest;
+    if (is_flight) result.push_back({part.begin, part.end});
   }
   return result;
 }

@@ -65,7 +65,8 @@ ContactSequence contact_labels(std::span<const double> normal_force, double peri
 std::array<ContactSequence, models::wheel_count> contact_labels(const logs::Recording& recording,
                                                                 const LabelConfig& config);
 
-std::vector<Flight> flights(const ContactSequence& contact);
+/// The flights of at least `shortest` steps.
+std::vector<Flight> flights(const ContactSequence& contact, std::size_t shortest = 0);
 
 /// Contact of the robot: by at least one wheel, or by both.
 ContactSequence any_wheel(const std::array<ContactSequence, models::wheel_count>& wheels);

@@ -93,10 +93,8 @@ std::vector<JudgedTransition> judge_transitions(const ContactSequence& truth,
   const Limits limit = limits_in_steps(config, period);
   const auto end = static_cast<Step>(truth.size());
   const std::vector<Flight> all_flights = flights(truth);
-  std::vector<Flight> long_flights = all_flights;
-  std::erase_if(long_flights, [&](const Flight& flight) {
-    return static_cast<Step>(flight.landing - flight.takeoff) < limit.minimum_flight;
-  });
+  const std::vector<Flight> long_flights =
+      flights(truth, static_cast<std::size_t>(limit.minimum_flight));
   // Predictions in these windows are no false alarms: around every true flight, however short, and
   // for the hold-off after it.
   std::vector<Window> tolerated;

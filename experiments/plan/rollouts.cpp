@@ -78,10 +78,7 @@ Rollout rollout(const PlannedRun& run, logs::Recording recording, const Plan& pl
   const auto shortest = static_cast<std::size_t>(
       std::llround(experiment.scoring.minimum_flight / recording.period()));
   const auto flights = [&](const scoring::ContactSequence& contact) {
-    return static_cast<int>(
-        std::ranges::count_if(scoring::flights(contact), [&](const scoring::Flight& flight) {
-          return flight.landing - flight.takeoff >= shortest;
-        }));
+    return static_cast<int>(scoring::flights(contact, shortest).size());
   };
   const auto& [left, right] = signals.contact;
   scoring::ContactSequence is_alike(left.size());  // both wheels in contact, or none
