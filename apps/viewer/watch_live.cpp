@@ -38,7 +38,8 @@ std::string load_text(const std::array<WheelLoad, models::wheel_count>& load) {
 
 void add_estimators(const LiveControls& controls, const LiveState& state,
                     std::vector<PanelLine>& lines) {
-  lines.push_back({.text = "contact: left and right wheel", .value = "accuracy", .heading = true});
+  lines.push_back(
+      {.text = "contact: left and right wheel", .value = "success rate", .heading = true});
   lines.push_back({.text = "ground truth", .badges = ContactBadges{state.contact}});
   for (std::size_t i = 0; i < controls.estimators().size(); ++i) {
     PanelLine line{.text = controls.estimators()[i], .colour = render::rgb(estimator_colour(i))};

@@ -58,7 +58,7 @@ EstimatorPointer make_upkie_observer(const EstimatorEntry& entry, const Estimato
 EstimatorEntry always_contact_entry() {
   return {.name = std::string(always_contact_name),
           .title = "Always contact",
-          .summary = "Reports contact at every step, so its accuracy is the share of contact",
+          .summary = "Reports contact at every step, so its success rate is the share of contact",
           .reason = "reference: the score without any signal",
           .sensors = {},
           .making = {.by_step = make_always_contact}};

@@ -19,7 +19,7 @@ struct ComparedMetric {
   double (scoring::Classification::*of)() const;
 };
 inline constexpr std::array compared_metrics = {
-    ComparedMetric{"accuracy", "accuracy", &scoring::Classification::success},
+    ComparedMetric{"accuracy", "success rate", &scoring::Classification::success},
     ComparedMetric{"balanced_accuracy", "balanced accuracy",
                    &scoring::Classification::balanced_accuracy}};
 

@@ -20,8 +20,8 @@ namespace {
 /// Every estimator of one engine in one cell.
 TextTable cell_table(const ExperimentResult& result, const std::string& simulator,
                      const noise::NoiseCell& cell) {
-  TextTable table{{"estimator", "accuracy", "contact precision", "recall", "no contact precision",
-                   "recall", "false takeoffs/min"},
+  TextTable table{{"estimator", "success rate", "contact precision", "recall",
+                   "no contact precision", "recall", "false takeoffs/min"},
                   {}};
   for (const CellSummary& summary : result.summaries) {
     if (summary.condition.test_simulator != simulator || !(summary.cell == cell)) continue;
@@ -36,7 +36,7 @@ TextTable cell_table(const ExperimentResult& result, const std::string& simulato
   return table;
 }
 
-/// One estimator's accuracy over the noise grid.
+/// One estimator's success rate over the noise grid.
 TextTable grid_table(const std::vector<CellSummary>& summaries, const std::string& simulator,
                      const std::string& estimator, const noise::NoiseGridConfig& noise) {
   TextTable table{{"torque noise"}, {}};
@@ -229,7 +229,7 @@ std::string summary_text(const ExperimentResult& result) {
     if (result.cells.size() > 1) {
       const std::string& first = experiment.estimators.front();
       text += fmt::format(
-          "\n{}: accuracy of {} by torque and accelerometer noise "
+          "\n{}: success rate of {} by torque and accelerometer noise "
           "(* no better than always contact){}\n\n",
           simulator, estimator_entry(experiment, first).title, setup_caption(experiment));
       text += to_text(grid_table(result.summaries, simulator, first, experiment.noise));
@@ -248,7 +248,8 @@ std::string summary_text(const ExperimentResult& result) {
 std::string closing_text(const ExperimentResult& result) {
   const Experiment& experiment = result.experiment;
   const noise::NoiseCell& cell = experiment.highlights.back();
-  return fmt::format("\nContact accuracy, {}{}\n\n{}", noise_text(cell), setup_caption(experiment),
+  return fmt::format("\nContact success rate, {}{}\n\n{}", noise_text(cell),
+                     setup_caption(experiment),
                      to_text(accuracy_table(experiment, result.summaries, result.scores, cell,
                                             experiment.simulators)));
 }
@@ -280,7 +281,7 @@ CaptionedTable difference_text_table(const Experiment& experiment,
   };
   CaptionedTable result{"Paired differences",
                         "differences",
-                        {{"simulator", "difference", "accuracy", "no contact recall",
+                        {{"simulator", "difference", "success rate", "no contact recall",
                           "takeoff precision", "takeoff latency (ms)", "landing latency (ms)"},
                          {}}};
   for (const Difference& d : differences) {
@@ -324,7 +325,7 @@ std::vector<CaptionedTable> accuracy_tables(const ExperimentResult& result) {
   const Experiment& experiment = result.experiment;
   return of_highlights(experiment, [&](const noise::NoiseCell& cell) {
     return std::vector<CaptionedTable>{
-        {"Accuracy and false takeoffs. " + how_scored(experiment, cell), "accuracy",
+        {"Success rate and false takeoffs. " + how_scored(experiment, cell), "success rate",
          accuracy_table(experiment, result.summaries, result.scores, cell, experiment.simulators)}};
   });
 }

@@ -17,8 +17,8 @@ FigureSpec accuracy_by_value(const Table& table, const std::string& name, const 
   spec.series = groups_in(table, "estimator", estimator_title, spec.where);
   spec.colour_order = experiment.estimators;
   spec.x = {.column = "value", .title = value_title, .scale = AxisScale::ordinal};
-  spec.measures = {axis_with_interval("success", "accuracy")};
-  spec.alt = "Accuracy." + values_text(spec, table);
+  spec.measures = {axis_with_interval("success", "success rate")};
+  spec.alt = "Success rate." + values_text(spec, table);
   return spec;
 }
 

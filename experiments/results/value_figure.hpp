@@ -8,7 +8,8 @@
 
 namespace touchdown::experiments {
 
-/// The accuracy of every estimator in one engine over the values of what a study varies, as figure
+/// The success rate of every estimator in one engine over the values of what a study varies, as
+/// figure
 /// `<table>_<engine>` of `tables/<table>.csv`: a panel per name in the column `varied`. The table
 /// has the columns `simulator`, `estimator`, `value` and `success` with its interval. Title and
 /// caption are left to the study; the axis of values is `value_title`.

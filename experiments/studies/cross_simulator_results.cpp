@@ -215,12 +215,14 @@ std::string words_of(const Verdict& verdict, const Experiment& experiment) {
   const std::string loss =
       estimator.fits()
           ? fmt::format(
-                "fitted in the other engine it loses at most {:.4f} of accuracy (upper end of the "
+                "fitted in the other engine it loses at most {:.4f} of success rate (upper end of "
+                "the "
                 "{}; {}, limit {})",
                 verdict.loss, interval, keeps ? "passed" : "too much", config.largest_loss)
           : "it is not fitted, so it loses nothing";
   return fmt::format(
-      "{} {}: {}, and its accuracy is at least {:.4f} above always contact (lower end; {}, limit "
+      "{} {}: {}, and its success rate is at least {:.4f} above always contact (lower end; {}, "
+      "limit "
       "{}).",
       estimator.title, verdict.holds ? "holds" : "FAILS", loss, verdict.gain,
       gains ? "passed" : "too little", config.smallest_gain);

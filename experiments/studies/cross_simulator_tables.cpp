@@ -133,11 +133,11 @@ CaptionedTable torque_table(const CrossSimulatorResult& result) {
 
 CaptionedTable transfer_table(const CrossSimulatorResult& result, const noise::NoiseCell& cell) {
   CaptionedTable table{
-      fmt::format("Transfer: accuracy by engine of the fit and of the test; loss of accuracy when "
+      fmt::format("Transfer: success rate by engine of the fit and of the test; its loss when "
                   "fitted in the other engine ({}{}).",
                   noise_text(cell), setup_caption(result.experiment)),
       "transfer",
-      {{"estimator", "fit → test", "accuracy", "no contact recall", "loss",
+      {{"estimator", "fit → test", "success rate", "no contact recall", "loss",
         "gain over always contact"},
        {}}};
   for (const Transfer& t : result.transfers) {
@@ -159,7 +159,7 @@ CaptionedTable transfer_table(const CrossSimulatorResult& result, const noise::N
 /// One row per value and engine, one column per estimator.
 CaptionedTable sensitivity_table(const CrossSimulatorResult& result) {
   CaptionedTable table{
-      fmt::format("Sensitivity: accuracy of estimators fitted on the nominal scene (*), one "
+      fmt::format("Sensitivity: success rate of estimators fitted on the nominal scene (*), one "
                   "factor at a time, {} runs each ({}{}).",
                   result.experiment.studies.at<CrossSimulatorConfig>().sensitivity_runs,
                   noise_text(result.experiment.highlights.front()),
@@ -224,7 +224,7 @@ CaptionedTable effect_table(const CrossSimulatorResult& result, bool is_of_step)
 
 CaptionedTable cost_table(const CrossSimulatorResult& result) {
   return {
-      fmt::format("Accuracy that each cause costs estimators, fitted on the nominal scene of "
+      fmt::format("Success rate that each cause costs estimators, fitted on the nominal scene of "
                   "the named engine ({}{}).",
                   noise_text(result.experiment.highlights.front()),
                   setup_caption(result.experiment)),
@@ -279,20 +279,20 @@ FigureSpec transfer_figure(const Table& transfer, const Experiment& experiment) 
   spec.panels = noise_panels(transfer);
   spec.series = directions(experiment);
   spec.rows = groups_in(transfer, "estimator", estimator_title, spec.where);
-  spec.measures = {axis_with_interval("loss", "loss of accuracy"),
+  spec.measures = {axis_with_interval("loss", "loss of success rate"),
                    axis_with_interval("gain", "gain over always contact")};
   spec.title = "Transfer between the engines";
   spec.caption = fmt::format(
       "Estimators fitted in one engine and tested in the other, \"fitted → tested\". Loss: "
-      "accuracy of the same estimator fitted in the test engine, minus this one's, on the same "
+      "success rate of the same estimator fitted in the test engine, minus this one's, on the same "
       "runs. Gain: "
-      "accuracy minus that of always contact ({}{}; {}).",
+      "success rate minus that of always contact ({}{}; {}).",
       labels_text(experiment), setup_caption(experiment), intervals_text(experiment));
-  spec.alt = "Loss of accuracy when fitted in the other engine." + values_text(spec, transfer);
+  spec.alt = "Loss of success rate when fitted in the other engine." + values_text(spec, transfer);
   return spec;
 }
 
-/// Accuracy over each factor: a figure for every engine, `sensitivity_<engine>`.
+/// Success rate over each factor: a figure for every engine, `sensitivity_<engine>`.
 std::vector<FigureSpec> sensitivity_figures(const Table& sensitivity,
                                             const Experiment& experiment) {
   std::vector<FigureSpec> specs;
@@ -300,9 +300,10 @@ std::vector<FigureSpec> sensitivity_figures(const Table& sensitivity,
     FigureSpec spec = accuracy_by_value(sensitivity, "sensitivity", "factor", "value of the factor",
                                         simulator, experiment);
     spec.title =
-        fmt::format("Sensitivity of the accuracy: {}", simulators::simulator_title(simulator));
+        fmt::format("Sensitivity of the success rate: {}", simulators::simulator_title(simulator));
     spec.caption = fmt::format(
-        "Accuracy of estimators fitted on the nominal scene, one factor at a time, {} runs each "
+        "Success rate of estimators fitted on the nominal scene, one factor at a time, {} runs "
+        "each "
         "({}; {}{}; {}). Values are equally spaced; curves are shifted sideways a little.",
         experiment.studies.at<CrossSimulatorConfig>().sensitivity_runs,
         noise_text(experiment.highlights.front()), labels_text(experiment),

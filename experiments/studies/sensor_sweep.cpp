@@ -109,7 +109,7 @@ Columns<SweepRow> sweep_columns() {
 /// For the terminal: a table for every disturbance and engine.
 std::string sweep_text(const std::vector<SweepRow>& rows, const Experiment& experiment) {
   std::string text = fmt::format(
-      "Accuracy by sensor disturbance ({}{}; {}); estimators are fitted without the "
+      "Success rate by sensor disturbance ({}{}; {}); estimators are fitted without the "
       "disturbance\n",
       noise_text(experiment.highlights.front()), setup_caption(experiment),
       intervals_text(experiment));
@@ -127,16 +127,16 @@ std::string sweep_text(const std::vector<SweepRow>& rows, const Experiment& expe
   return text;
 }
 
-/// Accuracy over each disturbance: a figure for every engine, `sensor_sweep_<engine>`.
+/// Success rate over each disturbance: a figure for every engine, `sensor_sweep_<engine>`.
 std::vector<FigureSpec> sweep_figures(const Table& sweep, const Experiment& experiment) {
   std::vector<FigureSpec> specs;
   for (const std::string& simulator : experiment.simulators) {
     FigureSpec spec = accuracy_by_value(sweep, "sensor_sweep", "disturbance", "value (SI units)",
                                         simulator, experiment);
-    spec.title =
-        fmt::format("Accuracy by sensor disturbance: {}", simulators::simulator_title(simulator));
+    spec.title = fmt::format("Success rate by sensor disturbance: {}",
+                             simulators::simulator_title(simulator));
     spec.caption = fmt::format(
-        "Accuracy of both wheels over the values of one disturbance at a time ({}{}; {}; {}). "
+        "Success rate of both wheels over the values of one disturbance at a time ({}{}; {}; {}). "
         "Estimators are fitted without the disturbance. Values are equally spaced; curves are "
         "shifted sideways a little.",
         noise_text(experiment.highlights.front()), setup_caption(experiment),

@@ -131,8 +131,8 @@ TEST_F(Run, ExplainsItselfAndEndsWithResultsPathsAndNextCommands) {
        {"\"versions\"", "\"commit\": \"", "\"seeds\"", "\"host\"", "\"timings_s\""}) {
     EXPECT_THAT(folder_.text("a/manifest.json"), HasSubstr(key));
   }
-  const std::string last = output.substr(output.find("Contact accuracy"));
-  EXPECT_THAT(last, StartsWith("Contact accuracy, torque noise 1 N·m, "
+  const std::string last = output.substr(output.find("Contact success rate"));
+  EXPECT_THAT(last, StartsWith("Contact success rate, torque noise 1 N·m, "
                                "accelerometer noise 5 m/s²\n"));
   for (const auto& row : cells_of(folder_ / "a/tables/success.csv")) {
     if (row[1] != "robust" || row[2] != "1" || row[3] != "5") continue;
