@@ -70,6 +70,7 @@ int run_command_line(int argc, char** argv) {
   add_simulate(program, session);
   add_render(program, session);
   add_report(program, session);
+  add_figure(program, session);
   add_compare(program, session);
   add_train(program, session);
   add_watch(program, session);

@@ -75,6 +75,7 @@ void add_generate(CLI::App& program, const CliSession& session);
 void add_simulate(CLI::App& program, const CliSession& session);
 void add_render(CLI::App& program, const CliSession& session);
 void add_report(CLI::App& program, const CliSession& session);
+void add_figure(CLI::App& program, const CliSession& session);
 void add_compare(CLI::App& program, const CliSession& session);
 void add_train(CLI::App& program, const CliSession& session);
 void add_watch(CLI::App& program, const CliSession& session);

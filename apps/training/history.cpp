@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/table.hpp"
-#include "render/gnuplot/process.hpp"
+#include "render/gnuplot/figure.hpp"
 
 namespace touchdown::training {
 
@@ -37,23 +37,17 @@ std::vector<std::string> header() {
   return names;
 }
 
-constexpr const char* script_text = R"gnuplot(# gnuplot training.gp
-set terminal pngcairo size 1200,800 font "DejaVu Sans,20" linewidth 2
-set output "training.png"
-set datafile separator comma
+constexpr const char* commands = R"gnuplot(set datafile separator comma
 set key above
 set xrange [0:*]
-set grid lc rgb "#dddddd"
 set logscale y
 set format y "%g"
 set xlabel "Iteration (each with new data)"
-set ylabel "Cross-entropy (nat) + squared velocity error (m²/s²)" font ",18"
-set arrow from {chosen}, graph 0 to {chosen}, graph 1 nohead dashtype 2 lc rgb "#888888"
-set label "chosen" at {chosen}, graph 0.03 right offset -0.5,0 tc rgb "#555555"
-plot "{data}" using "iteration":"training_loss" with linespoints pt 7 ps 0.8 \
-       lc rgb "#4477aa" title "training (last epoch)", \
-     "" using "iteration":"validation_loss" with linespoints pt 7 ps 0.8 \
-       lc rgb "#cc6677" title "validation"
+set ylabel "Cross-entropy (nat) + squared velocity error (m²/s²)"
+set arrow from {chosen}, graph 0 to {chosen}, graph 1 nohead dt 2 lc rgb "#888888"
+set label "chosen" at {chosen}, graph 0.03 right offset -0.5,0 textcolor rgb "#555555"
+plot "training.dat" using "iteration":"training_loss" with linespoints lt 1 dt 1 title "training (last epoch)", \
+     "" using "iteration":"validation_loss" with linespoints lt 2 dt 1 title "validation"
 )gnuplot";
 
 }  // namespace
@@ -112,10 +106,14 @@ TrainingHistory read_history(const std::filesystem::path& path) {
 
 std::filesystem::path draw_losses(const std::filesystem::path& history,
                                   const std::filesystem::path& folder, int chosen_iteration) {
-  return render::try_gnuplot(
-      folder / "training.gp",
-      fmt::format(script_text, fmt::arg("chosen", chosen_iteration),
-                  fmt::arg("data", history.lexically_relative(folder).string())));
+  try {
+    return render::draw_figure(folder / "training", 640, 427,
+                               fmt::format(commands, fmt::arg("chosen", chosen_iteration)),
+                               {{"training.dat", read_file(history)}})
+        .png;
+  } catch (const Error&) {
+    return {};  // the figure is optional
+  }
 }
 
 }  // namespace touchdown::training

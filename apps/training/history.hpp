@@ -31,8 +31,7 @@ void write_history(const TrainingHistory& history, const std::filesystem::path& 
 TrainingHistory read_history(const std::filesystem::path& path);
 
 /// Draws training and validation loss by iteration from a history's table, and marks the chosen
-/// iteration. Writes the gnuplot script `training.gp` into `folder`, which users may restyle, and
-/// runs it. Returns the figure; empty if gnuplot could not draw it.
+/// iteration: the figure `training` in `folder`. Returns its PNG; empty if it cannot be drawn.
 std::filesystem::path draw_losses(const std::filesystem::path& history,
                                   const std::filesystem::path& folder, int chosen_iteration);
 

@@ -94,7 +94,8 @@ void LivePlots::append(const std::vector<LiveSample>& samples) {
   for (const LiveSample& sample : samples) {
     for (std::size_t wheel = 0; wheel < 2; ++wheel) {
       render::StripRow& beliefs = row(wheel);
-      beliefs.wheels_in_contact.push_back(sample.contact[wheel] ? 2 : 0);
+      beliefs.wheels_in_contact.push_back(sample.contact[wheel] ? render::both_in_contact
+                                                                : std::uint8_t{0});
       for (std::size_t i = 0; i < sample.p_contact.size(); ++i) {
         beliefs.curves[beliefs.curves.size() - 1 - i].values.push_back(sample.p_contact[i][wheel]);
       }

@@ -56,7 +56,7 @@ std::vector<std::uint8_t> LogWindow::known_wheels() const {
   for (std::size_t k = 0; k < wheels.size(); ++k) {
     if (!is_known(run_, k)) continue;
     const auto one = [&](std::size_t w) { return run_.contact[w][k] == LabelState::contact; };
-    wheels[k] = static_cast<std::uint8_t>(int{one(0)} + int{one(1)});
+    wheels[k] = static_cast<std::uint8_t>(int{one(0)} + 2 * int{one(1)});
   }
   return wheels;
 }

@@ -12,6 +12,7 @@
 #include "core/yaml.hpp"
 #include "experiments/config/study_sections.hpp"
 #include "experiments/estimators/entry.hpp"
+#include "experiments/figures/figure_spec.hpp"
 #include "noise/sensor_noise.hpp"
 #include "scoring/bootstrap.hpp"
 #include "scoring/labels.hpp"
@@ -128,6 +129,7 @@ struct Experiment {
   scoring::ScoringConfig scoring;
   scoring::IntervalConfig intervals;
   VideoConfig video;
+  PrintConfig figures = {};
   KeptRecordings recordings = KeptRecordings::pictured;
   /// Drawn if the file has the section, unless it has `enabled: false`. An empty section uses the
   /// defaults.

@@ -287,6 +287,7 @@ static void describe(Fields& fields, Experiment& experiment) {
   if (fields.reading()) {
     fields("workers", experiment.workers, 0, 4096)
         .doc("Threads; 0: one per core. They change no result.");
+    fields.section("figures", experiment.figures).doc("How figures are printed.");
   }
   const bool draws = experiment.video.enabled || experiment.detail;
   fields.check(!draws || experiment.recordings != KeptRecordings::none, "recordings",

@@ -25,7 +25,7 @@ std::vector<Key> experiment_keys();
 void require_files(const YamlDocument& document);
 
 /// The experiment as YAML with all defaults, which reads back to the same experiment. It omits
-/// `workers`, which changes no result, and the external estimators.
+/// `workers` and `figures`, which change no result, and the external estimators.
 std::string to_yaml(const Experiment& experiment);
 
 /// A section under `key` that an experiment has if and only if its file has it. Its keys are
@@ -48,6 +48,9 @@ KeyNotes own_estimators(Fields& fields, std::string_view key, const Experiment& 
 
 /// Describes the section `video`: the run that is plotted and filmed.
 void describe(Fields& fields, VideoConfig& video, const Experiment& experiment);
+
+/// Describes the section `figures`.
+void describe(Fields& fields, PrintConfig& print);
 
 /// Describes the sections `detail` and `posterior`: figures of one drop.
 void describe_drop_figures(Fields& fields, Experiment& experiment);

@@ -109,6 +109,13 @@ void describe(Fields& fields, VideoConfig& video, const Experiment& experiment) 
   video.noise = noise::as_on_grid(video.noise, experiment.noise);
 }
 
+void describe(Fields& fields, PrintConfig& print) {
+  fields.optional("width_mm", print.width_mm, narrowest_print, widest_print)
+      .doc("mm",
+           "Width in print, at which no text is under 6 pt. Without it, figures for screens.");
+  fields("caption", print.caption).doc("Whether pictures contain their titles and captions.");
+}
+
 void describe_drop_figures(Fields& fields, Experiment& experiment) {
   describe_switched(fields, "detail", experiment.detail, experiment)
       .doc("A figure of signals and estimates during one drop.");

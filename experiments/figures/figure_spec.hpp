@@ -10,6 +10,16 @@
 
 namespace touchdown::experiments {
 
+/// How figures are printed: the section `figures` of an experiment. It changes no result.
+struct PrintConfig {
+  std::optional<double> width_mm = {};  ///< in print, with text of at least 6 pt; empty: on screens
+  bool caption = true;                  ///< whether the picture contains title and caption
+  std::string only = {};                ///< name of the figure to draw; empty: all. Not in the file
+};
+
+/// The widths that `PrintConfig` permits (mm).
+inline constexpr double narrowest_print = 40.0, widest_print = 400.0;
+
 /// A condition on a row of a table: the cell in this column has this text.
 struct CellFilter {
   std::string column;

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "experiments/results/result.hpp"
 #include "logs/recording.hpp"
+#include "render/gnuplot/figure.hpp"
 
 namespace touchdown::render {
 
@@ -25,6 +26,12 @@ std::size_t fitted_runs(const experiments::ExperimentResult& result, const std::
 /// Which drop a figure shows: run, time or number, seeds, labels and robot, for its caption.
 std::string drop_text(const experiments::Experiment& experiment,
                       const experiments::DropChoice& choice);
+
+/// The files of a figure of this name in the run directory, printed as the experiment asks.
+inline FigureFile figure_file(const experiments::ExperimentResult& result,
+                              const std::string& name) {
+  return {result.directory.file("figures", name), result.experiment.figures};
+}
 
 /// Draws a figure. If an engine's run lacks what it shows, prints the reason instead of throwing.
 void draw_if_possible(const std::function<void()>& draw);

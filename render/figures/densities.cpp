@@ -3,9 +3,9 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
-#include <span>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
@@ -13,7 +13,6 @@
 #include "experiments/results/captions.hpp"
 #include "render/figures/chosen_run.hpp"
 #include "render/figures/figures.hpp"
-#include "render/figures/iso_lines.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "simulators/registry.hpp"
 
@@ -56,40 +55,18 @@ cv::Rect window_of(const LikelihoodGrids& grids) {
   return window;
 }
 
-/// A window of a grid as nested rows, for `iso_lines`.
-std::vector<std::vector<double>> rows_of(const std::vector<double>& grid, int row_length,
-                                         const cv::Rect& window) {
-  std::vector<std::vector<double>> rows;
-  for (int r = window.y; r < window.y + window.height; ++r) {
-    const auto begin = grid.begin() + r * row_length + window.x;
-    rows.emplace_back(begin, begin + window.width);
+/// The levels of a density's contour lines as shares of its peak, or those of the probability, as
+/// gnuplot lists them. `value`: column of the data file.
+std::string contour_levels(const LikelihoodGrids& grids, int value) {
+  if (value == 5) return fmt::format("{}", fmt::join(probability_levels, ","));
+  const std::vector<double>& grid = value == 3 ? grids.contact : grids.no_contact;
+  const DensityPeaks peaks = peaks_of(grids);
+  std::vector<std::string> levels;
+  for (const double share : enclosed_shares) {
+    levels.push_back(
+        number(density_level(grid, share) / (value == 3 ? peaks.contact : peaks.no_contact)));
   }
-  return rows;
-}
-
-/// The contour lines at these levels, in torques.
-std::string block_of_lines(const std::vector<double>& grid, std::span<const double> levels,
-                           const LikelihoodGrids& grids, const cv::Rect& window) {
-  const auto rows = rows_of(grid, grids.knee.count, window);
-  std::string text;
-  for (const double level : levels) {
-    for (const IsoLine& line : joined(iso_lines(rows, level))) {
-      for (const auto& [column, row] : line) {
-        fmt::format_to(std::back_inserter(text), "{:.5g}\t{:.5g}\n",
-                       grids.knee[window.x] + column * grids.knee.step(),
-                       grids.wheel[window.y] + row * grids.wheel.step());
-      }
-      text += '\n';
-    }
-  }
-  return (text.empty() ? "NaN\tNaN\n\n" : text) + '\n';
-}
-
-std::array<double, enclosed_shares.size()> levels_of(const std::vector<double>& grid) {
-  std::array<double, enclosed_shares.size()> levels{};
-  std::transform(enclosed_shares.begin(), enclosed_shares.end(), levels.begin(),
-                 [&](double share) { return density_level(grid, share); });
-  return levels;
+  return fmt::format("{}", fmt::join(levels, ","));
 }
 
 double share_of_peak(double density, double peak) {
@@ -109,26 +86,17 @@ std::string points(const LikelihoodGrids& grids, const std::vector<double>& prob
                      grids.knee[c], grids.wheel[r], share_of_peak(grids.contact[i], peaks.contact),
                      share_of_peak(grids.no_contact[i], peaks.no_contact), probability[i]);
     }
+    text += '\n';
   }
-  return text + "\n\n";
+  return text + "\n";
 }
 
-/// Blocks of the data file (gnuplot's `index`).
-constexpr std::size_t blocks_per_row = 4;
-
-/// A density figure's data file. For each row, its blocks are the points (knee torque, wheel
-/// torque, both densities as shares of their peaks, P(contact)), then the contour lines of both
-/// densities and of the probability.
+/// A density figure's data file. Its block of each row (gnuplot's `index`) has knee torque, wheel
+/// torque, both densities as shares of their peaks, P(contact).
 std::string density_data(const DensityFigure& figure) {
   std::string text;
   for (const DensityRow& row : figure.rows) {
-    const LikelihoodGrids& grids = row.grids;
-    const cv::Rect window = window_of(grids);
-    const std::vector<double> probability = contact_probability(grids);
-    text += points(grids, probability, window);
-    text += block_of_lines(grids.contact, levels_of(grids.contact), grids, window);
-    text += block_of_lines(grids.no_contact, levels_of(grids.no_contact), grids, window);
-    text += block_of_lines(probability, probability_levels, grids, window);
+    text += points(row.grids, contact_probability(row.grids), window_of(row.grids));
   }
   return text;
 }
@@ -156,20 +124,39 @@ constexpr DensityColumn density_columns[] = {
      "unset logscale cb\nset cbrange [0:1]\nset cbtics (0, 0.2, 0.5, 0.8, 1)\n", 5,
      "probability of contact"}};
 
+bool vanishes(const LikelihoodGrids& grids, int value) {
+  const DensityPeaks peaks = peaks_of(grids);
+  return (value == 3 && peaks.contact == 0.0) || (value == 4 && peaks.no_contact == 0.0);
+}
+
 /// The panel's points and lines, or a note in place of a vanishing density.
 std::string plot(const DensityRow& row, const std::string& file, std::size_t block, int value) {
-  const DensityPeaks peaks = peaks_of(row.grids);
-  const bool empty =
-      (value == 3 && peaks.contact == 0.0) || (value == 4 && peaks.no_contact == 0.0);
-  if (empty) {
+  if (vanishes(row.grids, value)) {
     return fmt::format(
         "set label {} at graph 0.5, graph 0.55 center textcolor rgb '#40464e'\nplot NaN\n",
         gnuplot_text("all its torques lie\noutside the model's axes"));
   }
   return fmt::format(
       "plot {0} index {1} using 1:2:{2} with image, \\\n"
-      "     {0} index {3} using 1:2 with lines lc rgb '#101418' lw {4} dt 1\n",
-      file, block, value, block + static_cast<std::size_t>(value) - 2, value == 5 ? 1.1 : 0.8);
+      "     $lines_{1}_{2} using 1:2 with lines lc rgb '#101418' lw {3} dt 1\n",
+      file, block, value, value == 5 ? 1.1 : 0.8);
+}
+
+/// Commands that find the contour lines of all panels, for `plot`.
+std::string contour_commands(const DensityFigure& figure, const std::string& file) {
+  // The lines of a table are separated by blanks.
+  std::string text = "set datafile separator whitespace\nset contour base\nunset surface\n";
+  for (std::size_t row = 0; row < figure.rows.size(); ++row) {
+    for (const DensityColumn& column : density_columns) {
+      if (vanishes(figure.rows[row].grids, column.value)) continue;
+      fmt::format_to(std::back_inserter(text),
+                     "set cntrparam levels discrete {}\nset table $lines_{}_{}\n"
+                     "splot {} index {} using 1:2:{}\nunset table\n",
+                     contour_levels(figure.rows[row].grids, column.value), row, column.value, file,
+                     row, column.value);
+    }
+  }
+  return text + "unset contour\nset surface\n";
 }
 
 std::string described(const DensityFigure& figure) {
@@ -207,8 +194,9 @@ std::optional<DensityFigure> density_figure(const experiments::ExperimentResult&
   figure.title = fmt::format("Torques in contact and in the air: {}, {}", experiment.name,
                              simulators::simulator_title(simulator));
   figure.caption = fmt::format(
-      "Kernel densities fitted to {} without noise, both legs, seed {}; {}{}. Lines enclose 50, 90 "
-      "and 99 % of a density; on the right they mark P = 0.5 and the decision threshold, 0.8. Axes "
+      "Kernel densities fitted to {} without noise, both legs, seed {}; {}{}. Lines enclose 50 %, "
+      "90 % and 99 % of a density; on the right they mark P = 0.5 and the decision threshold, 0.8. "
+      "Axes "
       "cover 97 % of both densities.",
       experiments::plural(fitted_runs(result, simulator), "run"), experiment.seed,
       experiments::labels_text(experiment), experiments::setup_caption(experiment));
@@ -246,48 +234,53 @@ DensityAxes axes_of(const LikelihoodGrids& grids) {
           grids.wheel[window.y + window.height - 1]};
 }
 
-Figure draw_density_figure(const DensityFigure& figure, const std::filesystem::path& stem) {
+Figure draw_density_figure(const DensityFigure& figure, const FigureFile& target) {
   if (figure.rows.empty()) throw InputError("a density figure without models");
-  const auto rows = static_cast<double>(figure.rows.size());
-  const double body = density_top + rows * density_height + (rows - 1.0) * density_gap_y;
-  const FigureFrame frame(figure.title, figure.caption,
-                          density_left + 3.0 * density_width + 2.0 * density_gap_x + 30.0,
-                          body + 126.0);
-  const std::string file = gnuplot_file(stem.filename().string() + ".dat");
+  // Printed narrow, a model's panels are below each other, with their scales between them.
+  const PanelColumns across = columns_in(target.room(), density_left + 30.0,
+                                         {3, density_width, density_gap_x}, density_width);
+  const bool is_stacked = across.count < 3;
+  const auto lines = static_cast<double>(figure.rows.size()) * (is_stacked ? 3.0 : 1.0);
+  const double step = density_height + density_gap_y + (is_stacked ? 64.0 : 0.0);
+  const FigureFrame frame(target, {figure.title, figure.caption, described(figure)},
+                          density_left + across.left(is_stacked ? 0 : 2) + across.width + 30.0,
+                          density_top + lines * step - density_gap_y + (is_stacked ? 62.0 : 126.0));
+  const std::string file = gnuplot_file(target.name() + ".dat");
   std::string commands =
       "unset key\nset border 15\nset tics out\nunset grid\n"
       "set xlabel 'knee torque (N·m)' offset 0,0.3\nset xtics autofreq\n";
   for (std::size_t r = 0; r < figure.rows.size(); ++r) {
-    const double top = density_top + static_cast<double>(r) * (density_height + density_gap_y);
     const DensityAxes axes = axes_of(figure.rows[r].grids);
     for (std::size_t c = 0; c < std::size(density_columns); ++c) {
       const DensityColumn& column = density_columns[c];
-      const double left = density_left + static_cast<double>(c) * (density_width + density_gap_x);
-      commands += frame.panel(left, top, density_width, density_height);
+      const double left = density_left + across.left(is_stacked ? 0 : c);
+      const double top = density_top + static_cast<double>(is_stacked ? 3 * r + c : r) * step;
+      commands += frame.panel(left, top, across.width, density_height);
       if (c == 0) {
         commands += frame.label(figure.rows[r].title, left, top - 34.0, "left font ',11'");
       }
-      commands += r + 1 == figure.rows.size()
-                      ? frame.colour_bar(left, body + 62.0, density_width, density_bar) +
-                            fmt::format("set cblabel '{}' offset 0,0.5\n", column.bar_label)
-                      : "unset colorbox\n";
+      commands +=
+          r + 1 == figure.rows.size() || is_stacked
+              ? frame.colour_bar(left, top + density_height + 62.0, across.width, density_bar) +
+                    fmt::format("set cblabel '{}' offset 0,0.5\n", column.bar_label)
+              : "unset colorbox\n";
       commands += fmt::format(
           "set title '{}' offset 0,-0.7\nset palette defined {}\n{}"
           "set xrange [{:.5g}:{:.5g}]\nset yrange [{:.5g}:{:.5g}]\nset ylabel '{}' offset 1,0\n",
           column.title, column.palette, column.scale, axes.knee_low, axes.knee_high, axes.wheel_low,
-          axes.wheel_high, c == 0 ? "wheel torque (N·m)" : "");
-      commands +=
-          plot(figure.rows[r], file, r * blocks_per_row, column.value) + FigureFrame::end_panel();
+          axes.wheel_high, c == 0 || is_stacked ? "wheel torque (N·m)" : "");
+      commands += plot(figure.rows[r], file, r, column.value) + FigureFrame::end_panel();
     }
   }
-  return frame.draw(stem, commands, density_data(figure), described(figure));
+  return frame.draw(contour_commands(figure, file) + frame.begin() + commands,
+                    {{target.name() + ".dat", density_data(figure)}});
 }
 
 void draw_densities(const experiments::ExperimentResult& result, const std::atomic<bool>* stop) {
   for (const std::string& simulator : result.experiment.simulators) {
     stop_if_asked(stop);
     if (const auto densities = density_figure(result, simulator)) {
-      draw_density_figure(*densities, result.directory.file("figures", "densities_" + simulator));
+      draw_density_figure(*densities, figure_file(result, "densities_" + simulator));
     }
   }
 }

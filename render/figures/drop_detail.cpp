@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -89,6 +91,7 @@ struct DetailColumn {
   const PlotColumns& columns;
   const std::string& name;                     ///< of the figure's files
   const std::vector<std::string>& estimators;  ///< all of the experiment's
+  const std::map<Row, std::size_t>& rows;      ///< places of the drawn ones
 
   std::string commands() const {
     std::string text =
@@ -105,7 +108,7 @@ struct DetailColumn {
     text += torques(knee, "knee torque\n(N·m)", "knee_torque_nm", &experiments::TorqueTrace::knee);
     text +=
         torques(wheel, "wheel torque\n(N·m)", "wheel_torque_nm", &experiments::TorqueTrace::wheel);
-    text += torque_evidence();
+    if (rows.contains(evidence)) text += torque_evidence();
     text += beliefs();
     text += spectrum(true_spectrum, 0, "true acceleration\nfrequency (Hz)", "");
     text += spectrum(noisy_spectrum, number + 1, "noisy acceleration\nfrequency (Hz)", "noisy_");
@@ -121,8 +124,8 @@ struct DetailColumn {
 
   std::string panel(Row row, std::string_view label) const {
     const bool has_ticks_right = row == true_spectrum || row == noisy_spectrum;
-    return grid.panel(row, number, label) +
-           (last() ? grid.key(row, has_ticks_right ? 56.0 : 14.0) : "");
+    return grid.panel(rows.at(row), number, label) +
+           (last() ? grid.key(rows.at(row), has_ticks_right ? 56.0 : 14.0) : "");
   }
 
   std::string line(const std::string& column, const std::string& style,
@@ -158,7 +161,8 @@ struct DetailColumn {
     const auto& traces = detail.noisy[number].beliefs;
     for (std::size_t i = traces.size(); i-- > 0;) {
       text += line("p_" + traces[i].estimator,
-                   fmt::format("lt {} lw 2", line_type_of(estimators, traces[i].estimator)),
+                   fmt::format("lt {} {}", line_type_of(estimators, traces[i].estimator),
+                               curve_width(traces.size() - 1 - i, traces.size())),
                    traces[i].title) +
               (i == 0 ? "" : ", ");
     }
@@ -181,7 +185,7 @@ struct DetailColumn {
     }
     text +=
         last() && row == noisy_spectrum
-            ? grid.colour_bar(row, 92.0, 16.0) +
+            ? grid.colour_bar(rows.at(row), 92.0, 16.0) +
                   "set cblabel 'dB of m²/s⁴' font ',11' offset 1.2,0\nset cbtics 20 font ',11'\n"
             : "unset colorbox\n";
     // A dark edge makes the lines visible on every colour.
@@ -242,8 +246,7 @@ void draw_detail(const experiments::ExperimentResult& result, const std::string&
           "the noisy vertical acceleration with their power and median frequency, and the "
           "probabilities of a takeoff and a landing. The time in true contact is tinted.",
           config.noise.size(), fmt::join(config.estimators, ", "))};
-  draw_drop_detail(detail, experiment.estimators, text,
-                   result.directory.file("figures", "detail_" + simulator));
+  draw_drop_detail(detail, experiment.estimators, text, figure_file(result, "detail_" + simulator));
 }
 
 }  // namespace
@@ -269,30 +272,41 @@ std::string spectrum_text(const experiments::SpectrumTrace& trace, double bin_wi
 
 Figure draw_drop_detail(const experiments::DropDetail& detail,
                         const std::vector<std::string>& estimators, const FigureText& text,
-                        const std::filesystem::path& stem) {
-  const std::string name = stem.filename().string();
+                        const FigureFile& target) {
+  const std::string name = target.name();
   PanelGrid::Layout layout;
   layout.columns.clear();
   layout.at = detail.at;
-  layout.row_heights = {84.0, 118.0, 118.0, 100.0, 156.0, 150.0, 150.0, 130.0};
+  constexpr std::array heights = {84.0, 118.0, 118.0, 118.0, 156.0, 150.0, 150.0, 130.0};
+  const bool has_evidence = std::ranges::any_of(detail.noisy, [](const auto& drop) {
+    return std::ranges::any_of(drop.torque_evidence, [](double v) { return std::isfinite(v); });
+  });
+  std::map<Row, std::size_t> rows;
+  for (std::size_t row = 0; row < heights.size(); ++row) {
+    if (row == evidence && !has_evidence) continue;  // no Bayes filter takes part
+    rows.emplace(static_cast<Row>(row), rows.size());
+    layout.row_heights.push_back(heights[row]);
+  }
   layout.panel_width = 427.0;
-  layout.right = 300.0;
+  std::vector<std::string> names;
+  for (const auto& trace : detail.noisy.front().beliefs) names.push_back(trace.title);
+  layout.right = std::max(300.0, 70.0 + 1.1 * text_width(names));  // letters of 11 pt
   for (const experiments::NoisyDrop& drop : detail.noisy) {
     layout.columns.push_back(fmt::format("noise: torques {} N·m, accelerometer {} m/s²",
                                          drop.noise.torque, drop.noise.accelerometer));
   }
-  const PanelGrid grid(layout, text);
+  const PanelGrid grid(target, layout, text);
   std::vector<PlotData> data = {
       {name + "_spectrum_0.dat", spectrum_text(detail.spectrum, detail.bin_width)}};
   std::string commands = grid.begin(1e3 * detail.time.front(), 1e3 * detail.time.back());
   for (std::size_t i = 0; i < detail.noisy.size(); ++i) {
     const PlotColumns columns = detail_columns(detail, detail.noisy[i]);
-    commands += DetailColumn{detail, grid, i, columns, name, estimators}.commands();
+    commands += DetailColumn{detail, grid, i, columns, name, estimators, rows}.commands();
     data.push_back({fmt::format("{}_{}.dat", name, i + 1), columns.text()});
     data.push_back({fmt::format("{}_spectrum_{}.dat", name, i + 1),
                     spectrum_text(detail.noisy[i].spectrum, detail.bin_width)});
   }
-  return grid.draw(stem, commands, data);
+  return grid.draw(commands, data);
 }
 
 void draw_drop_details(const experiments::ExperimentResult& result, const std::atomic<bool>* stop) {

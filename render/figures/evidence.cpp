@@ -22,7 +22,6 @@ namespace {
 constexpr double evidence_width = 232.0, evidence_height = 168.0, evidence_left = 76.0,
                  evidence_top = 62.0;
 constexpr double evidence_gap_x = 26.0, evidence_gap_y = 82.0;
-constexpr std::size_t evidence_columns = 4;
 
 /// One panel: a range of inputs, and the axis that they share.
 struct EvidencePanel {
@@ -117,28 +116,16 @@ std::string evidence_ticks(const EvidencePanel& panel, double low, double high) 
   return text;
 }
 
+/// The panel's curves. In the first panel, their titles are the legend of all.
 std::string evidence_plot(const EvidencePanel& panel, const std::string& file, std::size_t block) {
-  std::string text = "plot 0 with lines lc rgb '#9aa1a9' lw 1 dt 1";
+  std::string text = "plot 0 with lines lc rgb '#9aa1a9' lw 1 dt 1 notitle";
   for (std::size_t k = 0; k < panel.count; ++k) {
-    fmt::format_to(std::back_inserter(text),
-                   ", \\\n     {} index {} using 1:{} with lines lc rgb '{}' lw 1.7 dt 1", file,
-                   block, k + 3, scale_colour(k, panel.count));
+    fmt::format_to(
+        std::back_inserter(text),
+        ", \\\n     {} index {} using 1:{} with lines lc rgb '{}' lw 1.7 dt 1 title '{} ms'", file,
+        block, k + 3, scale_colour(k, panel.count), 1U << k);
   }
   return text + "\n";
-}
-
-/// The time scales and their colours, in a line above the panels.
-std::string scale_legend(const FigureFrame& frame) {
-  std::string text = frame.label("time scale", evidence_left, 8.0, "left font ',10'");
-  for (std::size_t k = 0; k < decision_scales; ++k) {
-    const double left = evidence_left + 80.0 + 66.0 * static_cast<double>(k);
-    text += frame.label(
-        "▬", left, 8.0,
-        fmt::format("left font ',12' textcolor rgb '{}'", scale_colour(k, decision_scales))
-            .c_str());
-    text += frame.label(fmt::format("{} ms", 1U << k), left + 16.0, 8.0, "left font ',10'");
-  }
-  return text;
 }
 
 std::string evidence_described(const EvidenceFigure& figure,
@@ -220,21 +207,22 @@ std::vector<CompressedTick> compressed_ticks(double low, double high, double sof
   return chosen;
 }
 
-Figure draw_evidence_figure(const EvidenceFigure& figure, const std::filesystem::path& stem) {
+Figure draw_evidence_figure(const EvidenceFigure& figure, const FigureFile& target) {
   const std::vector<EvidencePanel> all = evidence_panels(figure.model);
-  const std::size_t row_count = (all.size() + evidence_columns - 1) / evidence_columns;
+  const PanelColumns across =
+      columns_in(target.room(), evidence_left + 22.0, {4, evidence_width, evidence_gap_x});
+  const std::size_t row_count = (all.size() + across.count - 1) / across.count;
   const auto rows = static_cast<double>(row_count);
   const FigureFrame frame(
-      figure.title, figure.caption,
-      evidence_left + evidence_columns * evidence_width + (evidence_columns - 1) * evidence_gap_x +
-          22.0,
+      target, {figure.title, figure.caption, evidence_described(figure, all)},
+      evidence_left + across.left(across.count - 1) + across.width + 22.0,
       evidence_top + rows * evidence_height + (rows - 1.0) * evidence_gap_y + 56.0);
   double height = 0.1;
   for (const EvidencePanel& panel : all) {
     height = std::max(height, largest_contribution(figure.model, panel));
   }
   height *= 1.05;
-  const std::string file = gnuplot_file(stem.filename().string() + ".dat");
+  const std::string file = gnuplot_file(target.name() + ".dat");
   std::string commands = fmt::format(
       "unset key\nset border 3\nset tics nomirror out scale 0.5\nset grid xtics ytics\n"
       "set yrange [{:.4g}:{:.4g}]\nset ytics {}\n",
@@ -243,13 +231,16 @@ Figure draw_evidence_figure(const EvidenceFigure& figure, const std::filesystem:
   for (std::size_t p = 0; p < all.size(); ++p) {
     const EvidencePanel& panel = all[p];
     const auto [low, high] = evidence_ends(figure.model, panel);
-    const std::size_t row = p / evidence_columns;
-    const std::size_t column = p % evidence_columns;
-    const double left =
-        evidence_left + static_cast<double>(column) * (evidence_width + evidence_gap_x);
+    const std::size_t row = p / across.count;
+    const std::size_t column = p % across.count;
+    const double left = evidence_left + across.left(column);
     const double top = evidence_top + static_cast<double>(row) * (evidence_height + evidence_gap_y);
-    commands += frame.panel(left, top, evidence_width, evidence_height);
-    if (p == 0) commands += scale_legend(frame);
+    commands += frame.panel(left, top, across.width, evidence_height);
+    commands +=
+        p > 0 ? "unset key\n"
+              : frame.key(evidence_left, 0.0) +
+                    fmt::format("set key horizontal maxcols {} title 'time scale' samplen 1\n",
+                                across.count < 4 ? 4 : decision_scales);
     commands += fmt::format(
         "set title {} offset 0,-0.6\nset xlabel {} offset 0,0.5\nset xrange [{:.5g}:{:.5g}]\n"
         "set xtics ({})\nset ylabel '{}' offset 0,0\nset format y '{}'\n",
@@ -259,15 +250,15 @@ Figure draw_evidence_figure(const EvidenceFigure& figure, const std::filesystem:
     commands += evidence_plot(panel, file, p) + FigureFrame::end_panel();
     data += evidence_block(figure.model, panel);
   }
-  return frame.draw(stem, commands, data, evidence_described(figure, all));
+  return frame.draw(commands, data);
 }
 
 void draw_evidence(const experiments::ExperimentResult& result, const std::atomic<bool>* stop) {
   for (const std::string& simulator : result.experiment.simulators) {
     for (const auto& [estimator, evidence] : evidence_figures(result, simulator)) {
       stop_if_asked(stop);
-      draw_evidence_figure(
-          evidence, result.directory.file("figures", fmt::format("{}_{}", estimator, simulator)));
+      draw_evidence_figure(evidence,
+                           figure_file(result, fmt::format("{}_{}", estimator, simulator)));
     }
   }
 }

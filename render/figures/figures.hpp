@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -19,9 +20,9 @@
 
 namespace touchdown::render {
 
-/// Draws maps of the error rate into the run directory, for every engine: over the noise grid with
-/// one panel per estimator, and over knee and wheel torque noise if there is such a grid. `stop`,
-/// here and below, may be null and is looked at between figures.
+/// Draws maps of the success rate into the run directory, for every engine: over the noise grid
+/// with one panel per estimator, and over knee and wheel torque noise if there is such a grid.
+/// `stop`, here and below, may be null and is looked at between figures.
 void draw_heatmaps(const experiments::ExperimentResult& result, const std::atomic<bool>* stop);
 
 /// Draws for every engine the measurement models that were fitted to its runs.
@@ -44,34 +45,32 @@ void draw_drop_details(const experiments::ExperimentResult& result, const std::a
 void draw_phase_posteriors(const experiments::ExperimentResult& result,
                            const std::atomic<bool>* stop);
 
-// Accuracies of good estimators are so close to one that their colours would look alike, while
-// their error rates differ by a factor of ten. All maps therefore draw error rates, in percent, on
-// one logarithmic scale: a colour means the same error in every engine, experiment and figure.
+// Success rates of good estimators are so close to 100 % that their colours would look alike, while
+// their distances from it differ by a factor of ten. The colours of all maps are therefore
+// logarithmic in this distance, the error in percent: a colour means the same success rate in every
+// engine, experiment and figure.
 
 /// Ends of the scale (%); errors beyond have the end's colour.
 inline constexpr double lowest_error = 0.3, highest_error = 30.0;
 /// Levels at which lines are drawn between cells (%).
 inline constexpr std::array<double, 4> error_levels = {1.0, 2.0, 5.0, 10.0};
 
-/// The error rate of an accuracy (%), rounded to the millionth: the difference alone would be
-/// 1.0999999999999899.
-double error_percent(double accuracy);
+/// The error of a success rate from 0 to 1 (%), rounded to the millionth: the difference alone
+/// would be 1.0999999999999899.
+double error_percent(double success);
+/// The success rate of an error, both in %.
+inline double success_of(double error) { return std::round(1e6 * (100.0 - error)) / 1e6; }
 
-/// "0.42", "1.38", "12.3": three digits from 1 % on; a dash for NaN.
-std::string error_text(double percent);
+/// The success rate of an error (%): "99.58", "87.70"; a dash for NaN.
+std::string success_text(double error);
 
-/// A colour (#rrggbb), and whether it is light enough for dark text.
-struct MapColour {
-  std::string hex;
-  bool light;
-};
-/// The colour of an error rate (%): bright where it is low.
-MapColour error_colour(double percent);
+/// Whether the colour of an error (%) is light enough for dark text. It is bright for a low error.
+bool is_light(double error);
 
 // The drawers of these figures, for data of any origin. Files as `draw_figure`. Errors:
 // `InputError` without anything to draw, and where stated; `Error` as `draw_figure`.
 
-/// One map of error rates (%): `value[row][column]` for the figure's y[row] and x[column]; NaN
+/// One map of errors (%): `value[row][column]` for the figure's y[row] and x[column]; NaN
 /// where unknown. `low` and `high` are the ends of each cell's interval; `marked` cells are
 /// crossed. All three may be empty.
 struct HeatmapPanel {
@@ -81,9 +80,9 @@ struct HeatmapPanel {
   std::vector<std::vector<bool>> marked = {};
 };
 
-/// Maps over the same two quantities, side by side, on the common colour scale of error rates. Maps
-/// of up to 64 cells show each cell's number, and its interval where there is one. For finer maps
-/// only the data file contains the numbers.
+/// Maps of success rates over the same two quantities, side by side, on the common colour scale.
+/// Maps of up to 64 cells show each cell's number, and its interval where there is one and it fits.
+/// For finer maps only the data file contains the numbers.
 struct Heatmap {
   std::string title;
   std::string x_label, y_label;  ///< with units
@@ -96,21 +95,6 @@ struct Heatmap {
 
 /// Maps with more cells than this show no numbers.
 inline constexpr std::size_t most_numbered_cells = 64;
-
-/// What the size of a heatmap and the places of its cells depend on.
-struct HeatmapShape {
-  std::size_t panels, columns, rows;
-  bool has_intervals;   ///< cells show them
-  std::string caption;  ///< its lines make the picture higher
-};
-
-/// The size of a heatmap's picture (px), and its panels without their labels: left, top, width and
-/// height as shares of the picture. Cells divide a panel evenly, the first row is the lowest.
-struct HeatmapPlaces {
-  int width, height;
-  std::vector<std::array<double, 4>> panels;
-};
-HeatmapPlaces heatmap_places(const HeatmapShape& shape);
 
 /// A noise level that maps vary.
 struct NoiseAxis {
@@ -141,7 +125,7 @@ std::vector<NoiseMaps> noise_maps(const experiments::Experiment& experiment);
 std::vector<std::string> mapped_estimators(const experiments::Experiment& experiment);
 
 /// Draws a heatmap with panels of y × x values.
-Figure draw_heatmap(const Heatmap& heatmap, const std::filesystem::path& stem);
+Figure draw_heatmap(const Heatmap& heatmap, const FigureFile& target);
 
 /// A measurement model and the estimators that use it.
 struct DensityRow {
@@ -174,7 +158,7 @@ struct DensityAxes {
 };
 DensityAxes axes_of(const LikelihoodGrids& grids);
 
-Figure draw_density_figure(const DensityFigure& figure, const std::filesystem::path& stem);
+Figure draw_density_figure(const DensityFigure& figure, const FigureFile& target);
 
 /// The curves of a fitted additive model: the evidence of each channel for or against contact, at
 /// each time scale, and that of the noise levels. Each has a panel; all panels span the same range
@@ -196,7 +180,7 @@ struct CompressedTick {
 /// a logarithmic axis.
 std::vector<CompressedTick> compressed_ticks(double low, double high, double softsign_scale);
 
-Figure draw_evidence_figure(const EvidenceFigure& figure, const std::filesystem::path& stem);
+Figure draw_evidence_figure(const EvidenceFigure& figure, const FigureFile& target);
 
 /// The calibration and the latencies of one estimator.
 struct ScoreRow {
@@ -222,11 +206,11 @@ struct ScoreFigure {
 
 /// Draws a reliability diagram: for each estimator the share of steps in contact against the stated
 /// probability of contact, with the number of steps in every bin below.
-Figure draw_reliability_figure(const ScoreFigure& figure, const std::filesystem::path& stem);
+Figure draw_reliability_figure(const ScoreFigure& figure, const FigureFile& target);
 
 /// Draws the distributions of takeoff and landing latencies: a histogram per estimator, one pair of
 /// panels per noise setting. Early detections have negative latency.
-Figure draw_latency_figure(const ScoreFigure& figure, const std::filesystem::path& stem);
+Figure draw_latency_figure(const ScoreFigure& figure, const FigureFile& target);
 
 /// Draws one drop with a column per noise setting: height, true and noisy torques, contact
 /// probabilities, spectrograms with power and median frequency, transition probabilities. A tint
@@ -235,7 +219,7 @@ Figure draw_latency_figure(const ScoreFigure& figure, const std::filesystem::pat
 /// and, as `spectrum_text`, `<stem>_spectrum_<n>.dat`, number 0 being noiseless.
 Figure draw_drop_detail(const experiments::DropDetail& detail,
                         const std::vector<std::string>& estimators, const FigureText& text,
-                        const std::filesystem::path& stem);
+                        const FigureFile& target);
 
 /// A spectrogram as a matrix for gnuplot, in dB of m²/s⁴: a row per eighth of an octave with the
 /// nearest frequency bin, and a column per `spectrum_stride`-th step.
@@ -248,6 +232,6 @@ std::string spectrum_text(const experiments::SpectrumTrace& trace, double bin_wi
 /// `<stem>_<n>.dat`, as intervals `<stem>_truth_<n>.dat` and, as a matrix,
 /// `<stem>_likelihood_<n>.dat`.
 Figure draw_phase_posterior(const std::vector<experiments::DropPosterior>& drops,
-                            const FigureText& text, const std::filesystem::path& stem);
+                            const FigureText& text, const FigureFile& target);
 
 }  // namespace touchdown::render

@@ -35,7 +35,7 @@ HeatmapPanel panel_of(const experiments::ExperimentResult& result, const std::st
   return panel;
 }
 
-/// The width of the widest interval of all panels, for maps with too many cells to show them.
+/// The width of the widest interval of all panels: not all maps show them.
 double widest_interval(const Heatmap& heatmap) {
   double widest = 0.0;
   for (const HeatmapPanel& panel : heatmap.panels) {
@@ -46,6 +46,13 @@ double widest_interval(const Heatmap& heatmap) {
     }
   }
   return widest;
+}
+
+/// "99 %, 98 % and 95 %": a comma alone would read as a decimal one.
+std::string levels_text(const std::vector<double>& errors) {
+  std::vector<std::string> texts;
+  for (const double error : errors) texts.push_back(fmt::format("{:g} %", success_of(error)));
+  return in_words(texts);
 }
 
 double always_contact(const experiments::ExperimentResult& result, const std::string& simulator) {
@@ -70,19 +77,15 @@ Heatmap heatmap_of(const experiments::ExperimentResult& result, const std::strin
     heatmap.panels.push_back(panel_of(result, simulator, estimator, maps));
   }
   heatmap.caption = fmt::format(
-      "Error rate: the share of steps with a wrong decision; {}. Always contact has an error rate "
-      "of {} %; crossed cells do not beat it. Lines run between cells below and above {} %. The "
-      "colour scale ends at {} and {} % and is the same in every map.",
+      "Success rate: the share of steps with a correct decision; {}. Always contact has {} %; "
+      "crossed cells do not beat it. Lines run between cells below and above {}. The colour scale "
+      "ends at {} and {} % and is the same in every map. The widest {:.0f} % interval over {}s "
+      "spans {:.1f} percentage points.",
       experiments::scored_text(result, simulator),
-      error_text(error_percent(always_contact(result, simulator))), fmt::join(heatmap.levels, ", "),
-      lowest_error, highest_error);
-  if (heatmap.x.size() * heatmap.y.size() > most_numbered_cells) {
-    heatmap.caption +=
-        fmt::format(" The widest {:.0f} % interval over {}s spans {:.1f} percentage points.",
-                    100.0 * experiment.intervals.bootstrap.level,
-                    experiments::sample_text(experiment), widest_interval(heatmap));
-    for (HeatmapPanel& panel : heatmap.panels) panel.low = panel.high = {};
-  }
+      success_text(error_percent(always_contact(result, simulator))), levels_text(heatmap.levels),
+      success_of(highest_error), success_of(lowest_error),
+      100.0 * experiment.intervals.bootstrap.level, experiments::sample_text(experiment),
+      widest_interval(heatmap));
   return heatmap;
 }
 
@@ -100,13 +103,13 @@ std::vector<NoiseMaps> noise_maps(const experiments::Experiment& experiment) {
   const noise::KneeWheelGridConfig& joints = noise.knee_wheel;
   std::vector<NoiseMaps> maps = {
       {"error",
-       "Error rate under sensor noise",
+       "Success rate under sensor noise",
        {&NoiseCell::accelerometer, "m/s²", "accelerometer noise", "accelerometer noise",
         noise.accelerometer},
        {&NoiseCell::torque, "N·m", "torque noise", "torque noise", noise.torque}}};
   if (joints.knee.empty()) return maps;
   maps.push_back({"knee_wheel",
-                  fmt::format("Error rate under torque noise, {} m/s² on the accelerometer",
+                  fmt::format("Success rate under torque noise, {} m/s² on the accelerometer",
                               joints.accelerometer),
                   {&NoiseCell::wheel, "N·m", "wheel noise", "wheel torque noise", joints.wheel},
                   {&NoiseCell::knee, "N·m", "knee noise", "knee torque noise", joints.knee},
@@ -132,36 +135,30 @@ void draw_heatmaps(const experiments::ExperimentResult& result, const std::atomi
     for (const NoiseMaps& maps : noise_maps(result.experiment)) {
       stop_if_asked(stop);
       draw_heatmap(heatmap_of(result, simulator, maps),
-                   result.directory.file("figures", fmt::format("{}_{}", maps.name, simulator)));
+                   figure_file(result, fmt::format("{}_{}", maps.name, simulator)));
     }
   }
 }
 
-double error_percent(double accuracy) { return std::round(1e8 * (1.0 - accuracy)) / 1e6; }
+double error_percent(double success) { return std::round(1e8 * (1.0 - success)) / 1e6; }
 
-std::string error_text(double percent) {
-  if (!std::isfinite(percent)) return "–";
-  // A value that would round to 10.00 needs one digit less.
-  return fmt::format("{:.{}f}", percent, percent < 9.995 ? 2 : 1);
+std::string success_text(double error) {
+  if (!std::isfinite(error)) return "–";
+  return fmt::format("{:.2f}", success_of(error));
 }
 
-MapColour error_colour(double percent) {
-  const double clamped = std::clamp(percent, lowest_error, highest_error);
+bool is_light(double error) {
+  const double clamped = std::clamp(error, lowest_error, highest_error);
   const double share = std::log(highest_error / clamped) / std::log(highest_error / lowest_error);
   const double at = share * (viridis.size() - 1);
   const auto below = std::min(static_cast<std::size_t>(at), viridis.size() - 2);
-  const double fraction = at - static_cast<double>(below);
-  std::array<double, 3> linear{};
-  std::string hex = "#";
-  for (std::size_t i = 0; i < 3; ++i) {
-    const unsigned shift = 16U - 8U * static_cast<unsigned>(i);
+  const auto part = [&](unsigned shift) {
     const double from = viridis[below] >> shift & 255U, to = viridis[below + 1] >> shift & 255U;
-    const double part = std::round(from + fraction * (to - from));
-    hex += fmt::format("{:02x}", static_cast<unsigned>(part));
-    linear[i] = std::pow((part / 255.0 + 0.055) / 1.055, 2.4);
-  }
+    const double value = from + (at - static_cast<double>(below)) * (to - from);
+    return std::pow((value / 255.0 + 0.055) / 1.055, 2.4);
+  };
   // At this luminance, white and black text have the same contrast.
-  return {hex, 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2] > 0.179};
+  return 0.2126 * part(16) + 0.7152 * part(8) + 0.0722 * part(0) > 0.179;
 }
 
 }  // namespace touchdown::render

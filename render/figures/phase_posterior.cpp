@@ -233,8 +233,8 @@ FigureText posterior_text(const experiments::Experiment& experiment,
 }  // namespace
 
 Figure draw_phase_posterior(const std::vector<experiments::DropPosterior>& drops,
-                            const FigureText& text, const std::filesystem::path& stem) {
-  const std::string name = stem.filename().string();
+                            const FigureText& text, const FigureFile& target) {
+  const std::string name = target.name();
   PanelGrid::Layout layout;
   layout.columns.clear();
   layout.at = drops.front().at;
@@ -246,7 +246,7 @@ Figure draw_phase_posterior(const std::vector<experiments::DropPosterior>& drops
     to = std::max(to, 1e3 * drop.time.back());
     largest_error = std::max(largest_error, largest_error_of(drop));
   }
-  const PanelGrid grid(layout, text);
+  const PanelGrid grid(target, layout, text);
   std::vector<PlotData> data;
   std::string commands = grid.begin(from, to);
   for (std::size_t i = 0; i < drops.size(); ++i) {
@@ -257,7 +257,7 @@ Figure draw_phase_posterior(const std::vector<experiments::DropPosterior>& drops
     data.push_back({fmt::format("{}_truth_{}.dat", name, i + 1), truth_text(drops[i])});
     data.push_back({fmt::format("{}_likelihood_{}.dat", name, i + 1), likelihood_text(drops[i])});
   }
-  return grid.draw(stem, commands, data);
+  return grid.draw(commands, data);
 }
 
 void draw_phase_posteriors(const experiments::ExperimentResult& result,
@@ -276,7 +276,7 @@ void draw_phase_posteriors(const experiments::ExperimentResult& result,
   }
   if (drops.empty()) return;
   draw_phase_posterior(drops, posterior_text(experiment, config),
-                       result.directory.file("figures", "phase_posterior"));
+                       figure_file(result, "phase_posterior"));
 }
 
 }  // namespace touchdown::render

@@ -18,7 +18,7 @@
 namespace touchdown::render {
 namespace {
 
-constexpr double side = 360.0, counts_height = 96.0, gap = 84.0, left_margin = 70.0, key = 240.0;
+constexpr double side = 360.0, counts_height = 96.0, gap = 84.0, left_margin = 70.0;
 constexpr double counts_top = side + 62.0;
 
 /// One block (gnuplot's `index`) per panel and curve: the stated probability, the share of contact
@@ -46,11 +46,18 @@ std::string curves(const ScorePanel& panel, const std::string& file, std::size_t
                    const char* columns, const char* with, bool named) {
   std::string text;
   for (std::size_t c = 0; c < panel.rows.size(); ++c) {
-    text += fmt::format(", \\\n     {} index {} using {} with {} lt {} title {}", file,
+    text += fmt::format(", \\\n     {} index {} using {} with {} lt {} {} title {}", file,
                         first_block + c, columns, with, panel.rows[c].line_type,
+                        curve_width(c, panel.rows.size()),
                         gnuplot_text(named ? panel.rows[c].name : ""));
   }
   return text;
+}
+
+std::vector<std::string> names_in(const ScoreFigure& figure) {
+  std::vector<std::string> names;
+  for (const ScoreRow& row : figure.panels.front().rows) names.push_back(row.name);
+  return names;
 }
 
 std::string reliability_described(const ScoreFigure& figure) {
@@ -97,50 +104,58 @@ std::vector<ScorePanel> score_panels(const experiments::ExperimentResult& result
 
 }  // namespace
 
-Figure draw_reliability_figure(const ScoreFigure& figure, const std::filesystem::path& stem) {
+Figure draw_reliability_figure(const ScoreFigure& figure, const FigureFile& target) {
   if (figure.panels.empty() || figure.panels.front().rows.empty()) {
     throw InputError("a reliability figure without curves");
   }
-  const auto panels = static_cast<double>(figure.panels.size());
-  const FigureFrame frame(figure.title, figure.caption,
-                          left_margin + panels * side + (panels - 1.0) * gap + key,
-                          counts_top + counts_height + 58.0);
-  const std::string file = gnuplot_file(stem.filename().string() + ".dat");
-  std::string commands = "set xrange [0:1]\nset bars 0\n";
+  const double key = 76.0 + text_width(names_in(figure));
+  // Printed narrow, the key is below the panels.
+  PanelColumns across =
+      columns_in(target.room(), left_margin + key, {figure.panels.size(), side, gap}, side);
+  const bool has_room = left_margin + 0.7 * side + key <= target.room();
+  if (!has_room) across = columns_in(target.room(), left_margin + 24.0, {1, side, gap}, 0.0);
+  const double step = counts_top + counts_height + 64.0;
+  const std::size_t lines = (figure.panels.size() + across.count - 1) / across.count;
+  const double right = left_margin + across.left(across.count - 1) + across.width;
+  const auto rows = static_cast<double>(figure.panels.front().rows.size());
+  const double key_top = has_room ? 28.0 : static_cast<double>(lines) * step;
+  const FigureFrame frame(target, {figure.title, figure.caption, reliability_described(figure)},
+                          right + (has_room ? key : 24.0),
+                          static_cast<double>(lines) * step - 6.0 + (has_room ? 0.0 : 20.0 * rows));
+  const std::string file = gnuplot_file(target.name() + ".dat");
+  std::string commands = "set xrange [0:1]\nset errorbars 0 lw 0.9 dt 1\n";
   std::size_t block = 0;
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     const ScorePanel& panel = figure.panels[i];
-    const double left = left_margin + static_cast<double>(i) * (side + gap);
-    commands += frame.panel(left, 26.0, side, side);
+    const double left = left_margin + across.left(i % across.count);
+    const double top = static_cast<double>(i / across.count) * step;
+    commands += frame.panel(left, top + 26.0, across.width, side);
     commands += fmt::format(
         "set title {} offset 0,-0.6\nset yrange [0:1]\nset ytics 0.2\nset xtics 0.2\n"
         "set format y '%g'\nset format x '%g'\nunset logscale y\n"
         "unset xlabel\nset ylabel {}\n"
         "set arrow from 0,0 to 1,1 nohead back lc rgb '#9aa1a8' lw 1 dt 1\n",
-        gnuplot_text(panel.title), i == 0 ? "'share of steps in contact'" : "''");
-    commands += i == 0
-                    ? fmt::format("set key at screen {}, screen {} left top Left reverse\n",
-                                  1.0 - (key - 22.0) / frame.width(), 1.0 - 66.0 / frame.height())
-                    : "unset key\n";
+        gnuplot_text(panel.title), i % across.count == 0 ? "'share of steps in contact'" : "''");
+    commands += i == 0 ? frame.key(has_room ? right + 22.0 : left_margin, key_top) : "unset key\n";
     commands += "plot 2 lc rgb '#ffffff'" +
-                curves(panel, file, block, "2:3:4:5", "yerrorbars lw 0.9 dt 1 pt 0", false) +
+                curves(panel, file, block, "2:3:4:5", "yerrorbars dt 1 pt 0", false) +
                 curves(panel, file, block, "2:3", "linespoints", i == 0) + '\n' +
                 FigureFrame::end_panel();
-    commands += frame.panel(left, counts_top, side, counts_height);
+    commands += frame.panel(left, top + counts_top, across.width, counts_height);
     commands += fmt::format(
         "unset title\nunset key\nset logscale y\nset yrange [1:*]\nset ytics autofreq 100\n"
         "set format y '%.0s%c'\nset xlabel 'stated probability of contact'\nset ylabel {}\n",
-        i == 0 ? "'steps'" : "''");
+        i % across.count == 0 ? "'steps'" : "''");
     commands += "plot 0.1 lc rgb '#ffffff'" +
                 curves(panel, file, block, "1:6", "linespoints ps 0.4", false) + '\n';
     block += panel.rows.size();
   }
-  return frame.draw(stem, commands, reliability_data(figure), reliability_described(figure));
+  return frame.draw(commands, reliability_data(figure));
 }
 
 namespace {
 
-constexpr double panel_width = 310.0, row_height = 42.0, names = 190.0, numbers = 150.0;
+constexpr double panel_width = 310.0, row_height = 42.0, numbers = 150.0;
 constexpr double gap_y = 94.0, right_margin = 12.0;
 
 struct LatencyKind {
@@ -229,16 +244,21 @@ std::string latency_described(const ScoreFigure& figure) {
 
 }  // namespace
 
-Figure draw_latency_figure(const ScoreFigure& figure, const std::filesystem::path& stem) {
+Figure draw_latency_figure(const ScoreFigure& figure, const FigureFile& target) {
   if (figure.panels.empty() || figure.panels.front().rows.empty()) {
     throw InputError("a latency figure without rows");
   }
   const std::size_t rows = figure.panels.front().rows.size();
   const double height = row_height * static_cast<double>(rows);
-  const FigureFrame frame(figure.title, figure.caption,
-                          names + 2.0 * (panel_width + numbers) + right_margin,
-                          static_cast<double>(figure.panels.size()) * (height + gap_y));
-  const std::string file = gnuplot_file(stem.filename().string() + ".dat");
+  const double names = 24.0 + text_width(names_in(figure));
+  const PanelColumns across = columns_in(target.room(), names + numbers + right_margin,
+                                         {kinds.size(), panel_width, numbers});
+  const auto lines = static_cast<double>(figure.panels.size() * kinds.size() / across.count);
+  const FigureFrame frame(
+      target, {figure.title, figure.caption, latency_described(figure)},
+      names + across.left(across.count - 1) + across.width + numbers + right_margin,
+      lines * (height + gap_y));
+  const std::string file = gnuplot_file(target.name() + ".dat");
   std::string commands = fmt::format(
       "unset key\nset grid noytics\nset style fill solid 0.55\nset yrange [-0.15:{}]\nset border "
       "1\n",
@@ -253,15 +273,17 @@ Figure draw_latency_figure(const ScoreFigure& figure, const std::filesystem::pat
     }
     for (std::size_t k = 0; k < kinds.size(); ++k) {
       const auto [low, high] = range_of(figure, kinds[k]);
-      commands +=
-          frame.panel(names + static_cast<double>(k) * (panel_width + numbers),
-                      24.0 + static_cast<double>(p) * (height + gap_y), panel_width, height);
+      const std::size_t place = p * kinds.size() + k;
+      const bool is_first = place % across.count == 0;
+      commands += frame.panel(names + across.left(place % across.count),
+                              24.0 + static_cast<double>(place / across.count) * (height + gap_y),
+                              across.width, height);
       commands += fmt::format(
           "set title {} offset 0,-0.6\nset xrange [{}:{}]\nset ytics scale 0 ({})\n"
-          "set xlabel '{} latency (ms)'\n"
+          "set xtics {}\nset xlabel '{} latency (ms)'\n"
           "set arrow from 0,graph 0 to 0,graph 1 nohead back lc rgb '#6b747d' lw 1.2 dt 1\nplot ",
-          gnuplot_text(figure.panels[p].title), low, high, k == 0 ? estimators : "'' 0",
-          kinds[k].name);
+          gnuplot_text(figure.panels[p].title), low, high, is_first ? estimators : "'' 0",
+          tick_step(high - low, across.width / 45.0), kinds[k].name);
       for (std::size_t r = 0; r < rows; ++r) {
         commands += fmt::format(
             "{0} index {1} using 1:2:3 with filledcurves lt {2}, {0} index {1} using 1:3 with "
@@ -276,7 +298,7 @@ Figure draw_latency_figure(const ScoreFigure& figure, const std::filesystem::pat
       commands += FigureFrame::end_panel();
     }
   }
-  return frame.draw(stem, commands, latency_data(figure), latency_described(figure));
+  return frame.draw(commands, latency_data(figure));
 }
 
 void draw_scores(const experiments::ExperimentResult& result, const std::atomic<bool>* stop) {
@@ -284,9 +306,9 @@ void draw_scores(const experiments::ExperimentResult& result, const std::atomic<
   for (const std::string& simulator : experiment.simulators) {
     const std::string where =
         fmt::format("{}, {}", experiment.name, simulators::simulator_title(simulator));
-    const auto stem = [&](const char* name) {
+    const auto target = [&](const char* name) {
       stop_if_asked(stop);
-      return result.directory.file("figures", fmt::format("{}_{}", name, simulator));
+      return figure_file(result, fmt::format("{}_{}", name, simulator));
     };
     const std::vector<ScorePanel> panels = score_panels(result, simulator);
     if (panels.empty() || experiments::test_runs(result, simulator).scored == 0) continue;
@@ -296,7 +318,7 @@ void draw_scores(const experiments::ExperimentResult& result, const std::atomic<
          fmt::format("{}. Every step of both wheels counts. Bars: {}. On the diagonal, the stated "
                      "probability equals the share of steps in contact. Below: steps per bin.",
                      scored, experiments::intervals_text(experiment))},
-        stem("reliability"));
+        target("reliability"));
     draw_latency_figure(
         {"Latency of takeoffs and landings: " + where, panels,
          fmt::format(
@@ -304,7 +326,7 @@ void draw_scores(const experiments::ExperimentResult& result, const std::atomic<
              "have negative latency. Bins of 5 ms; every histogram has its own scale. The "
              "line is the mean; ± is the standard deviation over the events that were found.",
              scored, 1e3 * experiment.scoring.minimum_flight)},
-        stem("latency"));
+        target("latency"));
   }
 }
 

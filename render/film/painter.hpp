@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -18,73 +19,32 @@ namespace touchdown::render {
 /// The row of a recording at `time` (s).
 std::size_t row_at(const logs::Recording& recording, double time);
 
-/// The size of the only view in the pictures of a film with labels and strip (px).
-cv::Size single_view_size(const VideoOptions& options);
-
-/// Composes the pictures of one film: up to `most_sources` views in a grid and, if `annotated`,
-/// labels on them and the strip below.
-class FrameComposer {
- public:
-  /// Keeps the sources' references.
-  FrameComposer(const std::vector<VideoSource>& sources, const VideoOptions& options,
-                bool annotated);
-
-  /// The size of each run's view in the picture (px).
-  cv::Size view_size() const;
-
-  /// Puts a view (8UC4, BGRA) in the place of run `i`. A larger view is reduced; of a wider one,
-  /// the middle is shown.
-  void place(std::size_t i, const cv::Mat& view);
-
-  /// The picture (8UC3, BGR) with the placed views, labels and strip at `time` of the recordings
-  /// (s). Valid until the next call.
-  const cv::Mat& picture(double time);
-
- private:
-  struct Run {
-    VideoSource source;
-    std::vector<std::uint8_t> contact;  ///< without states that are too short to be read
-  };
-  cv::Rect pane(std::size_t i) const;
-  void write_labels(std::size_t i, double time);
-
-  VideoOptions options_;
-  int strip_height_;  ///< 0 without one
-  std::vector<Run> runs_;
-  std::unique_ptr<SignalStrip> strip_;
-  TextPen pen_;
-  cv::Mat reduced_;
-  cv::Mat picture_;
-};
-
-/// Paints the pictures of one or several films at a point in time. The view of each run is painted
-/// once for all films. A picture depends on the time alone, not on previous ones.
+/// Paints the pictures of a film: up to `most_sources` views in a grid and, if `annotated`, labels
+/// on them and the strip below. A picture depends on its time alone, not on previous ones.
 class FramePainter {
  public:
   /// Creates the process's OpenGL context. Keeps the sources' references.
-  FramePainter(const std::vector<VideoSource>& sources, const std::vector<Film>& films,
-               bool annotated = true);
-  /// One film of all sources.
   FramePainter(const std::vector<VideoSource>& sources, const VideoOptions& options,
                bool annotated = true);
   ~FramePainter();
 
-  /// The picture (8UC3, BGR) of the first film at `time` of the recordings (s). Valid until the
-  /// next call.
-  cv::Mat paint(double time);
-
-  /// Likewise of each film; an empty one for films that are not `wanted`.
-  std::vector<cv::Mat> paint(double time, const std::vector<bool>& wanted);
+  /// The picture (8UC3, BGR) at `time` of the recordings (s). Valid until the next call.
+  const cv::Mat& paint(double time);
 
  private:
   struct Show;
-  /// The view of a run (8UC4, BGRA), valid until the next call.
-  cv::Mat view(std::size_t run, double time);
+  cv::Size view_size() const;  ///< of each run in the picture (px)
+  cv::Rect pane(std::size_t i) const;
+  void paint_view(std::size_t i, double time);
+  void write_labels(std::size_t i, double time);
 
-  std::vector<Film> films_;
-  std::vector<FrameComposer> composers_;
-  GlContext gl_;  ///< as large as one view
+  VideoOptions options_;
+  int strip_height_;             ///< 0 without one
+  std::optional<GlContext> gl_;  ///< as large as a view is painted
   std::vector<std::unique_ptr<Show>> shows_;
+  std::unique_ptr<SignalStrip> strip_;
+  TextPen pen_;
+  cv::Mat reduced_, picture_;
 };
 
 /// Fills `pixels` with frame `frame`.

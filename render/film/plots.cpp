@@ -17,8 +17,7 @@ const char* const font_file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr int oversampling = 2;
 constexpr double span_margin = 0.1;  // s: the end of a line must not be visible at the image's edge
 
-const Colour one_wheel = rgb(0xe6f2e8);
-const Colour two_wheels = rgb(0xcfe8d2);
+const Colour in_contact = rgb(0xcfe8d2);
 const Colour unknown = rgb(0xe3e4e8);
 const Colour grid = rgb(0xdfe3e6);
 
@@ -41,23 +40,21 @@ struct TimeSpan {
   }
 };
 
-Colour band(std::uint8_t wheels_in_contact) {
-  if (wheels_in_contact == unknown_contact) return unknown;
-  return wheels_in_contact > 1 ? two_wheels : one_wheel;
-}
-
-/// Tints the time of true contact green, and unknown time grey.
+/// Tints the time of true contact of each wheel green, and unknown time grey.
 void draw_contact(const TimeSpan& span, const StripRow& row, const PlotArea& area) {
   const auto& contact = row.wheels_in_contact;
   for (std::size_t k = TimeSpan::row_at(row, span.begin, contact.size());
        k < TimeSpan::row_at(row, span.end, contact.size());) {
     std::size_t end = k + 1;
     while (end < contact.size() && contact[end] == contact[k]) ++end;
-    if (contact[k] > 0) {
-      cv::rectangle(span.image, fixed(span.x(row, k), area.top),
-                    fixed(span.x(row, end), area.bottom - 1), band(contact[k]), cv::FILLED,
-                    cv::LINE_8, subpixel_bits);
-    }
+    const int middle = (area.top + area.bottom) / 2;
+    const auto tint = [&](int top, int bottom) {
+      cv::rectangle(span.image, fixed(span.x(row, k), top), fixed(span.x(row, end), bottom - 1),
+                    contact[k] == unknown_contact ? unknown : in_contact, cv::FILLED, cv::LINE_8,
+                    subpixel_bits);
+    };
+    if ((contact[k] & left_in_contact) != 0) tint(area.top, middle);
+    if ((contact[k] & right_in_contact) != 0) tint(middle, area.bottom);
     k = end;
   }
 }
@@ -144,42 +141,33 @@ StripPlots::StripPlots(const std::vector<StripRow>& rows, std::vector<PlotArea> 
       tile_seconds_(seconds * (static_cast<double>(tile_width_) / width)) {}
 
 void StripPlots::redraw_from(double time) {
-  const int first = static_cast<int>(std::floor((time - span_margin) / tile_seconds_));
-  for (auto& tiles : tiles_) tiles.erase(tiles.lower_bound(first), tiles.end());
+  tiles_.erase(
+      tiles_.lower_bound(static_cast<int>(std::floor((time - span_margin) / tile_seconds_))),
+      tiles_.end());
 }
 
 void StripPlots::copy_window(double from, const cv::Mat& image) {
-  const int begin = static_cast<int>(std::lround(from * width_ * oversampling / seconds_));
-  const int first = floor_div(begin, oversampling);
-  const int half_pixels = begin - first * oversampling;
+  const int first = static_cast<int>(std::lround(from * width_ / seconds_));
   const int size = tile_width_;
   for (int number = floor_div(first, size); number * size < first + width_; ++number) {
     const int left = std::max(first, number * size);
     const int right = std::min(first + width_, (number + 1) * size);
-    tile(number, half_pixels)
+    tile(number)
         .colRange(left - number * size, right - number * size)
         .copyTo(image.colRange(left - first, right - first));
   }
 }
 
-const cv::Mat& StripPlots::tile(int number, int half_pixels) {
-  auto& tiles = tiles_[static_cast<std::size_t>(half_pixels)];
-  if (const auto found = tiles.find(number); found != tiles.end()) return found->second;
-  const int windows = 3;
-  if (static_cast<int>(tiles.size()) * tile_width_ > windows * width_) {
-    for (auto& some : tiles_) some.clear();
-  }
-  const cv::Mat drawn = drawn_tile(number);
-  for (int half = 0; half < oversampling; ++half) {
-    cv::resize(drawn.colRange(half, half + tile_width_ * oversampling),
-               tiles_[static_cast<std::size_t>(half)][number], {tile_width_, height_}, 0, 0,
-               cv::INTER_AREA);
-  }
-  return tiles.at(number);
+const cv::Mat& StripPlots::tile(int number) {
+  if (const auto found = tiles_.find(number); found != tiles_.end()) return found->second;
+  constexpr int windows = 3;
+  if (static_cast<int>(tiles_.size()) * tile_width_ > windows * width_) tiles_.clear();
+  cv::resize(drawn_tile(number), tiles_[number], {tile_width_, height_}, 0, 0, cv::INTER_AREA);
+  return tiles_.at(number);
 }
 
 cv::Mat StripPlots::drawn_tile(int number) const {
-  cv::Mat image(height_ * oversampling, (tile_width_ + 1) * oversampling, CV_8UC3, strip_paper);
+  cv::Mat image(height_ * oversampling, tile_width_ * oversampling, CV_8UC3, strip_paper);
   const TimeSpan span{image, number * tile_seconds_, (number + 1) * tile_seconds_ + span_margin,
                       width_ * oversampling / seconds_};
   for (std::size_t i = 0; i < rows_.size(); ++i) {

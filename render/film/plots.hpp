@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -49,16 +48,17 @@ struct StripCurve {
   bool emphasis = true;       ///< false: thin and without a dot
 };
 
-/// Stands for a number of wheels in contact that is not known.
-inline constexpr std::uint8_t unknown_contact = 255;
+/// The wheels in contact as bits: 1 is the left one, 2 the right one.
+inline constexpr std::uint8_t left_in_contact = 1, right_in_contact = 2, both_in_contact = 3,
+                              unknown_contact = 255;
 
 /// One plot: curves over bands of true contact.
 struct StripRow {
   std::string title;
   float low = 0.0f, high = 1.0f;
   std::vector<StripCurve> curves;
-  /// The number of wheels in true contact, or `unknown_contact`, per row of the recording; may be
-  /// empty.
+  /// The wheels in true contact, or `unknown_contact`, per row of the recording; may be empty. The
+  /// left wheel tints the upper half of the plot, the right one the lower half.
   std::vector<std::uint8_t> wheels_in_contact;
   double period = 1e-3;  ///< between rows (s)
 };
@@ -80,8 +80,7 @@ struct PlotArea {
 float plot_y(const StripRow& row, const PlotArea& area, float value);
 
 /// The plots of a whole run as one very wide image. Tiles of it, some per window, are drawn on
-/// demand, at twice the size and averaged. There are two sets of tiles, because a window may begin
-/// at half a pixel.
+/// demand, at twice the size and averaged.
 class StripPlots {
  public:
   /// Keeps a reference to `rows`. A window is `width` pixels wide and shows `seconds`.
@@ -95,7 +94,7 @@ class StripPlots {
   void copy_window(double from, const cv::Mat& image);
 
  private:
-  const cv::Mat& tile(int number, int half_pixels);
+  const cv::Mat& tile(int number);
   cv::Mat drawn_tile(int number) const;
 
   const std::vector<StripRow>& rows_;
@@ -104,7 +103,7 @@ class StripPlots {
   double seconds_;
   int tile_width_;
   double tile_seconds_;
-  std::array<std::map<int, cv::Mat>, 2> tiles_;  ///< by half pixel, then number
+  std::map<int, cv::Mat> tiles_;  ///< by number
 };
 
 }  // namespace touchdown::render

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "scoring/transitions.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {
@@ -16,17 +17,28 @@ std::vector<std::uint8_t> wheels_in_contact(const logs::Recording& recording,
   const auto wheels = scoring::contact_labels(recording, labels);
   std::vector<std::uint8_t> count(wheels[0].size());
   for (std::size_t k = 0; k < count.size(); ++k) {
-    count[k] = static_cast<std::uint8_t>((wheels[0][k] != 0) + (wheels[1][k] != 0));
+    count[k] = static_cast<std::uint8_t>((wheels[0][k] != 0 ? 1 : 0) + (wheels[1][k] != 0 ? 2 : 0));
   }
   return count;
 }
 
-std::vector<scoring::Flight> visible_flights(const logs::Recording& recording,
-                                             scoring::LabelConfig labels) {
+std::vector<WheelFlight> wheel_flights(const logs::Recording& recording,
+                                       const scoring::LabelConfig& labels) {
   if (recording.truth.size() < recording.steps()) return {};
-  constexpr double visible = 0.05;  // s
-  labels.debounce = std::max(labels.debounce, visible);
-  return scoring::flights(scoring::any_wheel(scoring::contact_labels(recording, labels)));
+  const double period = recording.period();
+  const auto shortest =
+      static_cast<std::size_t>(std::llround(scoring::ScoringConfig{}.minimum_flight / period));
+  const auto contact = scoring::contact_labels(recording, labels);
+  std::vector<WheelFlight> all;
+  for (std::size_t wheel = 0; wheel < contact.size(); ++wheel) {
+    for (const scoring::Flight& flight : scoring::flights(contact[wheel], shortest)) {
+      all.push_back({wheel, period * static_cast<double>(flight.takeoff),
+                     period * static_cast<double>(flight.landing),
+                     flight.takeoff > 0 && flight.landing < recording.steps()});
+    }
+  }
+  std::ranges::stable_sort(all, {}, &WheelFlight::takeoff);
+  return all;
 }
 
 std::string label_of(const VideoSource& source) {

@@ -2,14 +2,10 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
-
-#include <opencv2/core/types.hpp>
 
 #include "logs/recording.hpp"
 #include "models/robot_model.hpp"
@@ -39,14 +35,21 @@ struct VideoSource {
   std::string label = {};  ///< shown in the film; empty: the name of its engine
 };
 
-/// The number of wheels in true contact, row by row; empty for a robot's log.
+/// The wheels in true contact as `StripRow` has them, row by row; empty for a robot's log.
 std::vector<std::uint8_t> wheels_in_contact(const logs::Recording& recording,
                                             const scoring::LabelConfig& labels);
 
-/// Flights of both wheels of a simulated run that are long enough to be seen; none of a robot's
-/// log.
-std::vector<scoring::Flight> visible_flights(const logs::Recording& recording,
-                                             scoring::LabelConfig labels);
+/// A flight of one wheel: of the left one, 0, or the right one, 1.
+struct WheelFlight {
+  std::size_t wheel;
+  double takeoff, landing;  ///< s
+  bool is_whole;            ///< neither takeoff nor landing is an end of the run
+};
+
+/// The flights of both wheels of a simulated run, in order of their takeoffs, as the score counts
+/// them: of at least `ScoringConfig::minimum_flight`. None of a robot's log.
+std::vector<WheelFlight> wheel_flights(const logs::Recording& recording,
+                                       const scoring::LabelConfig& labels);
 
 /// A run's label, or else "MuJoCo", "Bullet" or "robot log".
 std::string label_of(const VideoSource& source);
@@ -67,22 +70,6 @@ struct VideoOptions : VideoFormat {
   scoring::LabelConfig labels = {};                     ///< what counts as true contact
   /// Called after every frame; may be empty.
   std::function<void(int done, int of)> progress = {};
-};
-
-/// A picture of a film as a file.
-struct Still {
-  std::filesystem::path path;  ///< a JPEG
-  double time = 0.0;           ///< of the recording (s)
-};
-
-/// One of several films of the same runs.
-struct Film {
-  std::vector<std::size_t> runs;  ///< those that it shows, as indices of the sources
-  VideoOptions options;
-  std::filesystem::path path = {};
-  std::optional<Still> still = {};  ///< the frame that is nearest to its time
-  /// The size at which views are painted at least, before they are reduced to their place.
-  std::optional<cv::Size> least_view = {};
 };
 
 /// The largest number of runs in a film.

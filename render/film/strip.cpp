@@ -87,7 +87,8 @@ std::vector<StripRow> strip_rows(const std::vector<VideoSource>& sources,
     const VideoSource& source = sources.front();
     const auto contact = wheels_in_contact(source.recording, labels);
     rows.push_back(contact_row(source, contact, "contact probability"));
-    rows.push_back(transition_row(source, contact));
+    StripRow transitions = transition_row(source, contact);
+    if (!transitions.curves.empty()) rows.push_back(std::move(transitions));
     StripRow torques = empty_row("torque (N·m)", source);
     torques.curves.push_back(
         {"wheel", rgb(0x009e73), torque(source.recording, models::Servo::left_wheel)});
@@ -135,6 +136,14 @@ SignalStrip::SignalStrip(std::vector<StripRow> rows, int width, int height,
       names_(letters_ - 1),
       left_(narrow_ ? 3 * letters_ : std::max(width * 176 / 1280, 60)),
       right_(narrow_ ? width - letters_ : width - width * 24 / 1280) {
+  const auto is_cut = [this] {
+    return std::ranges::any_of(rows_, [this](const StripRow& row) {
+      return std::ranges::any_of(row.curves, [this](const StripCurve& curve) {
+        return !narrow_ && legend_width(curve) > left_ - 2 * letters_ - width_ * 12 / 1280;
+      });
+    });
+  };
+  while (is_cut() && names_ > smallest_names) --names_;
   if (!place_rows_alike()) {
     while (!place_rows_by_legend() && names_ > smallest_names) --names_;
   }

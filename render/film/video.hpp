@@ -7,18 +7,16 @@
 
 namespace touchdown::render {
 
-/// The computing times of a video.
+/// The computing time of a video.
 struct VideoStatistics {
   int frames = 0;
-  double seconds = 0.0;           ///< in all
-  double encoding_seconds = 0.0;  ///< of those, spent in the encoder's calls
-  double first_frame_seconds = 0.0;
+  double seconds = 0.0;
   double fps() const { return frames / seconds; }
 };
 
 /// Films a run: the robot on its terrain, with plots below. The plots show the estimators' contact
-/// probabilities over the true contact (a band: dark where both wheels are in contact, light where
-/// one is), takeoff and landing probabilities of the first estimator that has them, and the left
+/// probabilities over the true contact (green: of the left wheel above, of the right one below),
+/// takeoff and landing probabilities of the first estimator that has them, and the left
 /// leg's torques. Thick lines are the left wheel, thin lines the right. Several runs are side by
 /// side, aligned in time; shorter ones stop at their ends.
 ///
@@ -28,13 +26,7 @@ struct VideoStatistics {
 VideoStatistics render_video(const std::vector<VideoSource>& sources, const VideoOptions& options,
                              const std::filesystem::path& path);
 
-/// Writes several films of the same runs. The view of each run is painted once for all films that
-/// show it. The first frame's time, speed, frames per second, quality and workers are those of the
-/// first film; the others must have the same. A shorter film ends earlier. Errors: as above.
-VideoStatistics render_films(const std::vector<VideoSource>& sources,
-                             const std::vector<Film>& films);
-
-/// The middle of the run's first visible flight, or else of the run (s).
+/// The middle of the first flight of a wheel within the run, or else of the run (s).
 double first_flight(const logs::Recording& recording, const scoring::LabelConfig& labels);
 
 /// Writes the video's picture at `time` of the recording (s) as a PNG, or as a JPEG for a path with

@@ -45,6 +45,56 @@ std::string shape_text(MarkShape shape, bool has_rows, bool has_interval) {
   return has_interval ? "yerrorlines" : "linespoints";
 }
 
+constexpr std::size_t most_columns = 4;
+
+constexpr double title_height = 26.0, axis_height = 58.0, tics_height = 28.0, line_gap = 14.0;
+
+constexpr double axis_width = 68.0, column_gap = 30.0, key_line = 17.0;
+
+constexpr double right_margin = 24.0;
+
+constexpr double narrowest = 600.0;  ///< the caption needs this width
+
+/// Panels beside and below each other. A folded line of panels continues in the next one.
+struct Grid {
+  std::size_t columns = 1, lines = 1;
+  bool is_folded = false;
+};
+
+double margin_of(const FacetShape& shape) { return shape.rows > 0 ? shape.row_names : axis_width; }
+
+Grid grid_of(const FacetShape& shape) {
+  const std::size_t most = columns_in(shape.room, margin_of(shape) + right_margin,
+                                      {shape.panels * shape.measures, 330.0, column_gap})
+                               .count;
+  if (shape.measures == 1) {
+    const std::size_t fitting = std::min(most, most_columns);
+    const std::size_t lines = (shape.panels + fitting - 1) / fitting;
+    return {(shape.panels + lines - 1) / lines, lines};
+  }
+  Grid grid =
+      shape.rows > 0 ? Grid{shape.measures, shape.panels} : Grid{shape.panels, shape.measures};
+  if (grid.columns <= most) return grid;
+  // Curves of different measures do not share a vertical axis.
+  const std::size_t columns = shape.rows > 0 ? most : 1;
+  return {columns, (shape.panels * shape.measures + columns - 1) / columns, true};
+}
+
+double panel_width(const FacetShape& shape, const Grid& grid) {
+  const auto columns = static_cast<double>(grid.columns);
+  return columns_in(shape.room, margin_of(shape) + right_margin,
+                    {grid.columns, std::clamp(960.0 / columns, 225.0, 330.0), column_gap}, 0.0)
+      .width;
+}
+
+double panel_height(const FacetShape& shape, const Grid& grid, double panel_width) {
+  if (shape.rows > 0) {
+    const double row = std::max(27.0, 9.0 + 9.0 * static_cast<double>(shape.series));
+    return row * static_cast<double>(shape.rows);
+  }
+  return (grid.lines == 1 ? 1.0 : 0.7) * panel_width;
+}
+
 }  // namespace
 
 std::vector<FacetRow> facet_rows(const experiments::FigureSpec& spec, const Table& table) {
@@ -167,6 +217,55 @@ std::string plot_command(const FigureSpec& spec, const FigureAxis& measure, Mark
                      shape == MarkShape::ring    ? " pt 6 ps 1.6 lw 2"
                      : shape == MarkShape::cross ? " pt 2 ps 1.3 lw 1.6"
                                                  : "");
+}
+
+FacetLayout facet_layout(const FacetShape& shape) {
+  const Grid grid = grid_of(shape);
+  const bool by_measure = shape.measures > 1;
+  const double margin = margin_of(shape);
+  FacetLayout layout;
+  layout.panel_width = panel_width(shape, grid);
+  layout.panel_height = panel_height(shape, grid, layout.panel_width);
+  double top = 0.0;
+  for (std::size_t line = 0; line < grid.lines; ++line) {
+    const bool titled =
+        shape.has_titles && (!by_measure || shape.rows > 0 || grid.is_folded || line == 0);
+    const bool is_last = line + 1 == grid.lines;
+    top += titled ? title_height : 4.0;
+    bool any_x = false;
+    for (std::size_t column = 0; column < grid.columns; ++column) {
+      const std::size_t place = line * grid.columns + column;
+      FacetPanel panel;
+      if (place >= shape.panels * shape.measures) break;
+      panel.panel = shape.rows > 0 ? place / shape.measures : place % shape.panels;
+      panel.measure = shape.rows > 0 ? place % shape.measures : place / shape.panels;
+      const bool is_lowest =
+          is_last || grid.is_folded || (!by_measure && place + grid.columns >= shape.panels);
+      panel.left = margin + static_cast<double>(column) * (layout.panel_width + column_gap);
+      panel.top = top;
+      panel.has_title = titled;
+      panel.has_x_title = is_lowest;
+      panel.has_x_tics = is_lowest || shape.rows > 0 || (shape.is_own_x && !by_measure);
+      panel.is_leftmost = column == 0;
+      any_x = any_x || panel.has_x_tics;
+      layout.panels.push_back(panel);
+    }
+    top += layout.panel_height +
+           (any_x ? (is_last || grid.is_folded ? axis_height : tics_height) : line_gap);
+  }
+  const double columns = static_cast<double>(grid.columns);
+  layout.key_left = margin + columns * layout.panel_width + (columns - 1.0) * column_gap + 16.0;
+  layout.key_top = layout.panels.front().top;
+  if (layout.key_left + shape.key > shape.room) {  // the key is below the panels
+    layout.key_left = margin;
+    layout.key_top = top;
+    layout.width = margin + columns * (layout.panel_width + column_gap) - column_gap + right_margin;
+  }
+  layout.width =
+      std::max({std::min(narrowest, shape.room), layout.width, layout.key_left + shape.key});
+  layout.height =
+      std::max(top, layout.key_top + key_line * static_cast<double>(shape.series) + axis_height);
+  return layout;
 }
 
 }  // namespace touchdown::render

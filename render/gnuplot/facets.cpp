@@ -16,112 +16,10 @@ namespace touchdown::render {
 
 namespace {
 
-/// What a layout depends on: numbers of drawn groups and measures, and widths of texts (px).
-struct FacetShape {
-  std::size_t panels = 1, measures = 1, series = 1;
-  std::size_t rows = 0;  ///< 0: curves over x
-  bool has_titles = false;
-  bool is_own_x = false;  ///< each panel has its own values of x
-  double row_names = 0.0, key = 0.0;
-};
-
-/// The position of one panel (px), and the labels around it.
-struct FacetPanel {
-  std::size_t panel = 0, measure = 0;
-  double left = 0.0, top = 0.0;
-  bool has_title = false;
-  bool has_x_tics = false, has_x_title = false;
-  bool is_leftmost = false;  ///< has the names of rows, or the labels of the vertical axis
-};
-
-/// Panels in lines of at most four. With several measures, each has a line of its own, or with
-/// `rows` a column of its own.
-struct FacetLayout {
-  std::vector<FacetPanel> panels;
-  double panel_width = 0.0, panel_height = 0.0;
-  double width = 0.0, height = 0.0;
-  double key_left = 0.0, key_top = 0.0;
-};
-
-constexpr std::size_t most_columns = 4;
-
-constexpr double title_height = 26.0, axis_height = 58.0, tics_height = 28.0, line_gap = 14.0;
-
-constexpr double axis_width = 68.0, column_gap = 30.0, key_line = 17.0;
-
-constexpr double narrowest = 600.0;  ///< the caption needs this width
-
-/// Numbers of panels beside and below each other.
-struct Grid {
-  std::size_t columns = 1, lines = 1;
-};
-
-Grid grid_of(const FacetShape& shape) {
-  if (shape.measures == 1) {
-    const std::size_t lines = (shape.panels + most_columns - 1) / most_columns;
-    return {(shape.panels + lines - 1) / lines, lines};
-  }
-  return shape.rows > 0 ? Grid{shape.measures, shape.panels} : Grid{shape.panels, shape.measures};
-}
-
-double panel_width(const Grid& grid) {
-  return std::clamp(960.0 / static_cast<double>(grid.columns), 225.0, 330.0);
-}
-
-double panel_height(const FacetShape& shape, const Grid& grid) {
-  if (shape.rows > 0) {
-    const double row = std::max(27.0, 9.0 + 9.0 * static_cast<double>(shape.series));
-    return row * static_cast<double>(shape.rows);
-  }
-  return (grid.lines == 1 ? 1.0 : 0.7) * panel_width(grid);
-}
-
-FacetLayout facet_layout(const FacetShape& shape) {
-  const Grid grid = grid_of(shape);
-  const bool by_measure = shape.measures > 1;
-  const double margin = shape.rows > 0 ? shape.row_names : axis_width;
-  FacetLayout layout;
-  layout.panel_width = panel_width(grid);
-  layout.panel_height = panel_height(shape, grid);
-  double top = 0.0;
-  for (std::size_t line = 0; line < grid.lines; ++line) {
-    const bool titled = shape.has_titles && (!by_measure || shape.rows > 0 || line == 0);
-    const bool is_last = line + 1 == grid.lines;
-    top += titled ? title_height : 4.0;
-    bool any_x = false;
-    for (std::size_t column = 0; column < grid.columns; ++column) {
-      const std::size_t place = line * grid.columns + column;
-      FacetPanel panel;
-      panel.panel = by_measure ? (shape.rows > 0 ? line : column) : place;
-      panel.measure = by_measure ? (shape.rows > 0 ? column : line) : 0;
-      if (panel.panel >= shape.panels) break;
-      const bool is_lowest = is_last || (!by_measure && place + grid.columns >= shape.panels);
-      panel.left = margin + static_cast<double>(column) * (layout.panel_width + column_gap);
-      panel.top = top;
-      panel.has_title = titled;
-      panel.has_x_title = is_lowest;
-      panel.has_x_tics = is_lowest || shape.rows > 0 || (shape.is_own_x && !by_measure);
-      panel.is_leftmost = column == 0;
-      any_x = any_x || panel.has_x_tics;
-      layout.panels.push_back(panel);
-    }
-    top += layout.panel_height + (any_x ? (is_last ? axis_height : tics_height) : line_gap);
-  }
-  const double columns = static_cast<double>(grid.columns);
-  layout.key_left = margin + columns * layout.panel_width + (columns - 1.0) * column_gap + 16.0;
-  layout.key_top = layout.panels.front().top;
-  layout.width = std::max(narrowest, layout.key_left + shape.key);
-  layout.height =
-      std::max(top, layout.key_top + key_line * static_cast<double>(shape.series) + axis_height);
-  return layout;
-}
-
 using experiments::AxisScale;
 using experiments::FigureAxis;
 using experiments::FigureGroups;
 using experiments::FigureSpec;
-
-constexpr double letter_width = 6.6;  ///< of titles of series and rows, on average (px)
 
 /// The places of groups with drawn rows.
 std::vector<std::size_t> used(const std::vector<FacetRow>& rows, std::size_t FacetRow::*place) {
@@ -135,10 +33,9 @@ std::string title_of(const FigureGroups& groups, std::size_t place) {
 }
 
 double widest(const FigureGroups& groups, const std::vector<std::size_t>& places) {
-  std::size_t letters = 0;
-  for (const std::size_t place : places)
-    letters = std::max(letters, width(title_of(groups, place)));
-  return letter_width * static_cast<double>(letters);
+  std::vector<std::string> titles;
+  for (const std::size_t place : places) titles.push_back(title_of(groups, place));
+  return text_width(titles);
 }
 
 struct Range {
@@ -167,11 +64,12 @@ Range with_margin(Range range, const FigureAxis& axis) {
 /// One figure: the drawn groups, and the commands of its panels.
 class FacetFigure {
  public:
-  FacetFigure(const FigureSpec& spec, const Table& table, const std::filesystem::path& stem)
+  FacetFigure(const FigureSpec& spec, const Table& table, const FigureFile& file)
       : spec_(spec),
         table_(table),
         data_(facet_rows(spec, table)),
-        file_(gnuplot_file(stem.filename().string() + ".dat")),
+        place_(file),
+        file_(gnuplot_file(file.name() + ".dat")),
         panels_(used(data_, &FacetRow::panel)),
         series_(used(data_, &FacetRow::series)),
         rows_(has_rows() ? used(data_, &FacetRow::row) : std::vector<std::size_t>()) {
@@ -185,9 +83,10 @@ class FacetFigure {
 
   bool is_empty() const { return measures_.empty(); }
 
-  Figure draw(const std::filesystem::path& stem) const {
+  Figure draw() const {
     const FacetLayout layout = facet_layout(shape());
-    const FigureFrame frame(spec_.title, spec_.caption, layout.width, layout.height);
+    const FigureFrame frame(place_, {spec_.title, spec_.caption, spec_.alt}, layout.width,
+                            layout.height);
     std::string commands = head();
     for (const FacetPanel& panel : layout.panels) {
       commands += frame.panel(panel.left, panel.top, layout.panel_width, layout.panel_height);
@@ -196,7 +95,7 @@ class FacetFigure {
       commands += has_key ? frame.key(layout.key_left, layout.key_top - 6.0) : "unset key\n";
       commands += "plot " + plots_of(panel, has_key) + '\n' + FigureFrame::end_panel();
     }
-    return frame.draw(stem, commands, data_file(table_, data_), spec_.alt);
+    return frame.draw(commands, data_file(table_, data_));
   }
 
  private:
@@ -205,6 +104,7 @@ class FacetFigure {
 
   FacetShape shape() const {
     FacetShape shape;
+    shape.room = place_.room();
     shape.panels = panels_.size();
     shape.measures = measures_.size();
     shape.series = series_.size();
@@ -351,7 +251,9 @@ class FacetFigure {
       separator = ", \\\n     ";
     };
     for (std::size_t i = 0; i < series_.size(); ++i) {
-      const std::string style = series_style(spec_, series_[i]);
+      std::string style = series_style(spec_, series_[i]);
+      const bool is_curve = key_shape(spec_) == std::string_view("linespoints");
+      if (is_curve && style.starts_with("lt ")) style += ' ' + curve_width(i, series_.size());
       for (std::size_t mark = 0; mark < spec_.marks.size(); ++mark) {
         const bool is_drawn = std::any_of(data_.begin(), data_.end(), [&](const FacetRow& row) {
           return row.panel == panel && row.series == series_[i] &&
@@ -374,6 +276,7 @@ class FacetFigure {
   const FigureSpec& spec_;
   const Table& table_;
   std::vector<FacetRow> data_;
+  const FigureFile& place_;
   std::string file_;
   std::vector<std::size_t> panels_, series_, rows_;
   std::vector<const FigureAxis*> measures_;
@@ -382,10 +285,10 @@ class FacetFigure {
 }  // namespace
 
 std::optional<Figure> draw_facets(const experiments::FigureSpec& spec, const Table& table,
-                                  const std::filesystem::path& stem) {
-  const FacetFigure figure(spec, table, stem);
+                                  const FigureFile& file) {
+  const FacetFigure figure(spec, table, file);
   if (figure.is_empty()) return {};
-  return figure.draw(stem);
+  return figure.draw();
 }
 
 }  // namespace touchdown::render

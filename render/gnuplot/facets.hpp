@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 
 #include "core/table.hpp"
@@ -13,6 +12,6 @@ namespace touchdown::render {
 /// them by their cells. Groups without rows and measures without values are left out; a figure
 /// without values is not drawn. Files and errors as `draw_figure`.
 std::optional<Figure> draw_facets(const experiments::FigureSpec& spec, const Table& table,
-                                  const std::filesystem::path& stem);
+                                  const FigureFile& file);
 
 }  // namespace touchdown::render

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <qpdf/qpdf-c.h>
+#include <regex>
 #include <sstream>
 #include <type_traits>
 
@@ -49,11 +51,31 @@ std::string comments(const FigureText& text) {
 
 /// Text is never markup, so that names may contain _ and ^.
 constexpr const char* terminals =
-    R"(terminal(format, width, height) = \
-    format eq 'png' ? sprintf("set terminal pngcairo noenhanced font 'DejaVu Sans,10' size %d,%d background rgb 'white'", width, height) : \
-    format eq 'svg' ? sprintf("set terminal svg noenhanced font 'DejaVu Sans,10' fontscale 1.333 size %d,%d dynamic background rgb 'white'", width, height) : \
-    sprintf("set terminal pdfcairo noenhanced font 'DejaVu Sans,10' size %.2fin,%.2fin", width / 96.0, height / 96.0)
+    R"(typeface(kind) = sprintf("set terminal %s noenhanced font 'DejaVu Sans,%g' fontscale %g", kind, letters, kind eq 'svg' ? 1.333 : kind eq 'pngcairo' ? dots : scale)
+strokes(by) = sprintf(" linewidth %g pointscale %g", by, by)
+terminal(format, width, height) = \
+    format eq 'png' ? typeface('pngcairo').strokes(dots).sprintf(" size %d,%d background rgb 'white'", width * dots, height * dots) : \
+    format eq 'svg' ? typeface('svg').sprintf(" size %d,%d dynamic background rgb 'white'", width, height) : \
+    typeface('pdfcairo').strokes(scale).sprintf(" size %.3fin,%.3fin", width * scale / 96.0, height * scale / 96.0)
 )";
+
+constexpr double smallest_print = 6.02;  ///< text (pt); it may be rounded to 6
+constexpr double usual_letters = 10.0;   ///< text of a figure on a screen (pt)
+
+/// The commands with no text of less than `least` points.
+std::string with_least_text(const std::string& commands, double least) {
+  static const std::regex font("font '([^',]*),([0-9.]+)'");
+  std::string result;
+  auto rest = commands.cbegin();
+  for (std::sregex_iterator found(commands.begin(), commands.end(), font), end; found != end;
+       ++found) {
+    result.append(rest, (*found)[0].first);
+    result += fmt::format("font '{},{:.6g}'", (*found)[1].str(),
+                          std::max(least, std::stod((*found)[2].str())));
+    rest = (*found)[0].second;
+  }
+  return result.append(rest, commands.cend());
+}
 
 constexpr const char* style_text =
     R"(set encoding utf8
@@ -151,11 +173,29 @@ FigureText figure_text(const std::string& script) {
   return text;
 }
 
-Figure draw_figure(const std::filesystem::path& stem, int width, int height,
-                   const std::string& commands, const std::vector<PlotData>& data,
-                   const FigureText& text) {
+double FigureFile::room() const {
+  if (!print.width_mm) return std::numeric_limits<double>::infinity();
+  return *print.width_mm / 25.4 * 96.0 * usual_letters / smallest_print;
+}
+
+PanelColumns columns_in(double room, double margins, const PanelColumns& wanted,
+                        double least_width) {
+  const double free = room - margins + wanted.gap, least = std::min(least_width, wanted.width);
+  const double count =
+      std::clamp(std::floor(free / (least + wanted.gap)), 1.0, static_cast<double>(wanted.count));
+  // Panels without room make the figure wider than that, and its text larger.
+  const double width = std::max(free / count - wanted.gap, 100.0);
+  return {static_cast<std::size_t>(count), std::min(wanted.width, width), wanted.gap};
+}
+
+Figure draw_figure(const FigureFile& file, int width, int height, const std::string& commands,
+                   const std::vector<PlotData>& data, const FigureText& text) {
+  const std::filesystem::path& stem = file.stem;
+  const std::string name = file.name();
+  if (!file.print.only.empty() && file.print.only != name) return {};
   require_writable(stem.string() + ".png");
-  const std::string name = stem.filename().string();
+  const double scale = file.print.width_mm.value_or(0.0) / 25.4 * 96.0 / width;
+  const double least = scale > 0.0 ? smallest_print / scale : 0.0;
   const std::filesystem::path folder = stem.parent_path();
   std::vector<std::string> files = {name + ".gp", name + ".png", name + ".svg", name + ".pdf"};
   for (const PlotData& table : data) files.push_back(table.name);
@@ -164,6 +204,7 @@ Figure draw_figure(const std::filesystem::path& stem, int width, int height,
   const std::string script = fmt::format(
       "{0}{1}"
       "# The style of all figures is in the lines to `eval`: text, lines, colours.\n"
+      "letters = {8:.6g}; scale = {9:.6g}; dots = {10:.6g}\n"
       "{2}"
       "do for [format in \"png svg pdf\"] {{\n"
       "reset\n"
@@ -174,7 +215,8 @@ Figure draw_figure(const std::filesystem::path& stem, int width, int height,
       "unset output\n"
       "}}\n",
       first_line(name), comments(text), terminals, gnuplot_style(), width, height,
-      gnuplot_file(name + "."), commands);
+      gnuplot_file(name + "."), with_least_text(commands, least), std::max(usual_letters, least),
+      scale > 0.0 ? scale : 1.0, scale > 0.0 ? 300.0 / 96.0 * scale : 1.0);
   write_whole(scratch.path() / (name + ".gp"), script, folder / (name + ".gp"));
   for (const PlotData& table : data) {
     write_whole(scratch.path() / table.name, table.content, folder / table.name);
@@ -188,12 +230,17 @@ Figure draw_figure(const std::filesystem::path& stem, int width, int height,
   }
   const std::filesystem::path pdf = scratch.path() / (name + ".pdf");
   write_whole(pdf, dateless_pdf(read_file(pdf), pdf.filename().string()), folder / (name + ".pdf"));
-  for (const std::string& file : files) {
+  if (scale > 0.0) {
+    const std::filesystem::path svg = scratch.path() / (name + ".svg");
+    std::string drawing = read_file(svg);
+    drawing.insert(drawing.find("viewBox"), fmt::format("width=\"{}mm\" ", *file.print.width_mm));
+    write_whole(svg, drawing, folder / (name + ".svg"));
+  }
+  for (const std::string& one : files) {
     std::error_code error;
-    std::filesystem::rename(scratch.path() / file, folder / file, error);
+    std::filesystem::rename(scratch.path() / one, folder / one, error);
     if (!error) continue;
-    throw Error(
-        fmt::format("{}: cannot be written: {}", (folder / file).string(), error.message()));
+    throw Error(fmt::format("{}: cannot be written: {}", (folder / one).string(), error.message()));
   }
   return {stem.string() + ".png", stem.string() + ".svg", stem.string() + ".pdf"};
 }
@@ -216,6 +263,18 @@ std::string gnuplot_text(std::string_view text) {
 
 std::string gnuplot_file(const std::string& name) { return gnuplot_text(file_argument(name)); }
 
+double text_width(const std::vector<std::string>& texts) {
+  std::size_t letters = 0;
+  for (const std::string& text : texts) letters = std::max(letters, width(text));
+  return 7.4 * static_cast<double>(letters);
+}
+
+std::string curve_width(std::size_t place, std::size_t count) {
+  const auto later =
+      static_cast<double>(place) / static_cast<double>(std::max<std::size_t>(count, 2) - 1);
+  return fmt::format("lw {:.2g}", 2.4 - 1.2 * later);
+}
+
 std::string row_tics(const std::vector<std::string>& names) {
   std::string tics;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -225,6 +284,15 @@ std::string row_tics(const std::vector<std::string>& names) {
 }
 
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "NaN"; }
+
+std::string in_words(const std::vector<std::string>& things) {
+  std::string text;
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    if (i > 0) text += i + 1 == things.size() ? " and " : ", ";
+    text += things[i];
+  }
+  return text;
+}
 
 std::string wrapped(std::string_view text, std::size_t columns) {
   std::string result;

@@ -10,15 +10,13 @@ namespace touchdown::render {
 
 namespace {
 
-// Of a grid of panels (px): its title and those of the columns above, tics and labels beside and
-// below, and the gaps between panels.
-constexpr double above = 84.0, left_of = 104.0, below = 62.0, gap = 22.0;
-constexpr FigureFrame::Style grid_style = {0.0, 21.0, 18.0, 9.3, 40.0};
+// Of a grid of panels (px): tics and labels beside and below, and the gaps between panels.
+constexpr double left_of = 104.0, narrow_left_of = 140.0, below = 62.0, gap = 22.0;
 
-/// At most seven tics between `from` and `to`, far enough from both ends that the labels of
+/// At most `most` tics between `from` and `to`, far enough from both ends that the labels of
 /// neighbouring panels do not touch.
-std::string inner_tics(double from, double to) {
-  const double step = tick_step(to - from, 7.0);
+std::string inner_tics(double from, double to, double most) {
+  const double step = tick_step(to - from, std::min(7.0, most));
   const double margin = 0.04 * (to - from);
   return fmt::format("{:.9g},{:.9g},{:.9g}", step * std::ceil((from + margin) / step), step,
                      step * std::floor((to - margin) / step));
@@ -35,37 +33,51 @@ double tick_step(double span, double most) {
   return 10.0 * decade;
 }
 
-FigureFrame::FigureFrame(const std::string& title, const std::string& caption, double width,
-                         double body_height)
-    : FigureFrame({title, caption, {}}, width, body_height, {}) {}
+/// The average letter of texts of `points`, and a line of them (px).
+static double letter_of(double points) { return 0.735 * points; }
+static double line_of(double points) { return 1.775 * points; }
 
-FigureFrame::FigureFrame(FigureText text, double width, double body_height, const Style& style)
-    : style_(style),
-      text_(std::move(text)),
-      caption_lines_(
-          wrapped(text_.caption, static_cast<std::size_t>((width - style.margin) / style.letter))),
-      width_(width),
-      height_(style.title_height + body_height + caption_height()) {}
+/// The height of a text with line ends and of `padding`; `none` for an empty text (px).
+static double height_of(const std::string& text, double points, double padding, double none) {
+  if (text.empty()) return none;
+  const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
+  return line_of(points) * static_cast<double>(lines) + padding;
+}
+
+FigureFrame::FigureFrame(const FigureFile& file, FigureText text, double width, double body_height,
+                         double letters)
+    : file_(file), text_(std::move(text)), letters_(letters), width_(width) {
+  if (file.print.width_mm) letters_ = std::max(letters, 10.0 * width / file.room());
+  if (file.print.caption) {
+    const auto fitted = [&](const std::string& all, double points) {
+      return wrapped(all, static_cast<std::size_t>((width - 20.0) / letter_of(points)));
+    };
+    title_lines_ = fitted(text_.title, letters_ + 4.0);
+    caption_lines_ = fitted(text_.caption, letters_);
+  }
+  title_height_ = height_of(title_lines_, letters_ + 4.0, 14.9, 8.0);
+  caption_height_ = height_of(caption_lines_, letters_, 14.0, 8.0);
+  height_ = title_height_ + body_height + caption_height_;
+}
 
 int FigureFrame::width() const { return static_cast<int>(std::ceil(width_)); }
 int FigureFrame::height() const { return static_cast<int>(std::ceil(height_)); }
 
-double FigureFrame::caption_height() const {
-  if (caption_lines_.empty()) return 8.0;
-  const auto lines = 1 + std::count(caption_lines_.begin(), caption_lines_.end(), '\n');
-  return style_.caption_line * static_cast<double>(lines) + style_.caption_padding;
+std::string FigureFrame::begin() const {
+  return fmt::format(
+      "set label 1001 {} at screen {}, screen {} left font ',{}'\n"
+      "set label 1002 {} at screen {}, screen {} left font ',{}' textcolor rgb '#40464e'\n"
+      "set multiplot\n",
+      gnuplot_text(title_lines_), x(16.0), 1.0 - 18.0 / height_, letters_ + 4.0,
+      gnuplot_text(caption_lines_), x(16.0), (caption_height_ - 12.0) / height_, letters_);
 }
 
-Figure FigureFrame::draw(const std::filesystem::path& stem, const std::string& panels,
-                         const std::string& data, const std::string& described) const {
-  const std::string commands = fmt::format(
-      "set label 1 {} at screen {}, screen {} left font ',13'\n"
-      "set label 2 {} at screen {}, screen {} left font ',9' textcolor rgb '#40464e'\n"
-      "set multiplot\n{}{}",
-      gnuplot_text(text_.title), x(16.0), 1.0 - 18.0 / height_, gnuplot_text(caption_lines_),
-      x(16.0), (caption_height() - 12.0) / height_, panels, end_multiplot);
-  return draw_figure(stem, width(), height(), commands, {{stem.filename().string() + ".dat", data}},
-                     {text_.title, text_.caption, described});
+Figure FigureFrame::draw(const std::string& panels, const std::vector<PlotData>& data) const {
+  return draw_figure(file_, width(), height(), panels + end_multiplot, data, text_);
+}
+
+Figure FigureFrame::draw(const std::string& panels, const std::string& data) const {
+  return draw(begin() + panels, {{file_.name() + ".dat", data}});
 }
 
 std::string FigureFrame::panel(double left, double top, double panel_width,
@@ -94,35 +106,55 @@ std::string FigureFrame::label(const std::string& text, double left, double top,
                      y(top), style);
 }
 
-PanelGrid::PanelGrid(Layout layout, FigureText text)
-    : layout_(std::move(layout)),
-      frame_(std::move(text), left(layout_.columns.size()) - gap + layout_.right,
-             top(rows()) - gap + below, grid_style) {}
+/// Narrower panels where the figure is printed narrow, and titles of columns in as many lines.
+PanelGrid::Layout PanelGrid::fitting(Layout layout, double room) {
+  const auto columns = static_cast<double>(layout.columns.size());
+  const double least = std::min(layout.panel_width, 190.0);
+  const double free = (room - left_of - layout.right) / columns - gap;
+  layout.panel_width = std::clamp(free, least, layout.panel_width);
+  layout.is_narrow = free < least;
+  if (layout.is_narrow) {  // texts are larger beside such panels
+    layout.right *= 1.25;
+    for (double& height : layout.row_heights) height *= 1.5;
+  }
+  for (std::string& title : layout.columns) {
+    title = wrapped(title, static_cast<std::size_t>(layout.panel_width / 8.6));
+  }
+  return layout;
+}
+
+PanelGrid::PanelGrid(const FigureFile& file, Layout layout, FigureText text)
+    : layout_(fitting(std::move(layout), file.room())),
+      frame_(file, std::move(text), left(layout_.columns.size()) - gap + layout_.right,
+             top(rows()) - gap + below, 11.0) {}
 
 double PanelGrid::left(std::size_t column) const {
-  return left_of + static_cast<double>(column) * (layout_.panel_width + gap);
+  return (layout_.is_narrow ? narrow_left_of : left_of) +
+         static_cast<double>(column) * (layout_.panel_width + gap);
 }
 
 double PanelGrid::top(std::size_t row) const {
+  std::ptrdiff_t lines = 0;  // of the columns' titles
+  for (const std::string& title : layout_.columns) {
+    if (!title.empty()) lines = std::max(lines, 1 + std::ranges::count(title, '\n'));
+  }
   const auto first = layout_.row_heights.begin();
   return std::accumulate(first, first + static_cast<std::ptrdiff_t>(row),
-                         above + static_cast<double>(row) * gap);
+                         14.0 + 22.0 * static_cast<double>(lines) + static_cast<double>(row) * gap);
 }
 
 std::string PanelGrid::begin(double from, double to) const {
-  std::string text = fmt::format(
-      "set multiplot\nset xrange [{}:{}]\nset ytics nomirror autofreq font ',11'\n"
-      "set xtics {} font ',12'\nset key font ',11' spacing 1.15 samplen 1.6\nunset key\n"
-      "set label 101 {} at screen {}, screen {} left font ',15'\n"
-      "set label 102 {} at screen {}, screen {} left font ',11' textcolor rgb '#40464e'\n",
-      from, to, inner_tics(from, to), gnuplot_text(frame_.text().title), frame_.x(20.0),
-      frame_.y(24.0), gnuplot_text(frame_.caption_lines()), frame_.x(20.0),
-      frame_.y(frame_.height() - frame_.caption_height() + 12.0));
+  std::string text =
+      frame_.begin() +
+      fmt::format(
+          "set xrange [{}:{}]\nset ytics nomirror autofreq font ',11'\n"
+          "set xtics {} font ',12'\nset key font ',11' spacing 1.15 samplen 1.6\nunset key\n",
+          from, to, inner_tics(from, to, layout_.panel_width / 50.0));
   for (std::size_t i = 0; i < layout_.columns.size(); ++i) {
     if (layout_.columns[i].empty()) continue;
-    text += fmt::format("set label {} {} at screen {}, screen {} center font ',13'\n", 110 + i,
-                        gnuplot_text(layout_.columns[i]),
-                        frame_.x(left(i) + 0.5 * layout_.panel_width), frame_.y(above - 18.0));
+    const auto lines = std::count(layout_.columns[i].begin(), layout_.columns[i].end(), '\n');
+    text += frame_.label(layout_.columns[i], left(i) + 0.5 * layout_.panel_width,
+                         top(0) - 18.0 - 22.0 * static_cast<double>(lines), "center font ',13'");
   }
   return text;
 }
@@ -131,23 +163,18 @@ std::string PanelGrid::panel(std::size_t row, std::size_t column, std::string_vi
   const double height = layout_.row_heights[row];
   const bool first = column == 0;
   const bool last = row + 1 == rows();
-  std::string text = fmt::format("{}set format x '{}'\nset format y '{}'\nunset key\n",
-                                 frame_.panel(left(column), top(row), layout_.panel_width, height),
-                                 last ? "%g" : "", first ? "%g" : "");
+  std::string text = row + column > 0 ? FigureFrame::end_labels : "";
+  text += fmt::format("{}set format x '{}'\nset format y '{}'\nunset key\n",
+                      frame_.panel(left(column), top(row), layout_.panel_width, height),
+                      last ? "%g" : "", first ? "%g" : "");
   // A label at a fixed position: the labels of all rows are aligned whatever their tics' widths.
-  text += first ? fmt::format(
-                      "set label 103 {} at screen {}, screen {} center rotate by 90 font ',11'\n",
-                      gnuplot_text(y_label), frame_.x(24.0),
-                      frame_.y(0.5 * (top(row) + (top(row) + height))))
-                : "unset label 103\n";
-  if (row + column > 0) {
-    text += "unset label 101\nunset label 102\n";
-    for (std::size_t i = 0; i < layout_.columns.size(); ++i) {
-      text += fmt::format("unset label {}\n", 110 + i);
-    }
+  if (first) {
+    text += frame_.label(std::string(y_label), 24.0, top(row) + 0.5 * height,
+                         "center rotate by 90 font ',11'");
   }
-  text += last ? fmt::format("set xlabel 'time since {} (ms)' font ',12' offset 0,0.2\n",
-                             layout_.at ? fmt::format("{:.6g} s", *layout_.at) : "takeoff")
+  const std::string zero = layout_.at ? fmt::format("{:.6g} s", *layout_.at) : "takeoff";
+  text += last ? fmt::format("set xlabel 'time{} (ms)' font ',12' offset 0,0.2\n",
+                             layout_.is_narrow ? "" : " since " + zero)
                : "unset xlabel\n";
   return text;
 }
@@ -162,12 +189,6 @@ std::string PanelGrid::colour_bar(std::size_t row, double offset, double width) 
       "set colorbox user vertical origin screen {}, screen {} size screen {}, screen {} noborder\n",
       frame_.x(keys() + offset), frame_.y(top(row) + height), frame_.x(width),
       height / frame_.height());
-}
-
-Figure PanelGrid::draw(const std::filesystem::path& stem, const std::string& commands,
-                       const std::vector<PlotData>& data) const {
-  return draw_figure(stem, frame_.width(), frame_.height(), commands + end_multiplot, data,
-                     frame_.text());
 }
 
 }  // namespace touchdown::render

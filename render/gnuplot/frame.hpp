@@ -18,26 +18,20 @@ double tick_step(double span, double most);
 /// panels have fixed pixel positions. All lengths are in pixels of the PNG.
 class FigureFrame {
  public:
-  /// Sizes of title and caption (px).
-  struct Style {
-    double title_height = 38.0;
-    double caption_line = 16.0, caption_padding = 14.0;
-    double letter = 6.6;  ///< of the caption, on average
-    double margin = 0.0;  ///< that the caption leaves free
-  };
-
-  /// `body_height` is the height that the panels need.
-  FigureFrame(const std::string& title, const std::string& caption, double width,
-              double body_height);
-  FigureFrame(FigureText text, double width, double body_height, const Style& style);
+  /// `body_height` is the height that the panels need. Long titles have several lines. With
+  /// `letters`, a caption has this size instead of 9 pt.
+  FigureFrame(const FigureFile& file, FigureText text, double width, double body_height,
+              double letters = 9.0);
 
   int width() const;
   int height() const;
 
-  /// Draws the figure of these panels. `described` is its alternative text. Files as `draw_figure`;
-  /// the data is `<stem>.dat`. Errors: as `draw_figure`.
-  Figure draw(const std::filesystem::path& stem, const std::string& panels, const std::string& data,
-              const std::string& described) const;
+  /// Commands that open the multiplot and place title and caption, for the first panel's plot.
+  std::string begin() const;
+  /// Draws the figure of these panels, which follow `begin`. Files and errors as `draw_figure`.
+  Figure draw(const std::string& panels, const std::vector<PlotData>& data) const;
+  /// The same for panels without `begin`, with `<stem>.dat` as their data.
+  Figure draw(const std::string& panels, const std::string& data) const;
 
   /// Commands for a panel with axes that span this box; `top` counts from the top of the body. The
   /// first panel's plot draws title and caption too.
@@ -47,22 +41,21 @@ class FigureFrame {
   /// A `set key` command for a legend with its top left corner here.
   std::string key(double left, double top) const;
   /// Commands to give after every panel's plot, so that the next plot does not repeat the labels.
+  static constexpr const char* end_labels = "unset label\n";
   static std::string end_panel() { return "unset label\nunset arrow\n"; }
   /// A `set label` command for a position in the body.
   std::string label(const std::string& text, double left, double top, const char* style) const;
 
   /// A place in the body as a share of the figure, from its left and from its lower edge.
   double x(double pixels) const { return pixels / width_; }
-  double y(double pixels) const { return 1.0 - (style_.title_height + pixels) / height_; }
-  const FigureText& text() const { return text_; }
-  /// The caption, wrapped to the figure's width, and its height (px).
-  const std::string& caption_lines() const { return caption_lines_; }
-  double caption_height() const;
+  double y(double pixels) const { return 1.0 - (title_height_ + pixels) / height_; }
 
  private:
-  Style style_;
+  FigureFile file_;
   FigureText text_;
-  std::string caption_lines_;
+  double letters_;
+  std::string title_lines_, caption_lines_;  ///< wrapped to the figure's width
+  double title_height_, caption_height_;     ///< px
   double width_, height_;
 };
 
@@ -75,12 +68,13 @@ class PanelGrid {
   struct Layout {
     std::vector<std::string> columns = {""};  ///< their titles; empty for none
     std::vector<double> row_heights;          ///< px
-    double panel_width = 452.0;               ///< px
+    double panel_width = 452.0;               ///< px; less where the figure is printed narrow
     double right = 250.0;                     ///< width of the legends beside the panels (px)
+    bool is_narrow = false;                   ///< printed on a width that is too small for it
     std::optional<double> at = {};            ///< origin of the time axis (s); default: a takeoff
   };
 
-  PanelGrid(Layout layout, FigureText text);
+  PanelGrid(const FigureFile& file, Layout layout, FigureText text);
 
   std::size_t rows() const { return layout_.row_heights.size(); }
 
@@ -94,12 +88,14 @@ class PanelGrid {
   /// Puts a colour bar of this width right of the row, at this distance (px).
   std::string colour_bar(std::size_t row, double offset, double width) const;
   /// Draws the figure of these commands. Files and errors as `draw_figure`.
-  Figure draw(const std::filesystem::path& stem, const std::string& commands,
-              const std::vector<PlotData>& data) const;
+  Figure draw(const std::string& commands, const std::vector<PlotData>& data) const {
+    return frame_.draw(commands, data);
+  }
 
  private:
-  double left(std::size_t column) const;  ///< edge of a panel (px)
-  double top(std::size_t row) const;      ///< from the figure's upper edge (px)
+  static Layout fitting(Layout layout, double room);
+  double left(std::size_t column) const;                          ///< edge of a panel (px)
+  double top(std::size_t row) const;                              ///< from the top of the body (px)
   double keys() const { return frame_.width() - layout_.right; }  ///< left edge of legends (px)
 
   Layout layout_;

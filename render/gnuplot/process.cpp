@@ -162,22 +162,4 @@ std::string gnuplot_complaint(const std::filesystem::path& folder, const std::st
   return complaints.empty() ? "it failed and gave no reason" : first_reason(complaints);
 }
 
-std::filesystem::path try_gnuplot(const std::filesystem::path& script, const std::string& content) {
-  write_atomically(script, content);
-  std::filesystem::path picture = std::filesystem::path(script).replace_extension(".png");
-  const PartFolder aside(picture);
-  const std::filesystem::path before = aside.path() / picture.filename();
-  std::error_code ignored;
-  std::filesystem::rename(picture, before, ignored);
-  try {
-    const std::string name = script.filename().string();
-    if (gnuplot_complaint(script.parent_path(), name).empty() && is_whole(picture)) return picture;
-  } catch (const Error&) {
-    // Handled like any other reason for a missing figure.
-  }
-  std::filesystem::remove(picture, ignored);
-  std::filesystem::rename(before, picture, ignored);
-  return {};
-}
-
 }  // namespace touchdown::render

@@ -1,8 +1,10 @@
 #include "render/figures/figures.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <regex>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -36,25 +38,15 @@ FigureText text_of(const fs::path& figure) {
   return text;
 }
 
-struct PictureSize {
-  double width = 0.0, height = 0.0;  ///< px; 0: unknown
-};
-
-PictureSize size_of(const fs::path& svg) {
-  PictureSize size;
-  if (svg.extension() != ".svg") return size;
-  const std::string text = read_file(svg);
-  const std::size_t box = text.find("viewBox=\"");
-  double left = 0.0, top = 0.0;
-  if (box == std::string::npos) return size;
-  std::istringstream(text.substr(box + 9, 80)) >> left >> top >> size.width >> size.height;
-  return size;
-}
-
 /// Whether a drawing needs the whole width of the page.
 bool is_wide(const fs::path& svg) {
-  const PictureSize size = size_of(svg);
-  return size.width > 1.4 * size.height || size.width >= 1200.0;
+  if (svg.extension() != ".svg") return false;
+  const std::string text = read_file(svg);
+  const std::size_t box = text.find("viewBox=\"");
+  double left = 0.0, top = 0.0, width = 0.0, height = 0.0;  // px
+  if (box == std::string::npos) return false;
+  std::istringstream(text.substr(box + 9, 80)) >> left >> top >> width >> height;
+  return width > 1.4 * height || width >= 1200.0;
 }
 
 /// Further data files of a figure: `<figure>_….dat`.
@@ -91,10 +83,95 @@ void sort_by_engine(std::vector<fs::path>& files, const std::vector<std::string>
   });
 }
 
-/// The figure with its texts and links to its files; empty for one that is too large. `overlay`
-/// lies over the picture.
+using Cells = std::vector<experiments::CellSummary>;
+
+/// What a cell shows when the reader chooses it.
+std::string readout(const experiments::CellSummary& cell, const NoiseMaps& maps) {
+  const auto level = [&](const NoiseAxis& axis) {
+    return fmt::format("{} {:.4g} {}", axis.name, cell.cell.*axis.level, axis.unit);
+  };
+  std::string text = fmt::format("{}, {}: {}, {}: success rate {}",
+                                 simulators::simulator_title(cell.condition.test_simulator),
+                                 experiments::estimator_title(cell.condition.estimator),
+                                 level(maps.y), level(maps.x), with_interval(cell.success));
+  if (std::isfinite(cell.always_contact)) {
+    text += fmt::format("; always contact {:.3f}", cell.always_contact);
+  }
+  return text;
+}
+
+/// The readouts of one estimator's map in one engine, from the lowest row on.
+nlohmann::ordered_json readouts(const Cells& cells, const std::string& simulator,
+                                const std::string& estimator, const NoiseMaps& maps) {
+  nlohmann::ordered_json texts = nlohmann::ordered_json::array();
+  for (const double y : maps.y.levels) {
+    for (const double x : maps.x.levels) {
+      const auto* const cell = maps.cell(cells, simulator, estimator, x, y);
+      texts.push_back(cell == nullptr ? "not part of this study" : readout(*cell, maps));
+    }
+  }
+  return texts;
+}
+
+/// The panels of a drawing by the margins in its script: left, top, width and height as shares of
+/// the picture. Cells divide a map's panel evenly, the first row is the lowest.
+std::vector<std::array<double, 4>> panels_in(const fs::path& drawing) {
+  const fs::path script = fs::path(drawing).replace_extension(".gp");
+  if (!is_there(script)) return {};
+  const std::string text = read_file(script);
+  static const std::regex margins(
+      "set lmargin at screen (.*)\nset rmargin at screen (.*)\n"
+      "set tmargin at screen (.*)\nset bmargin at screen (.*)\n");
+  std::vector<std::array<double, 4>> panels;
+  for (std::sregex_iterator at(text.begin(), text.end(), margins), end; at != end; ++at) {
+    const auto share = [&](std::size_t i) { return std::stod((*at)[i].str()); };
+    panels.push_back({share(1), 1.0 - share(3), share(2) - share(1), share(3) - share(4)});
+  }
+  return panels;
+}
+
+/// The readouts of a drawn map and their places in it, for `script.js`. Empty for a drawing with
+/// other panels.
+std::string map_overlay(const ReportSubject& subject, const fs::path& drawing,
+                        const std::string& simulator, const NoiseMaps& maps) {
+  const std::vector<std::string> estimators = mapped_estimators(subject.experiment);
+  const std::vector<std::array<double, 4>> panels = panels_in(drawing);
+  if (panels.size() != estimators.size()) return {};
+  nlohmann::ordered_json data = {{"columns", maps.x.levels.size()},
+                                 {"panels", nlohmann::ordered_json::array()}};
+  for (std::size_t i = 0; i < estimators.size(); ++i) {
+    data["panels"].push_back(
+        {{"place", panels[i]},
+         {"cells", readouts(subject.summary.cells, simulator, estimators[i], maps)}});
+  }
+  return fmt::format("<script type=\"application/json\">{}</script>", inline_json(data));
+}
+
+/// A drawn map and the readouts of its cells.
+struct MapOverlay {
+  fs::path drawing;
+  std::string html;
+};
+
+/// The maps that the page shows with readouts.
+std::vector<MapOverlay> map_overlays(const ReportSubject& subject) {
+  std::vector<MapOverlay> overlays;
+  for (const NoiseMaps& maps : noise_maps(subject.experiment)) {
+    for (const std::string& simulator : subject.experiment.simulators) {
+      const fs::path drawing =
+          subject.directory / "figures" / fmt::format("{}_{}.svg", maps.name, simulator);
+      if (!is_there(drawing)) continue;
+      const std::string overlay = map_overlay(subject, drawing, simulator, maps);
+      if (!overlay.empty()) overlays.push_back({drawing, overlay});
+    }
+  }
+  return overlays;
+}
+
+}  // namespace
+
 std::string figure_html(const fs::path& file, const std::vector<std::string>& simulators,
-                        const std::string& overlay = {}) {
+                        const std::string& overlay) {
   fs::path shown = file;
   const fs::path painted = fs::path(file).replace_extension(".png");
   if (size_of_file(file) > largest_picture && is_there(painted)) shown = painted;
@@ -128,79 +205,6 @@ std::string figure_html(const fs::path& file, const std::vector<std::string>& si
   return html + "</figcaption></figure>\n";
 }
 
-using Cells = std::vector<experiments::CellSummary>;
-
-/// What a cell shows when the reader chooses it.
-std::string readout(const experiments::CellSummary& cell, const NoiseMaps& maps) {
-  const auto level = [&](const NoiseAxis& axis) {
-    return fmt::format("{} {:.4g} {}", axis.name, cell.cell.*axis.level, axis.unit);
-  };
-  std::string text = fmt::format("{}, {}: {}, {}: accuracy {}",
-                                 simulators::simulator_title(cell.condition.test_simulator),
-                                 experiments::estimator_title(cell.condition.estimator),
-                                 level(maps.y), level(maps.x), with_interval(cell.success));
-  if (std::isfinite(cell.always_contact)) {
-    text += fmt::format("; always contact {:.3f}", cell.always_contact);
-  }
-  return text + fmt::format("; error rate {} %", error_text(error_percent(cell.success.estimate)));
-}
-
-/// The readouts of one estimator's map in one engine, from the lowest row on.
-nlohmann::ordered_json readouts(const Cells& cells, const std::string& simulator,
-                                const std::string& estimator, const NoiseMaps& maps) {
-  nlohmann::ordered_json texts = nlohmann::ordered_json::array();
-  for (const double y : maps.y.levels) {
-    for (const double x : maps.x.levels) {
-      const auto* const cell = maps.cell(cells, simulator, estimator, x, y);
-      texts.push_back(cell == nullptr ? "not part of this study" : readout(*cell, maps));
-    }
-  }
-  return texts;
-}
-
-/// The readouts of a drawn map and their places in it, for `script.js`. Empty for a drawing of
-/// another size, which has its cells elsewhere.
-std::string map_overlay(const ReportSubject& subject, const fs::path& drawing,
-                        const std::string& simulator, const NoiseMaps& maps) {
-  const std::vector<std::string> estimators = mapped_estimators(subject.experiment);
-  const std::size_t columns = maps.x.levels.size(), rows = maps.y.levels.size();
-  const FigureText text = text_of(drawing);
-  const HeatmapPlaces places = heatmap_places(
-      {estimators.size(), columns, rows, columns * rows <= most_numbered_cells, text.caption});
-  const PictureSize size = size_of(drawing);
-  if (size.width != places.width || size.height != places.height) return {};
-  nlohmann::ordered_json data = {{"columns", columns}, {"panels", nlohmann::ordered_json::array()}};
-  for (std::size_t i = 0; i < estimators.size(); ++i) {
-    data["panels"].push_back(
-        {{"place", places.panels[i]},
-         {"cells", readouts(subject.summary.cells, simulator, estimators[i], maps)}});
-  }
-  return fmt::format("<script type=\"application/json\">{}</script>", inline_json(data));
-}
-
-/// A drawn map and the readouts of its cells.
-struct MapOverlay {
-  fs::path drawing;
-  std::string html;
-};
-
-/// The maps that the page shows with readouts.
-std::vector<MapOverlay> map_overlays(const ReportSubject& subject) {
-  std::vector<MapOverlay> overlays;
-  for (const NoiseMaps& maps : noise_maps(subject.experiment)) {
-    for (const std::string& simulator : subject.experiment.simulators) {
-      const fs::path drawing =
-          subject.directory / "figures" / fmt::format("{}_{}.svg", maps.name, simulator);
-      if (!is_there(drawing)) continue;
-      const std::string overlay = map_overlay(subject, drawing, simulator, maps);
-      if (!overlay.empty()) overlays.push_back({drawing, overlay});
-    }
-  }
-  return overlays;
-}
-
-}  // namespace
-
 ReportSection heatmap_section(const ReportSubject& subject) {
   ReportSection section{"noise", "Under sensor noise", {}};
   for (const auto& [drawing, overlay] : map_overlays(subject)) {
@@ -211,7 +215,7 @@ ReportSection heatmap_section(const ReportSubject& subject) {
       "<div class=\"heatmaps gallery\">\n<p class=\"readout\" aria-live=\"polite\">Point at a "
       "cell, "
       "tap it, or use the arrow keys: its numbers appear here.</p>\n{}</div>\n"
-      "<p class=\"note\">The table “Accuracy” below lists the accuracies.</p>\n",
+      "<p class=\"note\">The table “Success” below lists the success rates.</p>\n",
       section.html);
   return section;
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <system_error>
 
 #include "core/files.hpp"
@@ -7,7 +8,6 @@
 #include "experiments/run_directory/directory.hpp"
 #include "render/figures/chosen_run.hpp"
 #include "render/figures/figures.hpp"
-#include "render/film/painter.hpp"
 #include "render/film/video.hpp"
 #include "render/gnuplot/facets.hpp"
 #include "render/report/report.hpp"
@@ -18,54 +18,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-VideoOptions full_size(const FilmedRun& run) {
-  VideoOptions options;
-  options.labels = run.labels;
-  return options;
-}
-
 double end_of(const FilmedRun& run) {
   return static_cast<double>(run.recording.steps()) * run.recording.period();
 }
 
-Film small_film(const std::vector<FilmedRun>& runs, const fs::path& run_directory) {
-  Film film{.runs = {0}, .options = full_size(runs.front())};
-  if (runs.size() > 1) film.runs.push_back(1);
-  film.options.width = 960;
-  film.options.height = 540;
-  film.options.crf = 28;
-  double end = 0.0;
-  for (const FilmedRun& run : runs) end = std::max(end, end_of(run));
-  film.options.to = std::min(end, longest_report_film);
-  const ReportFilm files = report_film(run_directory);
-  film.path = files.video;
-  film.still = Still{files.picture, first_flight(runs.front().recording, runs.front().labels)};
-  return film;
+/// Films some of the runs beside each other.
+void film(const std::vector<VideoSource>& sources, VideoOptions options, const FilmedRun& first,
+          int workers, const fs::path& path, const std::atomic<bool>* stop) {
+  options.labels = first.labels;
+  options.workers = workers;
+  options.progress = film_progress("filming " + path.stem().string(), stop);
+  render_video(sources, options, path);
 }
 
-void paint(const std::vector<FilmedRun>& runs, std::vector<Film> films, int workers,
-           const std::string& what, const std::atomic<bool>* stop) {
-  std::vector<VideoSource> sources;
-  for (const FilmedRun& run : runs) sources.push_back(run.source());
-  films.front().options.workers = workers;
-  films.front().options.progress = film_progress(what, stop);
-  render_films(sources, films);
-}
-
-fs::file_time_type newest_in(const fs::path& folder) {
-  fs::file_time_type newest = fs::file_time_type::min();
-  std::error_code ignored;
-  for (const fs::path& entry : entries_in(folder)) {
-    newest = std::max(newest, fs::last_write_time(entry, ignored));
+/// Films each run in full size, into the run directory's `videos`.
+void film_runs(const std::vector<FilmedRun>& runs, const fs::path& run_directory, int workers,
+               const std::atomic<bool>* stop) {
+  for (const FilmedRun& run : runs) {
+    const logs::RecordingInfo& info = run.recording.info;
+    const fs::path name = experiments::video_name(info.simulator, info.scenario);
+    film({run.source()}, {}, run, workers,
+         experiments::record_file(run_directory, fs::path("videos") / name), stop);
   }
-  return newest;
-}
-
-bool is_current(const fs::path& file, const fs::path& run_directory) {
-  std::error_code error;
-  const fs::file_time_type written = fs::last_write_time(file, error);
-  return !error && written > newest_in(run_directory / "recordings") &&
-         written > newest_in(run_directory / "models");
 }
 
 }  // namespace
@@ -74,30 +48,25 @@ ReportFilm report_film(const fs::path& run_directory) {
   return {run_directory / "videos" / "report.mp4", run_directory / "videos" / "report.jpg"};
 }
 
-void film_runs(const std::vector<FilmedRun>& runs, const fs::path& run_directory, int workers,
-               const std::atomic<bool>* stop) {
-  if (runs.empty()) return;
-  std::vector<Film> films;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const logs::RecordingInfo& info = runs[i].recording.info;
-    films.push_back({.runs = {i},
-                     .options = full_size(runs[i]),
-                     .path = experiments::record_file(
-                         run_directory, fs::path("videos") / experiments::video_name(
-                                                                 info.simulator, info.scenario))});
-  }
-  films.push_back(small_film(runs, run_directory));
-  paint(runs, std::move(films), workers, "filming", stop);
-}
-
 void film_for_report(const std::vector<FilmedRun>& runs, const fs::path& run_directory, int workers,
                      const std::atomic<bool>* stop) {
-  if (runs.empty()) return;
   const ReportFilm files = report_film(run_directory);
-  if (is_current(files.video, run_directory) && is_current(files.picture, run_directory)) return;
-  Film film = small_film(runs, run_directory);
-  film.least_view = single_view_size(full_size(runs.front()));
-  paint(runs, {std::move(film)}, workers, "filming for the report", stop);
+  if (runs.empty() || (is_there(files.video) && is_there(files.picture))) return;
+  std::vector<VideoSource> shown;
+  double end = 0.0;
+  for (const FilmedRun& run : runs) {
+    if (shown.size() < 2) shown.push_back(run.source());
+    end = std::max(end, end_of(run));
+  }
+  VideoOptions small;
+  small.width = 960;
+  small.height = 540;
+  small.crf = 28;
+  small.fps = 20;
+  small.to = std::min(end, longest_report_film);
+  film(shown, small, runs.front(), workers, files.video, stop);
+  small.labels = runs.front().labels;
+  render_poster(shown, small, NAN, files.picture);
 }
 
 void draw_pictures(experiments::ExperimentResult& result, const std::vector<FilmedRun>& filmed,
@@ -121,7 +90,7 @@ void draw_pictures(experiments::ExperimentResult& result, const std::vector<Film
     for (const experiments::FigureSpec& figure : result.figures) {
       stop_if_asked(stop);
       draw_facets(figure, result.directory.read_table(figure.table),
-                  result.directory.file("figures", figure.name));
+                  figure_file(result, figure.name));
     }
     progress.advance();
   }
@@ -131,6 +100,9 @@ void draw_pictures(experiments::ExperimentResult& result, const std::vector<Film
   }
   if (with_films) {
     film_runs(filmed, result.directory.path(), result.experiment.workers, stop);
+    std::error_code ignored;
+    fs::remove(report_film(result.directory.path()).video, ignored);
+    film_for_report(filmed, result.directory.path(), result.experiment.workers, stop);
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   result.provenance.timings.emplace_back("draw", elapsed.count());

@@ -22,9 +22,6 @@ std::string escaped(std::string_view text);
 /// One of the `facts` in the header of a page.
 std::string fact_html(std::string_view name, std::string_view value);
 
-/// "a", "a and b", "a, b and c".
-std::string in_words(const std::vector<std::string>& things);
-
 std::string base64(std::string_view bytes);
 
 /// The file's content as a `data:` URI. Errors: `InputError` when the file cannot be read.

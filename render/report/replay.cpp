@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -20,14 +19,6 @@
 namespace touchdown::render {
 
 namespace {
-
-/// A position p is `origin + unit · (i, j, k)`, with whole numbers of 16 bits. `unit` is in metres.
-struct PositionCode {
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  double unit = 1e-5;
-};
-
-constexpr double largest = std::numeric_limits<std::int16_t>::max();
 
 /// The mesh with its vertices at the middles of a grid's cells.
 TriangleMesh on_grid(const TriangleMesh& mesh, const Eigen::Vector3d& corner, double cell) {
@@ -56,37 +47,11 @@ TriangleMesh on_grid(const TriangleMesh& mesh, const Eigen::Vector3d& corner, do
   return result;
 }
 
-/// Whole numbers of 16 bits, little-endian, as base64. Numbers beyond the range are clamped.
-std::string packed(const std::vector<double>& values, double unit) {
-  std::string bytes;
-  bytes.reserve(2 * values.size());
-  for (const double value : values) {
-    const double steps = std::isfinite(value) ? value / unit : 0.0;
-    const auto code = static_cast<std::uint16_t>(
-        static_cast<std::int16_t>(std::lround(std::clamp(steps, -largest, largest))));
-    bytes += static_cast<char>(code & 0xffU);
-    bytes += static_cast<char>(code >> 8U);
-  }
-  return base64(bytes);
-}
-
-/// Whole numbers of 8 bits.
-std::string packed(const std::vector<std::uint8_t>& values) {
-  return base64(std::string_view(reinterpret_cast<const char*>(values.data()), values.size()));
-}
-
-/// The finest code of these positions.
-PositionCode code_of(const std::vector<Eigen::Vector3d>& positions) {
-  if (positions.empty()) return {};
-  Eigen::Vector3d low = positions.front();
-  Eigen::Vector3d high = positions.front();
-  for (const Eigen::Vector3d& position : positions) {
-    low = low.cwiseMin(position);
-    high = high.cwiseMax(position);
-  }
-  PositionCode code{.origin = 0.5 * (low + high)};
-  code.unit = std::max(code.unit, 0.5 * (high - low).maxCoeff() / largest);
-  return code;
+/// Numbers of 8 bits, or of 32 bits in little-endian order, as base64.
+template <typename Number>
+std::string packed(const std::vector<Number>& values) {
+  return base64(std::string_view(reinterpret_cast<const char*>(values.data()),
+                                 sizeof(Number) * values.size()));
 }
 
 using Json = nlohmann::ordered_json;
@@ -107,16 +72,11 @@ Json mesh_json(const mjModel& model, int mesh, std::size_t most_triangles) {
   const std::span<const int> triangles = mesh_triangles(model, mesh);
   all.indices.assign(triangles.begin(), triangles.end());
   const TriangleMesh shown = reduced(all, most_triangles);
-  const PositionCode code = code_of(shown.vertices);
-  std::vector<double> offsets;
+  std::vector<float> numbers;
   for (const Eigen::Vector3d& vertex : shown.vertices) {
-    const Eigen::Vector3d offset = vertex - code.origin;
-    offsets.insert(offsets.end(), offset.begin(), offset.end());
+    for (const double number : vertex) numbers.push_back(static_cast<float>(number));
   }
-  return {{"origin", numbers(code.origin)},
-          {"unit", code.unit},
-          {"vertices", packed(offsets, code.unit)},
-          {"triangles", shown.indices}};
+  return {{"vertices", packed(numbers)}, {"triangles", shown.indices}};
 }
 
 /// The bodies that have something to draw. The terrain is always the first.
@@ -174,28 +134,22 @@ void add_poses(const VideoSource& source, Json& run) {
   const models::MjDataPtr data(mj_makeData(robot.mj.get()));
   const std::vector<int> bodies = drawn_bodies(*robot.mj);
   const std::vector<std::size_t> rows = rows_at(source.recording, replay_pose_rate);
-  std::vector<Eigen::Vector3d> positions;
-  std::vector<double> orientations;
+  std::vector<float> positions, orientations;
+  const auto add = [](std::vector<float>& all, const auto& numbers) {
+    for (const double number : numbers) all.push_back(static_cast<float>(number));
+  };
   for (const std::size_t row : rows) {
     poses.apply(row, *data);
     for (std::size_t i = 1; i < bodies.size(); ++i) {
-      positions.push_back(body_position(*data, bodies[i]));
+      add(positions, body_position(*data, bodies[i]));
       const Eigen::Quaterniond q = body_orientation(*data, bodies[i]);
-      for (const double number : {q.w(), q.x(), q.y(), q.z()}) orientations.push_back(number);
+      add(orientations, std::array{q.w(), q.x(), q.y(), q.z()});
     }
-  }
-  const PositionCode code = code_of(positions);
-  std::vector<double> offsets;
-  for (const Eigen::Vector3d& position : positions) {
-    const Eigen::Vector3d offset = position - code.origin;
-    offsets.insert(offsets.end(), offset.begin(), offset.end());
   }
   const auto place_of = [&](int body) { return std::ranges::find(bodies, body) - bodies.begin(); };
   run["pose_rate"] = replay_pose_rate;
-  run["origin"] = numbers(code.origin);
-  run["unit"] = code.unit;
-  run["positions"] = packed(offsets, code.unit);
-  run["orientations"] = packed(orientations, 1.0 / 32767.0);
+  run["positions"] = packed(positions);
+  run["orientations"] = packed(orientations);
   run["base"] = place_of(robot.base_body);
   run["wheels"] = {place_of(robot.mj->geom_bodyid[robot.tyre_geom[0]]),
                    place_of(robot.mj->geom_bodyid[robot.tyre_geom[1]])};
@@ -203,12 +157,9 @@ void add_poses(const VideoSource& source, Json& run) {
 
 void add_beliefs(const VideoSource& source, const scoring::LabelConfig& labels, Json& run) {
   const std::vector<std::size_t> rows = rows_at(source.recording, replay_belief_rate);
-  const auto contact = scoring::contact_labels(source.recording, labels);
+  const auto contact = wheels_in_contact(source.recording, labels);
   std::vector<std::uint8_t> truth;
-  for (const std::size_t row : rows) {
-    truth.push_back(
-        static_cast<std::uint8_t>((contact[0][row] != 0 ? 1 : 0) + (contact[1][row] != 0 ? 2 : 0)));
-  }
+  for (const std::size_t row : rows) truth.push_back(contact[row]);
   run["belief_rate"] = replay_belief_rate;
   run["truth"] = packed(truth);
   run["estimators"] = Json::array();
@@ -310,10 +261,8 @@ Json replay_data(const std::vector<VideoSource>& runs, const scoring::LabelConfi
     add_poses(source, run);
     add_beliefs(source, labels, run);
     run["flights"] = Json::array();
-    for (const scoring::Flight& flight : visible_flights(source.recording, labels)) {
-      run["flights"].push_back(
-          {rounded(static_cast<double>(flight.takeoff) * source.recording.period()),
-           rounded(static_cast<double>(flight.landing) * source.recording.period())});
+    for (const WheelFlight& flight : wheel_flights(source.recording, labels)) {
+      run["flights"].push_back({rounded(flight.takeoff), rounded(flight.landing), flight.wheel});
     }
     data["runs"].push_back(std::move(run));
   }
@@ -324,8 +273,9 @@ std::string replay_html(const std::vector<VideoSource>& runs, const scoring::Lab
   return fmt::format(
       "<div class=\"replay\" hidden>\n{}{}"
       "<p class=\"note\">Drag to turn, scroll (after a click) or pinch to zoom. Wheels are green "
-      "in true contact and orange in the air. Below, the whole run: true contact (green: dark of "
-      "both wheels, light of one) with the errors of the first estimator shown in red. The curves "
+      "in true contact and orange in the air. Below, the whole run: true contact (green: the left "
+      "wheel above, the right one below) with the errors of the first estimator shown in red. The "
+      "curves "
       "show the seconds around the present, at {:.0f} Hz.{}</p>\n"
       "<script type=\"application/json\">{}</script>\n</div>\n"
       "<noscript><p class=\"note\">The replay needs JavaScript.</p></noscript>\n",

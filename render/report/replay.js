@@ -2,21 +2,22 @@
 // Replays: a view of a run that the reader can turn, joined in time to the estimators' beliefs.
 (() => {
   const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-  const words = (text) => new Int16Array(bytes(text).buffer);
+  const floats = (text) => new Float32Array(bytes(text).buffer);
   const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
   const darkness = window.matchMedia("(prefers-color-scheme: dark)");
   const IDENTITY = new Float32Array([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
   const IN_CONTACT = [0.13, 0.62, 0.33], IN_THE_AIR = [0.95, 0.5, 0.1];
-  const STATES = ["IN THE AIR", "ON ONE WHEEL", "ON THE GROUND"];
+  // By the wheels in flight: 1 is the left one, 2 the right one.
+  const STATES = ["ON THE GROUND", "LEFT WHEEL IN THE AIR", "RIGHT WHEEL IN THE AIR", "IN THE AIR"];
 
   const unpacked = (data) => {
     for (const scene of data.scenes) for (const mesh of scene.meshes) {
-      const v = words(mesh.vertices);
-      mesh.points = Array.from({ length: v.length / 3 }, (_, i) => mesh.origin.map((o, k) => o + mesh.unit * v[3 * i + k]));
+      const v = floats(mesh.vertices);
+      mesh.points = Array.from({ length: v.length / 3 }, (_, i) => [v[3 * i], v[3 * i + 1], v[3 * i + 2]]);
     }
     for (const run of data.runs) {
-      run.positions = words(run.positions);
-      run.orientations = words(run.orientations);
+      run.positions = floats(run.positions);
+      run.orientations = floats(run.orientations);
       run.truth = bytes(run.truth);
       for (const estimator of run.estimators) estimator.beliefs = bytes(estimator.beliefs);
       run.bodies = data.scenes[run.scene].bodies.length - 1; // without the terrain
@@ -31,7 +32,7 @@
     const gain = 1 - Math.exp(-1 / (0.35 * run.pose_rate)), path = [];
     for (let i = 0; i < run.frames; ++i) {
       const at = 3 * (i * run.bodies + run.base - 1);
-      path.push([0, 1, 2].map((k) => run.origin[k] + run.unit * run.positions[at + k]));
+      path.push([0, 1, 2].map((k) => run.positions[at + k]));
     }
     const blend = (to, from) => { for (let k = 0; k < 3; ++k) to[k] = from[k] + gain * (to[k] - from[k]); };
     for (let i = 1; i < path.length; ++i) blend(path[i], path[i - 1]);
@@ -44,7 +45,7 @@
     const matrices = [IDENTITY];
     for (let body = 0; body < run.bodies; ++body) {
       const a = i * run.bodies + body, b = j * run.bodies + body;
-      const p = [0, 1, 2].map((k) => run.origin[k] + run.unit * (run.positions[3 * a + k] * (1 - share) + run.positions[3 * b + k] * share));
+      const p = [0, 1, 2].map((k) => run.positions[3 * a + k] * (1 - share) + run.positions[3 * b + k] * share);
       let same = 0;
       for (let k = 0; k < 4; ++k) same += run.orientations[4 * a + k] * run.orientations[4 * b + k];
       const sign = same < 0 ? -1 : 1;
@@ -81,7 +82,7 @@
     const scene = openScene(view);
     if (!scene) {
       view.hidden = true;
-      state.dataset.contact = "none";
+      state.dataset.flight = "none";
       state.textContent = "This browser has no WebGL 2: the curves are shown without the robot.";
     }
     const initial = () => ({ ...data.camera });
@@ -113,6 +114,7 @@
     const inContact = (step, wheel) => (run.truth[step] >> wheel) & 1;
     const decision = (estimator, step, wheel) => estimator.beliefs[2 * step + wheel] & 1;
     const belief = (estimator, step, wheel) => (estimator.beliefs[2 * step + wheel] >> 1) / 127;
+    const inFlight = () => run.flights.reduce((wheels, [takeoff, landing, wheel]) => (time >= takeoff && time < landing ? wheels | (wheel + 1) : wheels), 0);
     const isWrong = (estimator, step) => [0, 1].some((wheel) => decision(estimator, step, wheel) !== inContact(step, wheel));
     const firstShown = () => run.estimators[shown.indexOf(true)];
     const errorsOf = (estimator) => {
@@ -126,7 +128,7 @@
     const palette = () => {
       const style = getComputedStyle(root), of = (name) => style.getPropertyValue(name).trim();
       return { paper: of("--paper"), raised: of("--raised"), ink: of("--ink"), quiet: of("--quiet"), line: of("--line"),
-        both: darkness.matches ? "#274a33" : "#bfe0c4", one: darkness.matches ? "#1f3527" : "#e0f0e2", error: darkness.matches ? "#ff7a66" : "#c3261b" };
+        contact: darkness.matches ? "#274a33" : "#bfe0c4", error: darkness.matches ? "#ff7a66" : "#c3261b" };
     };
     const drawOverview = (colours) => {
       const { pen, width, height } = prepared(overview), x = (t) => (t / (run.end || 1)) * width;
@@ -135,11 +137,8 @@
       for (let k = 0; k < run.truth.length;) {
         let end = k + 1;
         while (end < run.truth.length && run.truth[end] === run.truth[k]) ++end;
-        const wheels = inContact(k, 0) + inContact(k, 1);
-        if (wheels) {
-          pen.fillStyle = wheels > 1 ? colours.both : colours.one;
-          pen.fillRect(x(k / run.belief_rate), 0, x((end - k) / run.belief_rate) + 0.5, height);
-        }
+        pen.fillStyle = colours.contact;
+        for (const wheel of [0, 1]) if (inContact(k, wheel)) pen.fillRect(x(k / run.belief_rate), (wheel * height) / 2, x((end - k) / run.belief_rate) + 0.5, height / 2);
         k = end;
       }
       const estimator = firstShown();
@@ -168,7 +167,7 @@
         pen.clip();
         pen.fillStyle = colours.raised;
         pen.fillRect(LEFT, top, plot, rowHeight);
-        pen.fillStyle = colours.both;
+        pen.fillStyle = colours.contact;
         for (let k = first; k <= last; ++k) if (inContact(k, wheel)) pen.fillRect(x((k - 0.5) / run.belief_rate), top, plot / seconds / run.belief_rate + 0.6, rowHeight);
         pen.strokeStyle = colours.line;
         pen.lineWidth = 1;
@@ -212,12 +211,11 @@
         contact.forEach((on, wheel) => { tints[run.wheels[wheel]] = on ? IN_CONTACT : IN_THE_AIR; });
         scene.draw({ ...camera, matrices: poses.matrices, tints, robot: poses.camera,
           target: poses.camera.map((v, k) => v + camera.look_at[k]), dark: darkness.matches });
-        const wheels = contact[0] + contact[1];
-        state.dataset.contact = wheels;
-        state.textContent = `${time.toFixed(2)} s  ${STATES[wheels]}`;
+        state.dataset.flight = inFlight();
+        state.textContent = `${time.toFixed(2)} s  ${STATES[inFlight()]}`;
       }
       slider.value = time;
-      slider.setAttribute("aria-valuetext", `${time.toFixed(2)} seconds, ${STATES[contact[0] + contact[1]].toLowerCase()}`);
+      slider.setAttribute("aria-valuetext", `${time.toFixed(2)} seconds, ${STATES[inFlight()].toLowerCase()}`);
       run.estimators.forEach((estimator, i) => {
         readouts[i].textContent = [0, 1].map((wheel) => belief(estimator, step, wheel).toFixed(2)).join(" ");
       });

@@ -1,6 +1,7 @@
 #include "render/report/report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include <fmt/format.h>
@@ -79,32 +80,34 @@ ReportSection reproduce_section(const ReportSubject& subject) {
   return {"reproduce", "Reproduction", html};
 }
 
-namespace fs = std::filesystem;
-
-/// A jump to a drop goes to this time before the takeoff (s).
+/// A jump to a flight goes to this time before the takeoff (s).
 constexpr double run_up = 0.4;
-/// The button of a drop stays highlighted until this time after the landing (s).
+/// The button of a flight stays highlighted until this time after the landing (s).
 constexpr double follow_through = 0.4;
 
-/// Buttons that jump to a run's flights, in a film until `end` (s).
+/// Buttons that jump to the flights of each wheel of a run, in a film until `end` (s).
 std::string drops_html(const FilmedRun& run, double end) {
   const std::string engine = escaped(simulators::simulator_title(run.recording.info.simulator));
-  std::size_t drops = 0;
-  std::string items;
-  for (const scoring::Flight& flight : visible_flights(run.recording, run.labels)) {
-    const double takeoff = static_cast<double>(flight.takeoff) * run.recording.period();
-    const double landing = static_cast<double>(flight.landing) * run.recording.period();
-    if (takeoff <= 0.0 || landing > end) continue;
-    ++drops;
-    items += fmt::format(
+  std::array<std::size_t, models::wheel_count> count = {};
+  std::array<std::string, models::wheel_count> items;
+  for (const WheelFlight& flight : wheel_flights(run.recording, run.labels)) {
+    if (flight.takeoff <= 0.0 || flight.landing > end) continue;
+    ++count[flight.wheel];
+    items[flight.wheel] += fmt::format(
         "<li><button type=\"button\" class=\"drop\" data-seek=\"{:.3f}\" data-end=\"{:.3f}\" "
-        "aria-label=\"Play the drop at {:.2f} seconds in {}\">{:.2f} s<small>{:.0f} ms in the air"
-        "</small></button></li>\n",
-        std::max(0.0, takeoff - run_up), landing + follow_through, takeoff, engine, takeoff,
-        1e3 * (landing - takeoff));
+        "aria-label=\"Play the flight of the {} wheel at {:.2f} seconds in {}\">{:.2f} s"
+        "<small>{:.0f} ms in the air</small></button></li>\n",
+        std::max(0.0, flight.takeoff - run_up), flight.landing + follow_through,
+        flight.wheel == 0 ? "left" : "right", flight.takeoff, engine, flight.takeoff,
+        1e3 * (flight.landing - flight.takeoff));
   }
-  return fmt::format("<h3>{}: {} {}</h3>\n<ol>\n{}</ol>\n", engine, drops,
-                     drops == 1 ? "drop" : "drops", items);
+  std::string html;
+  for (const std::size_t wheel : {0U, 1U}) {
+    html += fmt::format("<h3>{}, {} wheel: {}</h3>\n<ol>\n{}</ol>\n", engine,
+                        wheel == 0 ? "left" : "right", experiments::plural(count[wheel], "flight"),
+                        items[wheel]);
+  }
+  return html;
 }
 
 /// A link to the video in full size; empty without one.
@@ -136,8 +139,8 @@ std::string film_html(const ReportSubject& subject, const std::vector<FilmedRun>
   std::erase(full_size, "");
   const std::string description = escaped(fmt::format(
       "The {} run in {}{}{}, {}. Below: the estimators' contact probabilities over the true "
-      "contact (green: dark where both wheels are in contact, light where one is), and torques. "
-      "Thick lines are the left wheel.",
+      "contact (green: of the left wheel above, of the right one below), and torques. Thick lines "
+      "are the left wheel.",
       runs.front().recording.info.scenario, fmt::join(engines, " and "),
       runs.size() > 1 ? ", side by side" : "",
       end > longest_report_film ? fmt::format(", its first {:.0f} seconds", longest_report_film)
@@ -147,7 +150,8 @@ std::string film_html(const ReportSubject& subject, const std::vector<FilmedRun>
       "<div class=\"film\">\n<figure><video controls muted playsinline preload=\"auto\" "
       "aria-label=\"{0}\" poster=\"{1}\" src=\"{2}\"></video>\n"
       "<figcaption>{0}{3}{4}{5}</figcaption></figure>\n"
-      "<div class=\"drops\">\n<p class=\"note\">Choose a drop to play it:</p>\n{6}</div>\n</div>\n",
+      "<div class=\"drops\">\n<p class=\"note\">Choose a flight of a wheel to play "
+      "it:</p>\n{6}</div>\n</div>\n",
       description, data_uri("image/jpeg", film.picture), data_uri("video/mp4", film.video),
       full_size.empty() ? "" : " In full size, beside this file:", fmt::join(full_size, ","),
       full_size.empty() ? "" : ".", drops);

@@ -46,13 +46,7 @@ struct ReportFilm {
 };
 ReportFilm report_film(const std::filesystem::path& run_directory);
 
-/// Writes a film of each run, and the report's, into the run directory's `videos`. Views are
-/// painted once for both. Errors: as `render_films`; `Stopped`.
-void film_runs(const std::vector<FilmedRun>& runs, const std::filesystem::path& run_directory,
-               int workers, const std::atomic<bool>* stop);
-
-/// Writes the report's film with the same bytes, unless the run directory has one that is newer
-/// than its recordings and models.
+/// Writes the report's film and its picture, unless the run directory has them.
 void film_for_report(const std::vector<FilmedRun>& runs, const std::filesystem::path& run_directory,
                      int workers, const std::atomic<bool>* stop);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -19,7 +20,7 @@ ReportSection estimators_section(const ReportSubject& subject);
 /// The title, one sentence, and the numbers of engines, runs, flights and noise settings.
 std::string header_html(const ReportSubject& subject);
 
-/// The results at the highlighted noise settings, in words and as tables of accuracies.
+/// The results at the highlighted noise settings, in words and as tables of success rates.
 ReportSection results_section(const ReportSubject& subject);
 
 /// The paper's tables at the highlighted noise settings, with the paper's numbers beside ours.
@@ -32,9 +33,15 @@ std::string table_html(const experiments::CaptionedTable& table, std::size_t tex
 /// merged.
 ReportSection more_tables_section(const ReportSubject& subject);
 
-/// The drawn maps of the error rate over noise levels; a cell that the reader points at shows its
+/// The drawn maps of the success rate over noise levels; a cell that the reader points at shows its
 /// numbers.
 ReportSection heatmap_section(const ReportSubject& subject);
+
+/// A figure of the run directory with its texts and links to its files, those of its data in the
+/// order of these engines; empty for one that is too large. `overlay` lies over the picture.
+std::string figure_html(const std::filesystem::path& file,
+                        const std::vector<std::string>& simulators,
+                        const std::string& overlay = {});
 
 /// The other figures of the run directory, with the texts of their scripts.
 ReportSection figures_section(const ReportSubject& subject);
@@ -51,8 +58,9 @@ inline constexpr double replay_belief_rate = 100.0;
 /// - `scenes`: robots on their terrains, each once. A scene has `bodies`, of which the first is the
 ///   terrain; each is a list of `[shape, x, y, z, qw, qx, qy, qz, width, depth, height, r, g, b,
 ///   mesh]` (m), and `meshes`.
-/// - `runs`: each with its scene and poses of all bodies but the terrain: position and quaternion,
-///   in 16 bits. `truth` has bit 0 for the left wheel, bit 1 for the right. `beliefs` of each
+/// - `runs`: each with its flights (takeoff, landing in s, wheel), its scene and poses of all
+/// bodies but the terrain: position and quaternion,
+///   in 32 bits. `truth` has bit 0 for the left wheel, bit 1 for the right. `beliefs` of each
 ///   estimator have a byte per step and wheel: twice P(contact) in 127ths, plus its
 ///   decision (without decisions, whether P(contact) is above ½).
 nlohmann::ordered_json replay_data(const std::vector<VideoSource>& runs,

@@ -42,15 +42,6 @@ std::string readable_cell(const std::string& name, const TableRow& row) {
   return cell;
 }
 
-/// The files' name for accuracy is `success`.
-std::string with_accuracy(std::string name) {
-  constexpr std::string_view success = "success";
-  if (name.ends_with(success)) {
-    name.replace(name.size() - success.size(), success.size(), "accuracy");
-  }
-  return name;
-}
-
 std::string readable_name(std::string name) {
   static const std::vector<std::pair<std::string, std::string>> units = {
       {"_nm", " (N·m)"}, {"_mps2", " (m/s²)"}, {"_ms", " (ms)"}, {"_s", " (s)"}};
@@ -62,7 +53,8 @@ std::string readable_name(std::string name) {
     break;
   }
   std::replace(name.begin(), name.end(), '_', ' ');
-  return with_accuracy(std::move(name)) + unit;
+  if (name.ends_with("success")) name += " rate";  // the files' name is `success`
+  return name + unit;
 }
 
 /// The table with columns `x`, `x_low`, `x_high` merged, and with readable names.
@@ -89,7 +81,7 @@ TextTable readable(const Table& table) {
 }
 
 std::string title_of(const fs::path& file) {
-  std::string title = with_accuracy(file.stem().string());
+  std::string title = file.stem().string();
   std::replace(title.begin(), title.end(), '_', ' ');
   if (!title.empty() && title[0] >= 'a' && title[0] <= 'z')
     title[0] = static_cast<char>(title[0] - 32);

@@ -145,7 +145,8 @@ void film_worst_segments(const experiments::ExperimentResult& result,
 
 StudyPictures benchmark_pictures() {
   const auto draw = [](const experiments::ExperimentResult& result) {
-    draw_standings_figures(result.directory.path(), result.experiment.intervals.bootstrap.level);
+    draw_standings_figures(result.directory.path(), result.experiment.intervals.bootstrap.level,
+                           result.experiment.figures);
   };
   const auto film = [](const experiments::ExperimentResult& result, const std::atomic<bool>* stop) {
     if (result.experiment.studies.at<experiments::BenchmarkConfig>().clips)

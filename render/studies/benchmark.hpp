@@ -43,10 +43,11 @@ std::filesystem::path standings_stem(const std::filesystem::path& run_directory,
 /// has the worst scene of each. `level` is the confidence level of the intervals. Files and errors
 /// as `draw_figure`.
 Figure draw_standings_figure(const BenchmarkTables& tables, const std::string& setting,
-                             double level, const std::filesystem::path& stem);
+                             double level, const FigureFile& target);
 
 /// Draws a figure for every robot with its sensors in the run directory's tables.
-void draw_standings_figures(const std::filesystem::path& run_directory, double level);
+void draw_standings_figures(const std::filesystem::path& run_directory, double level,
+                            const experiments::PrintConfig& print = {});
 
 /// Writes `benchmark.html` into the run directory of an experiment with a benchmark, from its
 /// tables and figures: the ranking, robots × sensors, every scene, a card for each estimator.

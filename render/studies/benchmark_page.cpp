@@ -9,7 +9,7 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "render/report/html.hpp"
+#include "render/report/sections.hpp"
 #include "render/studies/benchmark.hpp"
 #include "simulators/registry.hpp"
 
@@ -291,19 +291,6 @@ std::string header_of(const ReportSubject& subject, const BenchmarkTables& table
              subject.experiment.test.runs);
 }
 
-/// The figure of one robot with its sensors; empty when it was not drawn.
-std::string figure_html(const fs::path& run_directory, const TableRow& standing) {
-  const fs::path stem = standings_stem(run_directory, standing);
-  const fs::path svg = stem.string() + ".svg";
-  const fs::path script = stem.string() + ".gp";
-  if (!is_there(svg) || !is_there(script)) return {};
-  const FigureText text = figure_text(read_file(script));
-  return fmt::format(
-      "<figure class=\"wide\"><div class=\"pan\" tabindex=\"0\" role=\"group\" aria-label=\"{0}\">"
-      "<img alt=\"{1}\" src=\"{2}\"></div></figure>\n",
-      escaped(text.title), escaped(text.alt), data_uri("image/svg+xml", svg));
-}
-
 }  // namespace
 
 fs::path write_benchmark_page(const ReportSubject& subject) {
@@ -324,7 +311,8 @@ fs::path write_benchmark_page(const ReportSubject& subject) {
                           : fmt::format("<details{}><summary>{}</summary>\n{}</details>\n", open,
                                         escaped(last), html);
     };
-    standings += folded(figure_html(subject.directory, standing));
+    const fs::path figure = standings_stem(subject.directory, standing).string() + ".svg";
+    if (is_there(figure)) standings += folded(figure_html(figure, subject.experiment.simulators));
     scenes += folded(scenes_html(tables.scenes.all(), last, subject.experiment.simulators));
   }
   fs::path path = experiments::record_file(subject.directory, "benchmark.html");

@@ -72,12 +72,12 @@ std::string described(const std::array<const logs::Recording*, 2>& recordings,
 }  // namespace
 
 Figure draw_drop_overlay(const logs::Recording& first, const logs::Recording& second,
-                         const DropOverlay& what, const std::filesystem::path& stem) {
+                         const DropOverlay& what, const FigureFile& target) {
   constexpr std::array<const char*, 5> labels = {"base height\n(m)", "normal force\n(N)",
                                                  "knee torque\n(N·m)", "wheel torque\n(N·m)",
                                                  "vertical acc.\n(m/s²)"};
   constexpr std::array<double, labels.size()> tics = {0.1, 500.0, 5.0, 1.0, 100.0};
-  const std::string name = stem.filename().string();
+  const std::string name = target.name();
   const std::array<const logs::Recording*, 2> recordings = {&first, &second};
   std::vector<PlotData> data;
   for (const logs::Recording* recording : recordings) {
@@ -88,7 +88,7 @@ Figure draw_drop_overlay(const logs::Recording& first, const logs::Recording& se
   layout.row_heights.assign(labels.size(), 124.0);
   layout.panel_width = 860.0;
   layout.right = 130.0;
-  const PanelGrid grid(layout, {what.title, what.caption, described(recordings, what)});
+  const PanelGrid grid(target, layout, {what.title, what.caption, described(recordings, what)});
   std::string commands =
       grid.begin(-1e3 * before, 1e3 * after) +
       "set arrow 1 from 0,graph 0 to 0,graph 1 nohead back lc rgb '#6b747d' lw 1.2 dt 1\n";
@@ -103,7 +103,7 @@ Figure draw_drop_overlay(const logs::Recording& first, const logs::Recording& se
     }
     commands += '\n';
   }
-  return grid.draw(stem, commands, data);
+  return grid.draw(commands, data);
 }
 
 static Figure draw_overlay(const experiments::ExperimentResult& result) {
@@ -123,7 +123,7 @@ static Figure draw_overlay(const experiments::ExperimentResult& result) {
     return chosen_recording(result, simulator, overlay.run, "overlay");
   };
   return draw_drop_overlay(recording(experiment.simulators[0]), recording(experiment.simulators[1]),
-                           what, result.directory.file("figures", "drop_overlay"));
+                           what, figure_file(result, "drop_overlay"));
 }
 
 StudyPictures cross_simulator_pictures() {

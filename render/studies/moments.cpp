@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/rows.hpp"
+#include "render/figures/chosen_run.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/studies/registry.hpp"
 #include "simulators/registry.hpp"
@@ -128,16 +129,19 @@ std::string moments_described(const Table& moments) {
 
 }  // namespace
 
-Figure draw_moments_figure(const Table& moments, const Table& densities,
-                           const std::filesystem::path& stem) {
+Figure draw_moments_figure(const Table& moments, const Table& densities, const FigureFile& target) {
+  const PanelColumns columns =
+      columns_in(target.room(), torque_left + 24.0, {2, torque_width, torque_gap_x}, 150.0);
   const FigureFrame frame(
-      "Torques of the simulated and the real robot",
-      "Curves: densities of the simulated joints' |torque| as their servos report it, in bins of "
-      "0.01 N·m. Points and bars above them: mean ± one standard deviation. The real robot has no "
-      "curve, because its published densities include their kernels.",
-      torque_left + 2.0 * torque_width + torque_gap_x + 24.0,
+      target,
+      {"Torques of the simulated and the real robot",
+       "Curves: densities of the simulated joints' |torque| as their servos report it, in bins of "
+       "0.01 N·m. Points and bars above them: mean ± one standard deviation. The real robot has no "
+       "curve, because its published densities include their kernels.",
+       moments_described(moments)},
+      torque_left + columns.left(1) + columns.width + 24.0,
       torque_top + 2.0 * (moments_height + density_curve_height) + torque_gap_y + 50.0);
-  const std::string file = gnuplot_file(stem.filename().string() + ".dat");
+  const std::string file = gnuplot_file(target.name() + ".dat");
   std::string commands = "unset key\nset grid xtics noytics\nset border 3\nset tics nomirror\n";
   std::string data = "#torque_nm\tdensity_per_nm, then #mean_nm\tsd_nm\trow\n";
   std::size_t block = 0;
@@ -145,21 +149,21 @@ Figure draw_moments_figure(const Table& moments, const Table& densities,
     const std::vector<Moments> all = moments_of(moments, torque_panels[p]);
     const std::size_t row = p / 2;
     const std::size_t column = p % 2;
-    const double left = torque_left + static_cast<double>(column) * (torque_width + torque_gap_x);
+    const double left = torque_left + columns.left(column);
     const double top = torque_top + static_cast<double>(row) *
                                         (moments_height + density_curve_height + torque_gap_y);
-    commands += frame.panel(left, top, torque_width, moments_height) +
+    commands += frame.panel(left, top, columns.width, moments_height) +
                 fmt::format("set title {} offset 0,-0.6\nset xrange [0:{}]\n",
                             gnuplot_text(torque_panels[p].title), number(torque_axis_end(all))) +
                 moment_bars(all, file, block + all.size() - 1, column == 0) +
                 FigureFrame::end_panel();
-    commands += frame.panel(left, top + moments_height, torque_width, density_curve_height) +
+    commands += frame.panel(left, top + moments_height, columns.width, density_curve_height) +
                 "unset title\n" + density_curves(all, file, block, column == 0) +
                 FigureFrame::end_panel();
     data += torque_data(moments, densities, torque_panels[p]);
     block += all.size();
   }
-  return frame.draw(stem, commands, data, moments_described(moments));
+  return frame.draw(commands, data);
 }
 
 StudyPictures moments_pictures() {
@@ -167,7 +171,7 @@ StudyPictures moments_pictures() {
           .draw = [](const experiments::ExperimentResult& result) {
             draw_moments_figure(result.directory.read_table("moments.csv"),
                                 result.directory.read_table("torque_densities.csv"),
-                                result.directory.file("figures", "moments"));
+                                figure_file(result, "moments"));
           }};
 }
 

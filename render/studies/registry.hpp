@@ -47,14 +47,13 @@ struct DropOverlay {
 /// force, knee and wheel torque of the left leg, vertical acceleration. Files as `draw_figure`.
 /// Errors: `InputError` when a run has no such drop; `Error` as `draw_figure`.
 Figure draw_drop_overlay(const logs::Recording& first, const logs::Recording& second,
-                         const DropOverlay& what, const std::filesystem::path& stem);
+                         const DropOverlay& what, const FigureFile& target);
 
 /// Draws densities of the simulated |torque| in each engine, with a panel for each joint in each
 /// contact state. Above each panel are the means ± standard deviations of the engines and of the
 /// real robot, which has no density. `moments` and `densities` are a run's tables of that name
 /// (docs/explanation/realism.md); an engine without samples has no curve. Files and errors as
 /// `draw_figure`.
-Figure draw_moments_figure(const Table& moments, const Table& densities,
-                           const std::filesystem::path& stem);
+Figure draw_moments_figure(const Table& moments, const Table& densities, const FigureFile& target);
 
 }  // namespace touchdown::render

@@ -16,7 +16,7 @@ namespace touchdown::render {
 
 namespace {
 
-constexpr double row_height = 26.0, names_width = 190.0, mean_width = 380.0, bars_width = 96.0;
+constexpr double row_height = 26.0, mean_width = 380.0, bars_width = 96.0;
 constexpr double worst_width = 230.0, words_width = 170.0, gap_y = 84.0;
 
 /// One noise setting.
@@ -140,7 +140,7 @@ std::filesystem::path standings_stem(const std::filesystem::path& run_directory,
 }
 
 Figure draw_standings_figure(const BenchmarkTables& tables, const std::string& setting,
-                             double level, const std::filesystem::path& stem) {
+                             double level, const FigureFile& target) {
   std::vector<Panel> panels;
   std::string noise;
   double lowest = 0.99;  // an axis from 1 to 1 cannot be drawn
@@ -156,25 +156,37 @@ Figure draw_standings_figure(const BenchmarkTables& tables, const std::string& s
     const double low = standing.interval("mean_balanced_accuracy").low;
     lowest = std::fmin(lowest, std::isnan(low) ? mean_of(standing) : low);
   }
+  std::vector<std::string> names;
+  for (const TableRow& standing : tables.standings.all()) names.push_back(title_of(standing));
+  const double names_width = 24.0 + text_width(names);
   const double height = row_height * static_cast<double>(panels.front().standings.size());
+  // Printed narrow, the worst scenes are below the means, and both parts have the same width.
+  const double wide = names_width + mean_width + bars_width + worst_width + words_width;
+  const bool is_stacked = target.room() < 0.8 * wide;
+  const double part =
+      is_stacked ? std::min(mean_width, target.room() - names_width - words_width) : mean_width;
+  const double worst_left = names_width + (is_stacked ? 0.0 : mean_width + bars_width);
+  const double step = (is_stacked ? 2.0 : 1.0) * (height + gap_y);
   const FigureFrame frame(
-      fmt::format("Balanced accuracy by estimator: {}", setting),
-      fmt::format(
-          "Balanced accuracy, averaged over all scenes and engines, with {:.0f} % intervals over "
-          "runs, and over fits where these were repeated. A bar joins estimators that do not "
-          "differ significantly: the simultaneous bands of their paired differences include zero. "
-          "On the right, the worst scene of each estimator.{}",
-          100.0 * level, legend_of(panels.front().upper_bounds)),
-      names_width + mean_width + bars_width + worst_width + words_width,
-      static_cast<double>(panels.size()) * (height + gap_y));
-  const std::string file = gnuplot_file(stem.filename().string() + ".dat");
+      target,
+      {fmt::format("Balanced accuracy by estimator: {}", setting),
+       fmt::format(
+           "Balanced accuracy, averaged over all scenes and engines, with {:.0f} % intervals over "
+           "runs, and over fits where these were repeated. A bar joins estimators that do not "
+           "differ significantly: the simultaneous bands of their paired differences include zero. "
+           "On the right, the worst scene of each estimator.{}",
+           100.0 * level, legend_of(panels.front().upper_bounds)),
+       described(panels)},
+      is_stacked ? names_width + part + words_width : wide,
+      static_cast<double>(panels.size()) * step);
+  const std::string file = gnuplot_file(target.name() + ".dat");
   std::string commands = "unset key\nset grid noytics\n";
   for (std::size_t p = 0; p < panels.size(); ++p) {
     const std::vector<TableRow>& standings = panels[p].standings;
     std::vector<std::string> estimators;
     for (const TableRow& standing : standings) estimators.push_back(title_of(standing));
-    const double top = 24.0 + static_cast<double>(p) * (height + gap_y);
-    commands += frame.panel(names_width, top, mean_width, height);
+    const double top = 24.0 + static_cast<double>(p) * step;
+    commands += frame.panel(names_width, top, part, height);
     for (std::size_t i = 0; i < panels[p].upper_bounds.size(); ++i) {
       commands += fmt::format(
           "set arrow {0} from {1},graph 0 to {1},graph 1 nohead dt {2} lw 1.4 lc rgb '#22262b'\n",
@@ -191,13 +203,15 @@ Figure draw_standings_figure(const BenchmarkTables& tables, const std::string& s
         row_tics(estimators), file, 2 * p);
     commands += "unset arrow\n";
     commands += FigureFrame::end_panel();
-    commands += frame.panel(names_width + mean_width + 14.0, top, bars_width - 28.0, height);
+    commands += frame.panel(names_width + part + 14.0, top, bars_width - 28.0, height);
     commands += fmt::format(
         "unset border\nunset title\nunset xlabel\nunset xtics\nunset ytics\nset xrange [-0.5:8]\n"
         "plot {} index {} using 1:2:(0):($3-$2) with vectors nohead lc rgb '#22262b' lw 4 dt 1\n",
         file, 2 * p + 1);
     commands += FigureFrame::end_panel();
-    commands += frame.panel(names_width + mean_width + bars_width, top, worst_width, height);
+    commands += frame.panel(worst_left, is_stacked ? top + height + gap_y : top,
+                            is_stacked ? part : worst_width, height);
+    if (is_stacked) commands += fmt::format("set ytics scale 0 ({})\n", row_tics(estimators));
     commands += fmt::format(
         "set border 1\nset xtics nomirror 0.25\nset xrange [0:1]\nset xlabel 'worst scene'\n"
         "plot {0} index {1} using (0):4:5:(0) with vectors nohead lc rgb '#9aa1a8' lw 2 dt 1, \\\n"
@@ -206,17 +220,18 @@ Figure draw_standings_figure(const BenchmarkTables& tables, const std::string& s
         file, 2 * p);
     commands += FigureFrame::end_panel();
   }
-  return frame.draw(stem, commands, data_of(panels, tables), described(panels));
+  return frame.draw(commands, data_of(panels, tables));
 }
 
-void draw_standings_figures(const std::filesystem::path& run_directory, double level) {
+void draw_standings_figures(const std::filesystem::path& run_directory, double level,
+                            const experiments::PrintConfig& print) {
   const BenchmarkTables tables = benchmark_tables(run_directory);
   std::string last;
   for (const TableRow& standing : tables.standings.all()) {
     const std::string stem = standings_stem(run_directory, standing).string();
     if (stem == last) continue;
     last = stem;
-    draw_standings_figure(tables, setting_of(standing), level, stem);
+    draw_standings_figure(tables, setting_of(standing), level, {stem, print});
   }
 }
 

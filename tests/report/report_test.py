@@ -210,7 +210,7 @@ def check_page(page, report, name, width, height, dark, touch, screenshots, must
     else:
         page.hover(cell)
     text = page.run(readout)
-    check(text != before and "accuracy 0." in text and "[" in text, f"the heatmap shows '{text}'")
+    check(text != before and "success rate 0." in text and "[" in text, f"the heatmap shows '{text}'")
     page.keys(".map", "\ue014")  # arrow right
     check(page.run(readout) not in (text, before), "the arrow keys chose nothing")
     beside = page.run(

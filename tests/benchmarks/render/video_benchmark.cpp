@@ -19,8 +19,6 @@ void report(benchmark::State& state, const VideoStatistics& statistics) {
   rusage children = {};
   ::getrusage(RUSAGE_CHILDREN, &children);
   state.counters["fps"] = statistics.fps();
-  state.counters["encoding_share"] = statistics.encoding_seconds / statistics.seconds;
-  state.counters["first_frame_s"] = statistics.first_frame_seconds;
   state.counters["worker_MB"] = static_cast<double>(children.ru_maxrss) / 1024.0;
 }
 

@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 Heatmap error_heatmap() {
-  Heatmap heatmap{.title = "Error rate",
+  Heatmap heatmap{.title = "Success rate",
                   .x_label = "accelerometer noise (m/s²)",
                   .y_label = "torque noise (N·m)",
                   .x = {0, 1, 5},
@@ -53,7 +53,7 @@ TEST_F(FigureFiles, AppearTogetherWithScriptAndData) {
   const Figure figure = draw_heatmap(error_heatmap(), folder_ / "heatmap");
   EXPECT_THAT(names(), ::testing::UnorderedElementsAre("heatmap.png", "heatmap.svg", "heatmap.pdf",
                                                        "heatmap.gp", "heatmap.dat"));
-  EXPECT_THAT(read_file(figure.svg), AllOf(HasSubstr("torque noise"), HasSubstr(">2.00<")));
+  EXPECT_THAT(read_file(figure.svg), AllOf(HasSubstr("torque noise"), HasSubstr(">98.00<")));
   EXPECT_EQ(read_file(figure.pdf).substr(0, 4), "%PDF");
   EXPECT_GT(cv::imread(figure.png.string()).cols, 500);
 }
@@ -73,8 +73,8 @@ TEST_F(FigureFiles, HeatmapCrossesTheMarkedCellsOnly) {
   heatmap.panels[1].marked = {{false, false, false}, {false, false, true}};
   draw_heatmap(heatmap, folder_ / "heatmap");
   const std::string data = read_file(folder_ / "heatmap.dat");
-  EXPECT_THAT(data, HasSubstr("1.5\t0.5\n2.5\t1.5\n\n1.5\t1.5\n2.5\t0.5\n"));
-  EXPECT_EQ(data.find("1.5\t0.5\n"), data.rfind("1.5\t0.5\n"));
+  EXPECT_THAT(data, HasSubstr("2.5\t1.5\n2.32\t1.32\n"));
+  EXPECT_EQ(data.find("2.5\t1.5\n"), data.rfind("2.5\t1.5\n"));
 }
 
 /// An unknown cell must stay white, and must not move the cells after it.
@@ -84,9 +84,9 @@ TEST_F(FigureFiles, HeatmapCellsHaveTheirOwnColours) {
   heatmap.levels.clear();
   const Figure figure = draw_heatmap(heatmap, folder_ / "cells");
   const cv::Mat image = cv::imread(figure.png.string());
-  // Cells are 60 x 44 pixels from (66, 60); the first row of values is the lower one.
+  // Cells are 78.7 x 95 pixels from (66, 60); the first row of values is the lower one.
   const auto colour = [&](int row, int column) {
-    return image.at<cv::Vec3b>(60 + (1 - row) * 44 + 6, 66 + column * 60 + 6);
+    return image.at<cv::Vec3b>(60 + (1 - row) * 95 + 6, 66 + column * 236 / 3 + 6);
   };
   const cv::Vec3b many = colour(0, 0), few = colour(0, 2);
   EXPECT_GT(few[1], 200);  // yellow
@@ -125,12 +125,12 @@ TEST_F(FigureFiles, FineMapsLeaveTheNumbersToTheDataFile) {
   heatmap.panels[0].value[3][4] = 3.987;
   heatmap.panels[0].value[4][3] = 1.0;
   const Figure figure = draw_heatmap(heatmap, folder_ / "fine");
-  EXPECT_EQ(read_file(figure.svg).find(">3.99<"), std::string::npos);
-  EXPECT_THAT(read_file(folder_ / "fine.dat"), HasSubstr("3.987"));
+  EXPECT_EQ(read_file(figure.svg).find(">96.01<"), std::string::npos);
+  EXPECT_THAT(read_file(folder_ / "fine.dat"), HasSubstr("96.013"));
 }
 
-/// Four estimators that looked alike when a map showed their accuracies.
-TEST_F(FigureFiles, HeatmapColoursDistinguishErrorsBelowTwoPercent) {
+/// Four estimators that would look alike on a linear scale.
+TEST_F(FigureFiles, HeatmapColoursDistinguishSuccessRatesAbove98Percent) {
   Heatmap heatmap = error_heatmap();
   heatmap.x = {0, 1, 2, 3};
   heatmap.y = {0};
@@ -143,17 +143,17 @@ TEST_F(FigureFiles, HeatmapColoursDistinguishErrorsBelowTwoPercent) {
     EXPECT_GT(cv::norm(colour(column), colour(column + 1)), 40.0) << column;
   }
   EXPECT_THAT(read_file(figure.svg),
-              AllOf(HasSubstr(">0.40<"), HasSubstr(">0.60<"), HasSubstr(">1.10<"),
-                    HasSubstr("≤ 0.3"), HasSubstr("≥ 30")));
+              AllOf(HasSubstr(">99.60<"), HasSubstr(">99.40<"), HasSubstr(">98.90<"),
+                    HasSubstr("≤ 70"), HasSubstr("≥ 99.7")));
 }
 
 TEST_F(FigureFiles, HeatmapLinesAreLabelledAndStayOutOfTheCells) {
   draw_heatmap(error_heatmap(), folder_ / "heatmap");
-  // Block 2 of the data, the first panel's lines: between columns 1 and 2, with room for "5 %".
+  // Block 2 of the data, the first panel's lines: between columns 1 and 2, with room for "95 %".
   const std::string data = read_file(folder_ / "heatmap.dat");
   EXPECT_THAT(data, HasSubstr("1.5\t-0.5\n1.5\t0.5\n"));
-  EXPECT_THAT(data, HasSubstr("1.5\t1\t\"5 %\"\t90\n"));
-  EXPECT_THAT(read_file(folder_ / "heatmap.svg"), HasSubstr(">5 %<"));
+  EXPECT_THAT(data, HasSubstr("1.5\t1\t\"95 %\"\t90\n"));
+  EXPECT_THAT(read_file(folder_ / "heatmap.svg"), HasSubstr(">95 %<"));
 }
 
 TEST_F(FigureFiles, LeaveNothingAfterAnErrorOfGnuplot) {

@@ -14,7 +14,7 @@ namespace {
 
 /// Errors that grow with both noises.
 Heatmap heatmap() {
-  Heatmap map{.title = "Error rate",
+  Heatmap map{.title = "Success rate",
               .x_label = "accelerometer noise (m/s²)",
               .y_label = "torque noise (N·m)",
               .x = {0, 1, 3, 5, 7},

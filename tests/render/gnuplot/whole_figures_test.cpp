@@ -14,7 +14,6 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "render/gnuplot/figure.hpp"
-#include "render/gnuplot/process.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {
@@ -108,16 +107,6 @@ TEST_F(WholeFigures, AFullDiskIsAnErrorThatNamesTheFileAndLeavesNothing) {
   EXPECT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 42);
   EXPECT_TRUE(files_in(folder_) == before);
-}
-
-TEST_F(WholeFigures, AnOptionalFigureStaysAfterAnError) {
-  const std::string script = "set terminal pngcairo\nset output 'training.png'\nplot x\n";
-  ASSERT_EQ(try_gnuplot(folder_ / "training.gp", script), folder_ / "training.png");
-  const std::string before = read_file(folder_ / "training.png");
-  const Variable path("PATH", path_with_cutting_gnuplot("training.png"));
-  EXPECT_TRUE(try_gnuplot(folder_ / "training.gp", script + "plot -x\n").empty());
-  EXPECT_TRUE(read_file(folder_ / "training.png") == before);
-  EXPECT_EQ(files_in(folder_).size(), 2U);
 }
 
 TEST_F(WholeFigures, UserSettingsOfGnuplotAreIgnored) {

@@ -1,5 +1,5 @@
 #include <cmath>
-#include <limits>
+#include <cstring>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -32,25 +32,20 @@ std::vector<std::uint8_t> bytes_of(const Json& text) {
   return bytes;
 }
 
-std::vector<int> words_of(const Json& text) {
+std::vector<float> floats_of(const Json& text) {
   const auto bytes = bytes_of(text);
-  std::vector<int> words;
-  for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
-    const int word = bytes[i] + 256 * bytes[i + 1];
-    words.push_back(word < 32768 ? word : word - 65536);
-  }
-  return words;
+  std::vector<float> numbers(bytes.size() / sizeof(float));
+  std::memcpy(numbers.data(), bytes.data(), sizeof(float) * numbers.size());
+  return numbers;
 }
 
 /// The position of body `body` (without the terrain) in frame `frame` of a replayed run.
 Eigen::Vector3d position_in(const Json& run, std::size_t bodies, std::size_t frame,
                             std::size_t body) {
-  const std::vector<int> words = words_of(run["positions"]);
+  const std::vector<float> numbers = floats_of(run["positions"]);
   Eigen::Vector3d position;
   for (std::size_t k = 0; k < 3; ++k) {
-    position[static_cast<Eigen::Index>(k)] =
-        run["origin"][k].get<double>() +
-        run["unit"].get<double>() * words.at(3 * (frame * bodies + body) + k);
+    position[static_cast<Eigen::Index>(k)] = numbers.at(3 * (frame * bodies + body) + k);
   }
   return position;
 }
@@ -80,11 +75,11 @@ TEST_F(ReplayData, PosesAreThoseOfTheRecording) {
       const int body = robot_.mj->geom_bodyid[robot_.tyre_geom[wheel]];
       EXPECT_LT((position_in(run, bodies, frame, place) - body_position(*state, body)).norm(),
                 1e-4);
-      const std::vector<int> words = words_of(run["orientations"]);
+      const std::vector<float> numbers = floats_of(run["orientations"]);
       const Eigen::Quaterniond expected = body_orientation(*state, body);
       const std::array<double, 4> q = {expected.w(), expected.x(), expected.y(), expected.z()};
       for (std::size_t k = 0; k < 4; ++k) {
-        EXPECT_NEAR(words.at(4 * (frame * bodies + place) + k) / 32767.0, q[k], 1e-4);
+        EXPECT_NEAR(numbers.at(4 * (frame * bodies + place) + k), q[k], 1e-4);
       }
     }
   }
@@ -128,7 +123,7 @@ TEST_F(ReplayData, LongRunsAreCutAndScenesAreSharedByEngines) {
   const Json data = replay_data({{robot_, run_, beliefs_}, {robot_, longer, {}}}, {});
   EXPECT_EQ(data["scenes"].size(), 1U);
   EXPECT_EQ(bytes_of(data["runs"][1]["truth"]).size(), 6001U);
-  EXPECT_EQ(words_of(data["runs"][1]["orientations"]).size(), 4U * 7 * 3001);
+  EXPECT_EQ(floats_of(data["runs"][1]["orientations"]).size(), 4U * 7 * 3001);
   EXPECT_TRUE(data["runs"][1]["estimators"].empty());
   EXPECT_THAT(replay_html({{robot_, longer, {}}}, {}), HasSubstr("first 60 of 72 seconds"));
   EXPECT_THAT(replay_html({{robot_, run_, {}}}, {}), Not(HasSubstr("Only the first")));

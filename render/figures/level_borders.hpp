@@ -7,26 +7,15 @@
 
 namespace touchdown::render {
 
-/// A line segment (from, to) in grid coordinates (column, row).
-using IsoSegment = std::array<std::array<double, 2>, 2>;
-
-/// The segments along which a surface given on a grid crosses `level` (marching squares). Between
-/// grid points the surface is linear along the edges; a saddle is resolved by its middle. Cells
-/// with a NaN corner are left out.
-std::vector<IsoSegment> iso_lines(const std::vector<std::vector<double>>& rows, double level);
-
-/// The points of a line in grid coordinates; a closed line ends where it begins.
-using IsoLine = std::vector<std::array<double, 2>>;
-
-/// Joins segments that share an end into lines, so that dashes continue along them.
-std::vector<IsoLine> joined(const std::vector<IsoSegment>& segments);
+/// The points of a line in grid coordinates (column, row); a closed line ends where it begins.
+using BorderLine = std::vector<std::array<double, 2>>;
 
 /// A line along the edges of a map's cells, with smaller values on one side and larger ones on the
 /// other. It never enters a cell, where the numbers are. Cell (column, row) extends half a unit
 /// around these coordinates.
 struct LevelBorder {
   std::vector<double> levels;  ///< all between the values of its two sides, ascending
-  IsoLine line;                ///< from corner to corner
+  BorderLine line;             ///< from corner to corner
   /// The label with the levels is on the middle of the segment from `line[i]` to `line[i + 1]`.
   /// There is no label where the labels of longer lines leave no space.
   std::optional<std::size_t> labelled = {};
@@ -42,7 +31,7 @@ struct CellSize {
 std::vector<LevelBorder> level_borders(const std::vector<std::vector<double>>& rows,
                                        const std::vector<double>& levels, const CellSize& cell);
 
-/// "2 %"; "2, 5 %".
+/// The success rates between its sides: "98 %", "95–98 %" from the first to the last of several.
 std::string label_of(const LevelBorder& border);
 
 /// The position of a label, and whether it follows a vertical edge.
@@ -53,6 +42,6 @@ struct LabelPlace {
 LabelPlace label_place(const LevelBorder& border);
 
 /// The line with a gap for its label, in letters of 10 px.
-std::vector<IsoLine> without_label(const LevelBorder& border, const CellSize& cell);
+std::vector<BorderLine> without_label(const LevelBorder& border, const CellSize& cell);
 
 }  // namespace touchdown::render

@@ -1,4 +1,4 @@
-#include "render/figures/iso_lines.hpp"
+#include "render/figures/level_borders.hpp"
 
 #include <cmath>
 
@@ -68,8 +68,8 @@ TEST(LevelBorders, RunAlongCellsEdgesAndCoverEveryOneOnce) {
 TEST(LevelBorders, LabelEveryLevelBetweenTheirTwoSides) {
   const auto borders = level_borders({{1.5, 3.0, 12.0}}, {1.0, 2.0, 5.0, 10.0}, usual_cell);
   ASSERT_EQ(borders.size(), 2U);
-  EXPECT_EQ(label_of(borders[0]), "2 %");
-  EXPECT_EQ(label_of(borders[1]), "5, 10 %");
+  EXPECT_EQ(label_of(borders[0]), "98 %");
+  EXPECT_EQ(label_of(borders[1]), "90–95 %");
   EXPECT_THAT(borders[0].line, ElementsAre(ElementsAre(0.5, -0.5), ElementsAre(0.5, 0.5)));
   ASSERT_TRUE(borders[0].labelled.has_value());
   const LabelPlace place = label_place(borders[0]);
@@ -96,76 +96,19 @@ TEST(LevelBorders, LeaveGapsForTheirLabels) {
   const CellSize high{10.0, 100.0};
   const auto borders = level_borders({{1.0, 3.0}}, {2.0}, high);
   ASSERT_EQ(borders.size(), 1U);
-  const std::vector<IsoLine> parts = without_label(borders[0], high);
+  const std::vector<BorderLine> parts = without_label(borders[0], high);
   ASSERT_EQ(parts.size(), 2U);
   EXPECT_THAT(parts[0].front(), ElementsAre(0.5, -0.5));
   EXPECT_THAT(parts[1].back(), ElementsAre(0.5, 0.5));
   const double gap = high.height * (parts[1].front()[1] - parts[0].back()[1]);
-  EXPECT_GT(gap, 15.0);  // "2 %"
-  EXPECT_LT(gap, 25.0);
+  EXPECT_GT(gap, 15.0);  // "98 %"
+  EXPECT_LT(gap, 32.0);
 }
 
 TEST(LevelBorders, KeepAwayFromUnknownCells) {
   EXPECT_TRUE(level_borders({{1.0, NAN, 3.0}}, {2.0}, usual_cell).empty());
   EXPECT_TRUE(level_borders({}, {2.0}, usual_cell).empty());
   EXPECT_TRUE(level_borders({{1.0, 1.5}}, {2.0}, usual_cell).empty());
-}
-
-/// A circle's iso-line lies on the circle, up to the error of linear interpolation.
-TEST(IsoLines, LieOnTheLevel) {
-  std::vector<std::vector<double>> rows(41, std::vector<double>(41));
-  for (std::size_t r = 0; r < 41; ++r) {
-    for (std::size_t c = 0; c < 41; ++c) {
-      rows[r][c] = std::hypot(static_cast<double>(r) - 20.0, static_cast<double>(c) - 20.0);
-    }
-  }
-  const auto segments = iso_lines(rows, 12.3);
-  double length = 0.0;
-  for (const IsoSegment& segment : segments) {
-    for (const auto& point : segment) {
-      EXPECT_NEAR(std::hypot(point[0] - 20.0, point[1] - 20.0), 12.3, 0.02);
-    }
-    length += std::hypot(segment[0][0] - segment[1][0], segment[0][1] - segment[1][1]);
-  }
-  EXPECT_NEAR(length, 2.0 * M_PI * 12.3, 0.3);
-}
-
-TEST(IsoLines, AreJoinedFromEndToEnd) {
-  std::vector<std::vector<double>> rows(21, std::vector<double>(21));
-  for (std::size_t r = 0; r < 21; ++r) {
-    for (std::size_t c = 0; c < 21; ++c) {
-      rows[r][c] = std::hypot(static_cast<double>(r) - 10.0, static_cast<double>(c) - 10.0);
-    }
-  }
-  const auto closed = joined(iso_lines(rows, 6.3));
-  ASSERT_EQ(closed.size(), 1u);
-  EXPECT_EQ(closed[0].size(), iso_lines(rows, 6.3).size() + 1);
-  EXPECT_NEAR(closed[0].front()[0], closed[0].back()[0], 1e-9);
-  EXPECT_NEAR(closed[0].front()[1], closed[0].back()[1], 1e-9);
-  const auto corners = joined(iso_lines(rows, 12.2));  // cut off by the border
-  ASSERT_EQ(corners.size(), 4u);
-  std::size_t segments = 0;
-  for (const IsoLine& line : corners) segments += line.size() - 1;
-  EXPECT_EQ(segments, iso_lines(rows, 12.2).size());
-  EXPECT_TRUE(joined({}).empty());
-}
-
-TEST(IsoLines, SeparateTheCornersOfASaddle) {
-  // The middle (0.5) is below 0.6: the two high corners are cut off from each other.
-  const auto segments = iso_lines({{1.0, 0.0}, {0.0, 1.0}}, 0.6);
-  ASSERT_EQ(segments.size(), 2u);
-  for (const IsoSegment& segment : segments) {
-    const double x = 0.5 * (segment[0][0] + segment[1][0]);
-    const double y = 0.5 * (segment[0][1] + segment[1][1]);
-    EXPECT_NEAR(x, y, 1e-12);               // on the diagonal through the high corners
-    EXPECT_LT(std::min(x, 1.0 - x), 0.25);  // close to one of them
-  }
-}
-
-TEST(IsoLines, SkipUnknownCells) {
-  EXPECT_TRUE(iso_lines({{0.0, NAN}, {1.0, 1.0}}, 0.5).empty());
-  EXPECT_TRUE(iso_lines({}, 0.5).empty());
-  EXPECT_TRUE(iso_lines({{0.0, 1.0}}, 0.5).empty());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "render/figures/iso_lines.hpp"
+#include "render/figures/level_borders.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,8 @@
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "core/table.hpp"
 
 namespace touchdown::render {
 
@@ -51,6 +53,7 @@ void place_labels(std::vector<LevelBorder>& borders, const CellSize& cell) {
 }
 
 using Point = std::array<double, 2>;
+using BorderEdge = std::array<Point, 2>;  ///< from, to
 using RoundedPoint = std::pair<long long, long long>;
 
 /// A rounded position, which is the same for the two cells that compute the crossing of their
@@ -63,7 +66,7 @@ RoundedPoint rounded(const Point& point) {
 /// Line segments that belong to no line yet, by their ends.
 class LooseSegments {
  public:
-  explicit LooseSegments(const std::vector<IsoSegment>& segments) : segments_(segments) {
+  explicit LooseSegments(const std::vector<BorderEdge>& segments) : segments_(segments) {
     for (std::size_t i = 0; i < segments.size(); ++i) {
       for (const Point& end : segments[i]) at_[rounded(end)].push_back(i);
     }
@@ -78,20 +81,41 @@ class LooseSegments {
   Point follow(const Point& point) {
     const std::size_t segment = at_.at(rounded(point)).back();
     for (const Point& end : segments_[segment]) std::erase(at_[rounded(end)], segment);
-    const IsoSegment& ends = segments_[segment];
+    const BorderEdge& ends = segments_[segment];
     return rounded(ends[0]) == rounded(point) ? ends[1] : ends[0];
   }
 
  private:
-  const std::vector<IsoSegment>& segments_;
+  const std::vector<BorderEdge>& segments_;
   std::map<RoundedPoint, std::vector<std::size_t>> at_;
 };
+
+/// Joins segments that share an end into lines. A closed line ends where it begins.
+std::vector<BorderLine> joined(const std::vector<BorderEdge>& segments) {
+  LooseSegments loose(segments);
+  std::vector<BorderLine> lines;
+  const auto follow_from = [&](const Point& start) {
+    BorderLine line = {start};
+    while (loose.count_at(line.back()) > 0) line.push_back(loose.follow(line.back()));
+    lines.push_back(std::move(line));
+  };
+  // First the open lines, from their ends; the remaining lines are closed.
+  for (const BorderEdge& segment : segments) {
+    for (const Point& end : segment) {
+      if (loose.count_at(end) == 1) follow_from(end);
+    }
+  }
+  for (const BorderEdge& segment : segments) {
+    if (loose.count_at(segment[0]) > 0) follow_from(segment[0]);
+  }
+  return lines;
+}
 
 }  // namespace
 
 std::vector<LevelBorder> level_borders(const std::vector<std::vector<double>>& rows,
                                        const std::vector<double>& levels, const CellSize& cell) {
-  std::map<std::vector<double>, std::vector<IsoSegment>> segments;
+  std::map<std::vector<double>, std::vector<BorderEdge>> segments;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     for (std::size_t c = 0; c < rows[r].size(); ++c) {
       const auto x = static_cast<double>(c), y = static_cast<double>(r);
@@ -108,7 +132,7 @@ std::vector<LevelBorder> level_borders(const std::vector<std::vector<double>>& r
   std::vector<LevelBorder> borders;
   for (const auto& [crossed, edges] : segments) {
     if (crossed.empty()) continue;
-    for (IsoLine& line : joined(edges)) borders.push_back({crossed, std::move(line)});
+    for (BorderLine& line : joined(edges)) borders.push_back({crossed, std::move(line)});
   }
   std::stable_sort(borders.begin(), borders.end(), [](const LevelBorder& a, const LevelBorder& b) {
     return segments_of(a) > segments_of(b);
@@ -118,7 +142,9 @@ std::vector<LevelBorder> level_borders(const std::vector<std::vector<double>>& r
 }
 
 std::string label_of(const LevelBorder& border) {
-  return fmt::format("{} %", fmt::join(border.levels, ", "));
+  const double last = 100.0 - border.levels.back();
+  if (border.levels.size() == 1) return fmt::format("{:g} %", last);
+  return fmt::format("{:g}–{:g} %", last, 100.0 - border.levels.front());
 }
 
 LabelPlace label_place(const LevelBorder& border) {
@@ -127,13 +153,13 @@ LabelPlace label_place(const LevelBorder& border) {
   return {0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1]), from[0] == to[0]};
 }
 
-std::vector<IsoLine> without_label(const LevelBorder& border, const CellSize& cell) {
+std::vector<BorderLine> without_label(const LevelBorder& border, const CellSize& cell) {
   if (!border.labelled) return {border.line};
   const LabelPlace place = label_place(border);
   const auto before = border.line.begin() + static_cast<std::ptrdiff_t>(*border.labelled) + 1;
-  IsoLine first(border.line.begin(), before), second(before, border.line.end());
+  BorderLine first(border.line.begin(), before), second(before, border.line.end());
   constexpr double letter = 6.2, around = 3.0;
-  const double gap = (letter * static_cast<double>(label_of(border).size()) + around) /
+  const double gap = (letter * static_cast<double>(width(label_of(border))) + around) /
                      (place.upright ? cell.height : cell.width);
   if (gap < 1.0) {
     const auto towards_middle = [&](const std::array<double, 2>& corner) {
@@ -145,63 +171,6 @@ std::vector<IsoLine> without_label(const LevelBorder& border, const CellSize& ce
     second.insert(second.begin(), towards_middle(to));
   }
   return {first, second};
-}
-
-std::vector<IsoLine> joined(const std::vector<IsoSegment>& segments) {
-  LooseSegments loose(segments);
-  std::vector<IsoLine> lines;
-  const auto follow_from = [&](const Point& start) {
-    IsoLine line = {start};
-    while (loose.count_at(line.back()) > 0) line.push_back(loose.follow(line.back()));
-    lines.push_back(std::move(line));
-  };
-  // First the open lines, from their ends; the remaining lines are closed.
-  for (const IsoSegment& segment : segments) {
-    for (const Point& end : segment) {
-      if (loose.count_at(end) == 1) follow_from(end);
-    }
-  }
-  for (const IsoSegment& segment : segments) {
-    if (loose.count_at(segment[0]) > 0) follow_from(segment[0]);
-  }
-  return lines;
-}
-
-std::vector<IsoSegment> iso_lines(const std::vector<std::vector<double>>& rows, double level) {
-  std::vector<IsoSegment> segments;
-  for (std::size_t r = 0; r + 1 < rows.size(); ++r) {
-    for (std::size_t c = 0; c + 1 < rows[r].size() && c + 1 < rows[r + 1].size(); ++c) {
-      // Corners counter-clockwise from (column c, row r).
-      const std::array<double, 4> value = {rows[r][c], rows[r][c + 1], rows[r + 1][c + 1],
-                                           rows[r + 1][c]};
-      const auto x = static_cast<double>(c);
-      const auto y = static_cast<double>(r);
-      const std::array<std::array<double, 2>, 4> corner = {
-          {{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}}};
-      std::vector<std::array<double, 2>> crossings;
-      bool finite = true;
-      for (std::size_t k = 0; k < 4; ++k) {
-        const std::size_t next = (k + 1) % 4;
-        finite = finite && std::isfinite(value[k]);
-        if ((value[k] >= level) == (value[next] >= level)) continue;
-        const double share = (level - value[k]) / (value[next] - value[k]);
-        crossings.push_back({corner[k][0] + share * (corner[next][0] - corner[k][0]),
-                             corner[k][1] + share * (corner[next][1] - corner[k][1])});
-      }
-      if (!finite) continue;
-      if (crossings.size() == 2) {
-        segments.push_back({crossings[0], crossings[1]});
-      } else if (crossings.size() == 4) {
-        const double middle = 0.25 * (value[0] + value[1] + value[2] + value[3]);
-        // Crossings are on edges 0..3. The middle is on the side of corner 0 or of corners 1 and 3.
-        const bool with_first = (middle >= level) == (value[0] >= level);
-        const std::size_t shift = with_first ? 0 : 1;
-        segments.push_back({crossings[shift], crossings[shift + 1]});
-        segments.push_back({crossings[shift + 2], crossings[(shift + 3) % 4]});
-      }
-    }
-  }
-  return segments;
 }
 
 }  // namespace touchdown::render
