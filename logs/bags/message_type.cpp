@@ -234,6 +234,7 @@ class TypeParser {
         const auto [end, error] =
             std::from_chars(length.data(), length.data() + length.size(), field.length);
         if (error != std::errc() || end != length.data() + length.size()) complain();
+        if (field.length == 0) return;  // has no byte in a message
       }
     }
     type = type.substr(0, type.find("<="));

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <functional>
 #include <sstream>
@@ -123,6 +124,13 @@ void read_all(auto& reader) {
   if (bytes == 1 && reader.note().empty()) return;  // the data were read
 }
 
+/// The inputs before and behind a line of dashes.
+std::array<std::string_view, 2> halves(std::string_view input) {
+  constexpr std::string_view between = "\n---\n";
+  const std::size_t end = std::min(input.find(between), input.size());
+  return {input.substr(0, end), input.substr(std::min(end + between.size(), input.size()))};
+}
+
 }  // namespace
 
 /// A mapping file, a line of dashes, and the log that it maps.
@@ -130,12 +138,22 @@ TOUCHDOWN_FUZZ(mapping) {
   static const ScratchFolder folder;
   static NamedMemoryFile log(folder / "log.csv");
   static NamedMemoryFile mapping(folder / "map.yaml");
-  constexpr std::string_view between = "\n---\n";
-  const std::size_t end = std::min(input.find(between), input.size());
-  const std::string_view rows = input.substr(std::min(end + between.size(), input.size()));
+  const auto [map, rows] = halves(input);
   std::ostringstream stream;
-  (void)logs::convert_log(log.with(rows), mapping.with(input.substr(0, end)), stream,
-                          {.with_labels = true});
+  (void)logs::convert_log(log.with(rows), mapping.with(map), stream, {.with_labels = true});
+}
+
+/// The definition of a type, a line of dashes, and a message of it in CDR, which is read twice: the
+/// second time without its paths.
+TOUCHDOWN_FUZZ(message_type) {
+  const auto [definition, payload] = halves(input);
+  const logs::MessageType type("my_msgs/msg/State", definition);
+  logs::MessageNumbers numbers;
+  for (int times = 0; times < 2; ++times) {
+    type.decode(payload, numbers);
+    if (numbers.paths.size() != numbers.values.size()) __builtin_trap();
+  }
+  (void)logs::stamp_of(numbers);
 }
 
 /// An MCAP file.
