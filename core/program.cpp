@@ -238,4 +238,16 @@ std::string refused_words(const CLI::App& command, std::string message) {
   return message;
 }
 
+std::string with_option(const CLI::App& command, const std::string& message) {
+  std::string named;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& value : option->results()) {
+      if (value.empty() || !message.starts_with(value + ": ")) continue;
+      if (option->get_positional()) return message;
+      named = option->get_name() + ": ";
+    }
+  }
+  return named + message;
+}
+
 }  // namespace touchdown

@@ -90,4 +90,7 @@ std::string unknown_flag(std::string_view word, const CLI::App& command);
 /// is CLI11's own.
 std::string refused_words(const CLI::App& command, std::string message);
 
+/// "--prior: model.npz: no such file": a message about a whole file, with the option that named it.
+std::string with_option(const CLI::App& command, const std::string& message);
+
 }  // namespace touchdown

@@ -67,7 +67,7 @@ ExperimentContext start(RunRequest request, Plan plan, RunDirectory directory,
                         const RunOptions& options) {
   const int workers = request.experiment.workers;
   const int threads = workers > 0 ? workers : machine_share().processors;
-  const DiskNeeds needs = disk_needs(plan, &directory);
+  const DiskNeeds needs = disk_needs(plan, request.experiment, &directory);
   require_free_space(
       directory.path(), static_cast<std::uintmax_t>(needs.all()),
       fmt::format("{:.1f} GB for recordings, {:.1f} GB for {} parts of the evaluation, "

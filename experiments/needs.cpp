@@ -89,6 +89,27 @@ double bytes_of_parts(const Plan& plan) {
   return bytes;
 }
 
+/// An upper bound of the size of `tables/samples.csv` (bytes).
+double bytes_of_samples(const Plan& plan, const Experiment& experiment) {
+  constexpr double numbers = 140.0;  // of a row, at most
+  const RunGroup& group = plan.groups.front();
+  const bool is_by_drop = experiment.intervals.over == scoring::SampleUnit::drop;
+  double bytes = 0.0;
+  for (const std::size_t index : plan.runs_in(0)) {
+    const PlannedRun& run = plan.runs[index];
+    const double samples =
+        is_by_drop ? std::ceil(run.scenario.end.duration / experiment.scoring.minimum_flight) : 1.0;
+    for (const Condition& condition : tested_on(group.conditions, run.simulator)) {
+      if (!condition.fit.empty() || !group.counts(condition)) continue;
+      const std::size_t names = condition.fit_simulator.size() + condition.test_simulator.size() +
+                                condition.estimator.size() + run.scenario.name.size();
+      bytes += samples * static_cast<double>(group.counted.size()) *
+               (numbers + static_cast<double>(names));
+    }
+  }
+  return bytes;
+}
+
 }  // namespace
 
 Needs needs_of(const RunRequest& request) {
@@ -135,9 +156,10 @@ void require_memory(const RunRequest& request, double share_of_runs, double memo
                : "lower test.runs or noise.seeds"));
 }
 
-DiskNeeds disk_needs(const Plan& plan, const RunDirectory* directory) {
+DiskNeeds disk_needs(const Plan& plan, const Experiment& experiment,
+                     const RunDirectory* directory) {
   constexpr double recorded_step_bytes = 1100.0;  // 1.05 kB were measured
-  DiskNeeds needs;
+  DiskNeeds needs{.samples = bytes_of_samples(plan, experiment)};
   for (const PlannedRun& run : plan.runs) {
     if (!run.kept || (directory != nullptr && has_stamp(run, *directory))) continue;
     needs.recordings += recorded_step_bytes * run.scenario.end.duration /

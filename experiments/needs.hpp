@@ -24,12 +24,14 @@ void require_memory(const RunRequest& request, double share_of_runs,
 struct DiskNeeds {
   double recordings = 0.0;
   double parts = 0.0;
-  double results = 50e6;  ///< pictures and tables
+  double samples = 0.0;   ///< tables/samples.csv
+  double results = 50e6;  ///< pictures and other tables
 
-  double all() const { return recordings + parts + results; }
+  double all() const { return recordings + parts + samples + results; }
 };
 
 /// What a plan may still write into this run directory; without one, what it writes in all.
-DiskNeeds disk_needs(const Plan& plan, const RunDirectory* directory = nullptr);
+DiskNeeds disk_needs(const Plan& plan, const Experiment& experiment,
+                     const RunDirectory* directory = nullptr);
 
 }  // namespace touchdown::experiments

@@ -94,7 +94,7 @@ RunOutline outline_of(const Experiment& experiment, const RunOptions& options) {
     outline.model_tasks.emplace_back(tasks.name, fmt::format("{} {}s", tasks.count, tasks.unit));
   }
   outline.memory = least_memory(request, 1.0);
-  outline.disk = disk_needs(plan).all();
+  outline.disk = disk_needs(plan, experiment).all();
   return outline;
 }
 

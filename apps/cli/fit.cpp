@@ -236,11 +236,14 @@ void show_accuracy(const experiments::EstimatorEntry& entry,
         *accuracy.shipped);
   const double own = accuracy.held_out.value_or(accuracy.fitted);
   if (own >= *accuracy.shipped) return;
-  print_message(
-      fmt::format("touchdown: the shipped model is better on these logs ({:.4f} against {:.4f}): "
-                  "use it, or fit "
-                  "evidence_curves with --prior {}\n",
-                  *accuracy.shipped, own, experiments::shipped_file("shipped")));
+  const std::string shipped = experiments::shipped_file("shipped");
+  print_message(fmt::format(
+      "touchdown: the shipped model is better on these logs ({:.4f} against {:.4f}): use it{}{}\n",
+      *accuracy.shipped, own,
+      config.prior ? "" : ", or fit evidence_curves with --prior " + shipped,
+      accuracy.held_out && !accuracy.by_parts
+          ? "; unless each log has motions that the others lack, which makes the comparison unfair"
+          : ""));
 }
 
 /// Fits to logs. Without a name, and without a takeoff in the logs, estimators with a few physical

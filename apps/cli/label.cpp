@@ -67,16 +67,17 @@ void label(const LabelFlags& flags, const CliSession& session) {
   double seconds = 0.0;
   for (const logs::ContactInterval& one : labels.intervals) seconds += one.end - one.start;
   write_atomically(flags.output, logs::to_csv(labels));
-  print("{}: {} intervals, {:.3f} s\n{}", flags.output, labels.intervals.size(), seconds,
-        least_sure(labels.intervals));
+  print("{}: {} interval{}, {:.3f} s\n{}", flags.output, labels.intervals.size(),
+        labels.intervals.size() == 1 ? "" : "s", seconds, least_sure(labels.intervals));
   const std::string robot = flags.options.robot.empty() ? "" : " --robot " + flags.options.robot;
-  const std::string mapping =
-      flags.options.mapping.empty() ? "" : " --mapping " + flags.options.mapping;
+  const bool is_mapped = !flags.options.mapping.empty();
+  const std::string mapping = is_mapped ? " --mapping " + flags.options.mapping : "";
   print("{:<12} touchdown watch {} --labels {}{}{}\n", "next", flags.log, flags.output, robot,
         mapping);
-  const bool is_upkie_layout = flags.options.mapping.empty();  // which fits read
+  // Fits read Upkie's layout.
+  if (is_mapped) print("{:<12} touchdown export {}{} -o log.mpack\n", "then", flags.log, mapping);
   print("{:<12} touchdown fit {} --labels {} --prior models/evidence_curves.npz{} -o model.npz\n",
-        "then", is_upkie_layout ? flags.log : "LOG", flags.output, robot);
+        is_mapped ? "" : "then", is_mapped ? "log.mpack" : flags.log, flags.output, robot);
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ int run_command_line(int argc, char** argv) {
     if (*session.stop) {
       return complain(saves_parts ? "stopped" : "stopped; nothing was written", failed);
     }
-    return complain(error.what(), wrong_request);
+    return complain(with_option(*program.get_subcommands().front(), error.what()), wrong_request);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::filesystem::filesystem_error& error) {

@@ -14,10 +14,8 @@
 #include "experiments/config/experiment_yaml.hpp"
 #include "experiments/config/yaml_kind.hpp"
 #include "experiments/plan/rollouts.hpp"
-#include "experiments/results/result_files.hpp"
 #include "experiments/results/text_tables.hpp"
 #include "experiments/run_experiment.hpp"
-#include "render/report/report.hpp"
 #include "render/studies/registry.hpp"
 
 namespace touchdown::cli {
@@ -28,17 +26,6 @@ struct ShownPictures {
   bool none = false;      ///< tables only
   bool no_video = false;  ///< figures and the report, without films
 };
-
-void draw(experiments::ExperimentResult& result, const CliSession& session, bool with_films) {
-  std::vector<render::FilmedRun> filmed;
-  if (result.experiment.video.enabled) {
-    filmed = render::filmed_runs(render::read_subject(result.directory.path()));
-  }
-  render::draw_pictures(result, filmed, render::study_pictures(), with_films, session.stop);
-  experiments::write_manifest(result);
-  render::make_report(render::read_subject(result.directory.path()), filmed,
-                      render::study_pictures(), {.film = with_films});
-}
 
 /// The last lines of output: a table of results, the paths of all outputs and the next commands.
 std::string last_screen(const experiments::ExperimentResult& result, const CliSession& session) {
@@ -69,7 +56,7 @@ void show(experiments::ExperimentResult& result, const CliSession& session,
                     (result.directory.path() / "tables").string()));
   flush_printed();
   if (!pictures.none) {
-    draw(result, session, !pictures.no_video);
+    render::draw_and_report(result, !pictures.no_video, session.stop);
     print(last_screen(result, session));
   }
   if (!result.failed_demands.empty()) {

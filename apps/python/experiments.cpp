@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <pybind11/pybind11.h>
@@ -21,7 +19,9 @@
 #include "experiments/config/yaml_kind.hpp"
 #include "experiments/estimators/entry.hpp"
 #include "experiments/estimators/registry.hpp"
+#include "experiments/results/text_tables.hpp"
 #include "experiments/run_experiment.hpp"
+#include "render/studies/registry.hpp"
 
 namespace touchdown::python {
 
@@ -39,34 +39,6 @@ std::shared_ptr<const py::object> shared(py::object object) {
             const py::gil_scoped_acquire locked;
             delete last;
           }};
-}
-
-struct NamedSensor {
-  const char* name;
-  bool experiments::Sensors::*member;
-};
-
-constexpr std::array<NamedSensor, 6> named_sensors = {
-    {{"hip_torque", &experiments::Sensors::hip_torque},
-     {"knee_torque", &experiments::Sensors::knee_torque},
-     {"wheel_torque", &experiments::Sensors::wheel_torque},
-     {"acceleration", &experiments::Sensors::acceleration},
-     {"joint_position", &experiments::Sensors::joint_position},
-     {"joint_velocity", &experiments::Sensors::joint_velocity}}};
-
-experiments::Sensors sensors_of(const std::vector<std::string>& names, const std::string& source) {
-  experiments::Sensors sensors;
-  std::vector<std::string> known;
-  for (const NamedSensor& sensor : named_sensors) known.emplace_back(sensor.name);
-  for (const std::string& name : names) {
-    const auto found = std::find(known.begin(), known.end(), name);
-    if (found == known.end()) {
-      throw InputError(fmt::format("{}: sensors: '{}' is not one of {}{}", source, name,
-                                   fmt::join(known, ", "), did_you_mean(name, known)));
-    }
-    sensors.*named_sensors[static_cast<std::size_t>(found - known.begin())].member = true;
-  }
-  return sensors;
 }
 
 /// Replaces the signals of sensors that an estimator does not name, because their noise is not
@@ -108,7 +80,8 @@ experiments::EstimatorEntry entry_of(const py::dict& described) {
   entry.title = described["title"].cast<std::string>();
   entry.summary = described["summary"].cast<std::string>();
   entry.revision = described["revision"].cast<std::string>();
-  entry.sensors = sensors_of(described["sensors"].cast<std::vector<std::string>>(), entry.name);
+  entry.sensors =
+      experiments::sensors_named(described["sensors"].cast<std::vector<std::string>>(), entry.name);
   entry.making.whole_run = [make = shared(described["make"]), name = entry.name,
                             sensors = entry.sensors](const experiments::EstimatorSetup& setup) {
     const py::gil_scoped_acquire locked;
@@ -156,28 +129,34 @@ std::vector<std::pair<std::string, std::string>> python_estimators(
   return names;
 }
 
-struct Finished {
-  fs::path directory;
-  std::string id;
-  std::vector<std::string> studies;
-  std::vector<std::string> failed_demands;
+struct RunSettings {
+  fs::path out;
+  bool overwrite = false;
+  bool pictures = false;
+  bool video = true;
+  std::string command;
 };
 
-py::dict run(const ExperimentRequest& request, const fs::path& out, bool overwrite,
-             const std::string& command, const py::list& external_estimators) {
+py::dict run(const ExperimentRequest& request, const RunSettings& settings,
+             const py::list& external_estimators) {
   const std::vector<experiments::EstimatorEntry> external =
       external_estimators_of(external_estimators);
-  const Finished finished = long_call([&](const std::atomic<bool>& stop) {
+  const experiments::ExperimentResult finished = long_call([&](const std::atomic<bool>& stop) {
     const YamlDocument document = document_of(request);
     const experiments::Experiment experiment =
         experiments::experiment_from_yaml(document, external);
     experiments::require_files(document);
-    const experiments::ExperimentResult result = experiments::run_experiment(
-        experiment, {.out = out, .command = command, .stop = &stop, .overwrite = overwrite});
-    return Finished{result.directory.path(), result.id, result.studies, result.failed_demands};
+    experiments::ExperimentResult result =
+        experiments::run_experiment(experiment, {.out = settings.out,
+                                                 .command = settings.command,
+                                                 .stop = &stop,
+                                                 .overwrite = settings.overwrite});
+    if (settings.pictures) render::draw_and_report(result, settings.video, &stop);
+    return result;
   });
   py::dict about;
-  about["path"] = finished.directory;
+  about["path"] = finished.directory.path();
+  about["text"] = experiments::summary_text(finished);
   about["id"] = finished.id;
   about["studies"] = finished.studies;
   about["failed_demands"] = finished.failed_demands;
@@ -199,11 +178,13 @@ void add_experiments(py::module_& module) {
       "run",
       [](const fs::path& experiment, const std::optional<std::string>& text,
          const std::vector<std::string>& assignments, const fs::path& out, bool overwrite,
-         const std::string& command, const py::list& external_estimators) {
-        return run({experiment, text, assignments}, out, overwrite, command, external_estimators);
+         bool pictures, bool video, const std::string& command,
+         const py::list& external_estimators) {
+        return run({experiment, text, assignments}, {out, overwrite, pictures, video, command},
+                   external_estimators);
       },
-      "experiment"_a, "text"_a, "assignments"_a, "out"_a, "overwrite"_a, "command"_a,
-      "external_estimators"_a);
+      "experiment"_a, "text"_a, "assignments"_a, "out"_a, "overwrite"_a, "pictures"_a, "video"_a,
+      "command"_a, "external_estimators"_a);
 }
 
 }  // namespace touchdown::python

@@ -228,9 +228,12 @@ std::string LabelEditor::finish() {
   if (!problem_.empty()) throw Error(problem_);
   double seconds = 0.0;
   for (const ContactInterval& one : labels().intervals) seconds += one.end - one.start;
-  return fmt::format("{}: {} edits saved; {} intervals, {:.3f} s, {} to look at\n", labels().file,
-                     history_.edits(), labels().intervals.size(), seconds,
-                     logs::least_sure(labels()).size());
+  const auto count = [](auto number, const char* thing) {
+    return fmt::format("{} {}{}", number, thing, number == 1 ? "" : "s");
+  };
+  return fmt::format("{}: {} saved; {}, {:.3f} s, {} to look at\n", labels().file,
+                     count(history_.edits(), "edit"), count(labels().intervals.size(), "interval"),
+                     seconds, logs::least_sure(labels()).size());
 }
 
 }  // namespace touchdown::viewer

@@ -48,7 +48,7 @@ class PromptTakeoffsStudy final : public SectionStudy<PromptTakeoffs> {
     FigureSpec figure{.name = study_name, .table = "prompt_takeoffs.csv"};
     figure.panels = noise_panels(table);
     figure.series = groups_in(table, "simulator", [](const auto& engine) { return engine; });
-    figure.rows = groups_in(table, "estimator", estimator_title);
+    figure.rows = groups_in(table, "estimator", titles_in(evaluation.request.experiment));
     figure.measures = {axis_with_interval("prompt_share", "share of flights")};
     figure.title = "Flights detected soon after takeoff";
     figure.caption = intervals_text(evaluation.request.experiment) + ".";

@@ -48,8 +48,10 @@ Model EstimatorEntry::fit(const FitRuns& runs) const {
 
 std::unique_ptr<ContactEstimator> EstimatorEntry::make(const EstimatorSetup& setup) const {
   if (making.by_step != nullptr) return making.by_step(*this, setup);
-  throw InputError(
-      fmt::format("'{}' processes whole runs, and this use needs one step at a time", name));
+  throw InputError(fmt::format(
+      "'{}' {}", name,
+      making.whole_run ? "processes whole runs, and this use needs one step at a time"
+                       : "is written in Python, and `python3 -m touchdown run` runs it"));
 }
 
 EstimatorRunner EstimatorEntry::runner(const EstimatorSetup& setup) const {

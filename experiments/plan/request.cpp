@@ -16,6 +16,7 @@
 #include "core/yaml.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/config/experiment_yaml.hpp"
+#include "experiments/estimators/registry.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "models/robot_description.hpp"
@@ -275,7 +276,8 @@ RunRequest read_request(const fs::path& directory) {
                     directory.string()));
   }
   RunRequest request;
-  request.experiment = experiment_from_yaml(YamlDocument::load(directory / "config.yaml"));
+  request.experiment = experiment_from_yaml(YamlDocument::load(directory / "config.yaml"),
+                                            written_estimators(directory));
   request.sensors = read_sensors(request.experiment, directory);
   request.scenarios = scenarios_of(
       request.experiment,

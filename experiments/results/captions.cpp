@@ -80,14 +80,18 @@ const EstimatorEntry* find_estimator(std::string_view name,
   return nullptr;
 }
 
-std::string estimator_title(const std::string& estimator) {
-  const EstimatorEntry* const entry = find_estimator(estimator);
+std::string estimator_title(const std::string& estimator,
+                            std::span<const EstimatorEntry> external) {
+  const EstimatorEntry* const entry = find_estimator(estimator, external);
   return entry == nullptr ? estimator : entry->title;
 }
 
 std::string estimator_title_in(const Experiment& experiment, const std::string& estimator) {
-  const EstimatorEntry* const entry = find_estimator(estimator, experiment.external_estimators);
-  return entry == nullptr ? estimator : entry->title;
+  return estimator_title(estimator, experiment.external_estimators);
+}
+
+std::function<std::string(const std::string&)> titles_in(const Experiment& experiment) {
+  return [&experiment](const std::string& name) { return estimator_title_in(experiment, name); };
 }
 
 std::string false_takeoffs_text(const std::vector<ScoreSummary>& scores,

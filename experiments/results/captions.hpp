@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,9 +35,12 @@ std::string noise_text(const noise::NoiseCell& cell);
 const EstimatorEntry* find_estimator(std::string_view name,
                                      std::span<const EstimatorEntry> external = {});
 /// "Bayes filter (robust)"; the name itself for an estimator without a title.
-std::string estimator_title(const std::string& estimator);
+std::string estimator_title(const std::string& estimator,
+                            std::span<const EstimatorEntry> external = {});
 /// The same for an experiment's own estimators, too, such as those written in Python.
 std::string estimator_title_in(const Experiment& experiment, const std::string& estimator);
+/// The same as a function, for the groups of a figure, which `experiment` must outlive.
+std::function<std::string(const std::string&)> titles_in(const Experiment& experiment);
 /// False takeoffs per minute for the summary's condition and cell: "0.6"; a dash if not counted.
 std::string false_takeoffs_text(const std::vector<ScoreSummary>& scores,
                                 const CellSummary& summary);

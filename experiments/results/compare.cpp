@@ -15,6 +15,7 @@
 #include "core/columns.hpp"
 #include "core/error.hpp"
 #include "core/rows.hpp"
+#include "experiments/estimators/registry.hpp"
 #include "experiments/results/captions.hpp"
 #include "simulators/registry.hpp"
 
@@ -308,7 +309,9 @@ FigureSpec comparison_figure(const Comparison& comparison, std::size_t metric) {
                ? tested
                : fmt::format("{}, fitted in {}", tested, simulators::simulator_title(engines[1]));
   });
-  spec.series = groups_in(table, "estimator", estimator_title);
+  spec.series = groups_in(table, "estimator", [&](const std::string& name) {
+    return estimator_title(name, written_estimators(comparison.after));
+  });
   std::erase_if(spec.series.groups, [&](const FigureGroup& estimator) {
     return std::ranges::all_of(comparison.cells, [&](const ComparedCell& cell) {
       return cell.has_equal_counts || cell.condition.estimator != estimator.values.front();

@@ -19,6 +19,7 @@
 #include "core/resources.hpp"
 #include "estimator/evidence/channels.hpp"
 #include "experiments/estimators/entries.hpp"
+#include "experiments/estimators/registry.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/results/scores.hpp"
@@ -48,6 +49,20 @@ Json versions() {
           {"eigen",
            fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
           {"onetbb", TBB_runtime_version()}};
+}
+
+/// What `written_estimators` reads.
+Json python_estimators(const Experiment& experiment) {
+  Json list = Json::array();
+  for (const EstimatorEntry& entry : experiment.external_estimators) {
+    if (!entry.name.starts_with(python_prefix)) continue;
+    list.push_back({{"name", entry.name},
+                    {"title", entry.title},
+                    {"summary", entry.summary},
+                    {"sensors", names_of(entry.sensors)},
+                    {"source", entry.revision}});
+  }
+  return list;
 }
 
 Json failed_runs(const std::vector<Rollout>& runs) {
@@ -248,6 +263,8 @@ void write_manifest(const ExperimentResult& result) {
   for (const RequestInput& input : result.inputs) {
     json["inputs"].push_back({{"file", input.file}, {"digest", input.digest}});
   }
+  const Json from_python = python_estimators(experiment);
+  if (!from_python.empty()) json["python_estimators"] = from_python;
   json["tables"] = table_digests(result.directory.path());
   write_atomically(result.directory.path() / "manifest.json",
                    json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");

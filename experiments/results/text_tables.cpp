@@ -325,7 +325,7 @@ std::vector<CaptionedTable> accuracy_tables(const ExperimentResult& result) {
   const Experiment& experiment = result.experiment;
   return of_highlights(experiment, [&](const noise::NoiseCell& cell) {
     return std::vector<CaptionedTable>{
-        {"Success rate and false takeoffs. " + how_scored(experiment, cell), "success rate",
+        {"Success rate and false takeoffs. " + how_scored(experiment, cell), "accuracy",
          accuracy_table(experiment, result.summaries, result.scores, cell, experiment.simulators)}};
   });
 }

@@ -14,7 +14,7 @@ FigureSpec accuracy_by_value(const Table& table, const std::string& name, const 
   spec.where = {{"simulator", simulator}};
   spec.panels = groups_in(
       table, varied, [](const auto& text) { return text; }, spec.where);
-  spec.series = groups_in(table, "estimator", estimator_title, spec.where);
+  spec.series = groups_in(table, "estimator", titles_in(experiment), spec.where);
   spec.colour_order = experiment.estimators;
   spec.x = {.column = "value", .title = value_title, .scale = AxisScale::ordinal};
   spec.measures = {axis_with_interval("success", "success rate")};

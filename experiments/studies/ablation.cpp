@@ -177,15 +177,15 @@ FigureSpec ablation_figure(const Table& ablation, const Experiment& experiment) 
       steps_of(experiment.studies.at<AblationConfig>(), experiment.estimators);
   spec.rows.columns = {"estimator"};
   for (std::size_t step = 1; step < steps.size(); ++step) {
-    spec.rows.groups.push_back({{steps[step]}, estimator_title(steps[step])});
+    spec.rows.groups.push_back({{steps[step]}, estimator_title_in(experiment, steps[step])});
   }
   spec.measures = {axis_with_interval("gain", "gain of balanced accuracy")};
   spec.title = "Gain of every step";
   spec.caption = fmt::format(
       "Balanced accuracy of every estimator minus that of the one above it, the first one's minus "
       "that of {}, in the same runs; mean over scenes and engines ({}{}; {}).",
-      estimator_title(steps.front()), labels_text(experiment), setup_caption(experiment),
-      intervals_text(experiment));
+      estimator_title_in(experiment, steps.front()), labels_text(experiment),
+      setup_caption(experiment), intervals_text(experiment));
   spec.alt = "Gain of every step." + values_text(spec, ablation);
   return spec;
 }

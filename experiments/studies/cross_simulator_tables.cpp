@@ -278,7 +278,7 @@ FigureSpec transfer_figure(const Table& transfer, const Experiment& experiment) 
   spec.where = {{"is_fitted", "1"}};
   spec.panels = noise_panels(transfer);
   spec.series = directions(experiment);
-  spec.rows = groups_in(transfer, "estimator", estimator_title, spec.where);
+  spec.rows = groups_in(transfer, "estimator", titles_in(experiment), spec.where);
   spec.measures = {axis_with_interval("loss", "loss of success rate"),
                    axis_with_interval("gain", "gain over always contact")};
   spec.title = "Transfer between the engines";

@@ -194,7 +194,7 @@ FigureSpec learning_curve_figure(const Table& learning_curve, const Experiment& 
         return fmt::format("{}, {} N·m, {} m/s²", simulators::simulator_title(values[0]), values[1],
                            values[2]);
       });
-  spec.series = groups_in(learning_curve, "estimator", estimator_title);
+  spec.series = groups_in(learning_curve, "estimator", titles_in(experiment));
   spec.colour_order = experiment.estimators;
   spec.x = {.column = "labelled_s", .title = "labelled data", .unit = "s", .scale = AxisScale::log};
   spec.measures = {axis_with_interval("balanced_accuracy", "balanced accuracy")};

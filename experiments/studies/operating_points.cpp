@@ -323,14 +323,14 @@ std::string operating_points_text(const std::vector<OperatingMean>& means,
 constexpr double fewest = 0.3;  // extra switches per minute: the axis begins here
 
 /// Error and extra switches of each estimator's own decision.
-std::string own_decisions_text(const FigureSpec& spec, const Table& table) {
+std::string own_decisions_text(const FigureSpec& spec, const Table& table, const Experiment& of) {
   std::string text;
   for (std::size_t panel = 0; panel < spec.panels.groups.size(); ++panel) {
     text += fmt::format(" {}:", spec.panels.groups[panel].title);
     for (const TableRow& row : table.all()) {
       if (group_of(spec.panels, row) != panel || !row.text("leave_below").empty()) continue;
       text += fmt::format(" {} by its own decision {:.2f} % with {:.1f} per minute;",
-                          estimator_title(row.text("estimator")),
+                          estimator_title_in(of, row.text("estimator")),
                           drawn_value(spec.measures.front(), row), drawn_value(spec.x, row));
     }
     text.back() = '.';
@@ -343,7 +343,7 @@ std::string own_decisions_text(const FigureSpec& spec, const Table& table) {
 FigureSpec operating_points_figure(const Table& operating_points, const Experiment& experiment) {
   FigureSpec spec{.name = operating_points_name, .table = "operating_points.csv"};
   spec.panels = noise_panels(operating_points);
-  spec.series = groups_in(operating_points, "estimator", estimator_title);
+  spec.series = groups_in(operating_points, "estimator", titles_in(experiment));
   spec.colour_order = experiment.estimators;
   spec.x = {.column = "extra_switches_per_minute",
             .title = "extra switches per minute",
@@ -363,7 +363,7 @@ FigureSpec operating_points_figure(const Table& operating_points, const Experime
       "its P(contact); a ring marks its own thresholds. Values below {} extra switches per minute "
       "are drawn at that value.",
       labels_text(experiment), fewest);
-  spec.alt = "Error against extra switches." + own_decisions_text(spec, operating_points);
+  spec.alt = "Error against switches." + own_decisions_text(spec, operating_points, experiment);
   return spec;
 }
 

@@ -153,6 +153,9 @@ class JoinedBag final : public JoinedSource {
 
 std::unique_ptr<RowSource> open_rows(const fs::path& log, const LogSources& sources,
                                      const std::atomic<bool>* stop) {
+  if (extension_of(log) == ".mpack" && is_there(log)) {
+    throw InputError(fmt::format("{}: a log in Upkie's layout needs no mapping", log.string()));
+  }
   if (sources.empty() && !is_bag(log)) return open_file(log);
   if (!is_there(log)) throw InputError(fmt::format("{}: no such file or folder", log.string()));
   if (sources.are_files()) return join_files(log, sources);

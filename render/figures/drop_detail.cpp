@@ -216,7 +216,7 @@ std::string left_out_text(const experiments::Experiment& experiment,
   std::vector<std::string> titles;
   for (const std::string& name : experiment.estimators) {
     if (std::find(shown.begin(), shown.end(), name) != shown.end()) continue;
-    titles.push_back(experiments::estimator_title(name));
+    titles.push_back(experiments::estimator_title_in(experiment, name));
   }
   return titles.empty() ? "" : fmt::format(" Not shown: {}.", fmt::join(titles, ", "));
 }

@@ -128,7 +128,8 @@ Figure draw_reliability_figure(const ScoreFigure& figure, const FigureFile& targ
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     const ScorePanel& panel = figure.panels[i];
     const double left = left_margin + across.left(i % across.count);
-    const double top = static_cast<double>(i / across.count) * step;
+    const std::size_t line = i / across.count;
+    const double top = static_cast<double>(line) * step;
     commands += frame.panel(left, top + 26.0, across.width, side);
     commands += fmt::format(
         "set title {} offset 0,-0.6\nset yrange [0:1]\nset ytics 0.2\nset xtics 0.2\n"
@@ -253,11 +254,11 @@ Figure draw_latency_figure(const ScoreFigure& figure, const FigureFile& target) 
   const double names = 24.0 + text_width(names_in(figure));
   const PanelColumns across = columns_in(target.room(), names + numbers + right_margin,
                                          {kinds.size(), panel_width, numbers});
-  const auto lines = static_cast<double>(figure.panels.size() * kinds.size() / across.count);
+  const std::size_t lines = figure.panels.size() * kinds.size() / across.count;
   const FigureFrame frame(
       target, {figure.title, figure.caption, latency_described(figure)},
       names + across.left(across.count - 1) + across.width + numbers + right_margin,
-      lines * (height + gap_y));
+      static_cast<double>(lines) * (height + gap_y));
   const std::string file = gnuplot_file(target.name() + ".dat");
   std::string commands = fmt::format(
       "unset key\nset grid noytics\nset style fill solid 0.55\nset yrange [-0.15:{}]\nset border "
@@ -274,10 +275,11 @@ Figure draw_latency_figure(const ScoreFigure& figure, const FigureFile& target) 
     for (std::size_t k = 0; k < kinds.size(); ++k) {
       const auto [low, high] = range_of(figure, kinds[k]);
       const std::size_t place = p * kinds.size() + k;
+      const std::size_t line = place / across.count;
       const bool is_first = place % across.count == 0;
-      commands += frame.panel(names + across.left(place % across.count),
-                              24.0 + static_cast<double>(place / across.count) * (height + gap_y),
-                              across.width, height);
+      commands +=
+          frame.panel(names + across.left(place % across.count),
+                      24.0 + static_cast<double>(line) * (height + gap_y), across.width, height);
       commands += fmt::format(
           "set title {} offset 0,-0.6\nset xrange [{}:{}]\nset ytics scale 0 ({})\n"
           "set xtics {}\nset xlabel '{} latency (ms)'\n"

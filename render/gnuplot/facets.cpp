@@ -251,22 +251,27 @@ class FacetFigure {
       separator = ", \\\n     ";
     };
     for (std::size_t i = 0; i < series_.size(); ++i) {
-      std::string style = series_style(spec_, series_[i]);
+      const std::string style = series_style(spec_, series_[i]);
       const bool is_curve = key_shape(spec_) == std::string_view("linespoints");
-      if (is_curve && style.starts_with("lt ")) style += ' ' + curve_width(i, series_.size());
+      const std::string curve_style = is_curve && style.starts_with("lt ")
+                                          ? style + ' ' + curve_width(i, series_.size())
+                                          : style;
       for (std::size_t mark = 0; mark < spec_.marks.size(); ++mark) {
         const bool is_drawn = std::any_of(data_.begin(), data_.end(), [&](const FacetRow& row) {
           return row.panel == panel && row.series == series_[i] &&
                  experiments::passes(row.cells, spec_.marks[mark].where);
         });
         if (!is_drawn) continue;
+        const auto shape = spec_.marks[mark].shape;
+        const bool has_width =
+            shape == experiments::MarkShape::ring || shape == experiments::MarkShape::cross;
         const FacetPlot plot{.selections = selections(panel, series_[i], mark),
                              .aside = aside_of(i, panel, *measures_[place.measure]),
-                             .style = style};
-        add(plot_command(spec_, *measures_[place.measure], spec_.marks[mark].shape, file_, plot));
+                             .style = has_width ? style : curve_style};
+        add(plot_command(spec_, *measures_[place.measure], shape, file_, plot));
       }
       if (has_key) {
-        add(fmt::format("keyentry with {} {} title {}", key_shape(spec_), style,
+        add(fmt::format("keyentry with {} {} title {}", key_shape(spec_), curve_style,
                         gnuplot_text(title_of(spec_.series, series_[i]))));
       }
     }

@@ -86,14 +86,15 @@ void sort_by_engine(std::vector<fs::path>& files, const std::vector<std::string>
 using Cells = std::vector<experiments::CellSummary>;
 
 /// What a cell shows when the reader chooses it.
-std::string readout(const experiments::CellSummary& cell, const NoiseMaps& maps) {
+std::string readout(const experiments::CellSummary& cell, const NoiseMaps& maps,
+                    const experiments::Experiment& experiment) {
   const auto level = [&](const NoiseAxis& axis) {
     return fmt::format("{} {:.4g} {}", axis.name, cell.cell.*axis.level, axis.unit);
   };
-  std::string text = fmt::format("{}, {}: {}, {}: success rate {}",
-                                 simulators::simulator_title(cell.condition.test_simulator),
-                                 experiments::estimator_title(cell.condition.estimator),
-                                 level(maps.y), level(maps.x), with_interval(cell.success));
+  std::string text = fmt::format(
+      "{}, {}: {}, {}: success rate {}", simulators::simulator_title(cell.condition.test_simulator),
+      experiments::estimator_title_in(experiment, cell.condition.estimator), level(maps.y),
+      level(maps.x), with_interval(cell.success));
   if (std::isfinite(cell.always_contact)) {
     text += fmt::format("; always contact {:.3f}", cell.always_contact);
   }
@@ -101,13 +102,14 @@ std::string readout(const experiments::CellSummary& cell, const NoiseMaps& maps)
 }
 
 /// The readouts of one estimator's map in one engine, from the lowest row on.
-nlohmann::ordered_json readouts(const Cells& cells, const std::string& simulator,
+nlohmann::ordered_json readouts(const ReportSubject& subject, const std::string& simulator,
                                 const std::string& estimator, const NoiseMaps& maps) {
   nlohmann::ordered_json texts = nlohmann::ordered_json::array();
   for (const double y : maps.y.levels) {
     for (const double x : maps.x.levels) {
-      const auto* const cell = maps.cell(cells, simulator, estimator, x, y);
-      texts.push_back(cell == nullptr ? "not part of this study" : readout(*cell, maps));
+      const auto* const cell = maps.cell(subject.summary.cells, simulator, estimator, x, y);
+      texts.push_back(cell == nullptr ? "not part of this study"
+                                      : readout(*cell, maps, subject.experiment));
     }
   }
   return texts;
@@ -141,8 +143,7 @@ std::string map_overlay(const ReportSubject& subject, const fs::path& drawing,
                                  {"panels", nlohmann::ordered_json::array()}};
   for (std::size_t i = 0; i < estimators.size(); ++i) {
     data["panels"].push_back(
-        {{"place", panels[i]},
-         {"cells", readouts(subject.summary.cells, simulator, estimators[i], maps)}});
+        {{"place", panels[i]}, {"cells", readouts(subject, simulator, estimators[i], maps)}});
   }
   return fmt::format("<script type=\"application/json\">{}</script>", inline_json(data));
 }

@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/progress.hpp"
@@ -44,16 +46,18 @@ BeliefTrack beliefs_of(const experiments::Experiment& experiment,
                        const experiments::Condition& condition,
                        const experiments::FittedModels& models, const experiments::RunSignals& run,
                        const experiments::NoiseRun& noise, const noise::SensorNoise& levels) {
-  const auto estimator = experiments::make_estimator(experiment, condition, models, run);
+  const experiments::EstimatorEntry entry = experiments::entry_of(experiment, condition, models);
+  const experiments::EstimatorSetup setup =
+      experiments::setup_of(experiment, condition, models, run);
+  const auto by_step = entry.making.whole_run ? nullptr : entry.make(setup);
   BeliefTrack track;
-  track.name = experiments::estimator_entry(experiment, condition.estimator).title;
-  Belief belief;
-  for (std::size_t k = 0; k < run.steps(); ++k) {
-    if (experiments::has_record(run.signals[k])) {
-      belief = estimator->update(experiments::noisy(run, noise, levels, k));
-    }
-    add_belief(track, *estimator, belief);
-  }
+  track.name = entry.title;
+  (by_step ? experiments::EstimatorRunner(*by_step) : entry.runner(setup))
+      .run_estimator(
+          run, [&](std::size_t k) { return experiments::noisy(run, noise, levels, k); },
+          [&](std::size_t /*k*/, const Belief& belief) {
+            add_belief(track, by_step.get(), belief);
+          });
   return track;
 }
 
@@ -81,8 +85,9 @@ experiments::FittedModels read_models(const fs::path& directory,
   return models;
 }
 
-void add_belief(BeliefTrack& track, const ContactEstimator& estimator, const Belief& belief) {
-  const Evidence::Transition transition = estimator.evidence().transition;
+void add_belief(BeliefTrack& track, const ContactEstimator* estimator, const Belief& belief) {
+  const Evidence::Transition transition =
+      estimator == nullptr ? Evidence::Transition() : estimator->evidence().transition;
   for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
     track.p_contact[wheel].push_back(static_cast<float>(belief.wheel[wheel].p_contact));
     track.contact[wheel].push_back(belief.wheel[wheel].contact ? 1 : 0);
@@ -130,15 +135,24 @@ std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
       experiments::read_sensors(experiment, subject.directory), experiment.sensors);
   const experiments::VideoConfig& video = experiment.video;
   const noise::SensorNoise levels = video.noise.levels();
+  std::vector<std::string> shown = video.estimators;
+  std::erase_if(shown, [&](const std::string& name) {
+    const experiments::MakeMethod& making = experiments::estimator_entry(experiment, name).making;
+    if (making.whole_run || making.by_step != nullptr) return false;
+    print_message(
+        fmt::format("touchdown: {}: left out of films and replay: it is written in "
+                    "Python; `python3 -m touchdown run {}` shows it\n",
+                    name, (subject.directory / "config.yaml").string()));
+    return true;
+  });
   std::vector<FilmedRun> all;
   for (const experiments::RunSummary& run : subject.summary.runs) {
     if (run.role != experiments::RunRole::test || run.run != video.run) continue;
     const fs::path log = subject.directory / "recordings" / run.recording;
     if (!is_there(log)) continue;
     const experiments::FittedModels models =
-        read_models(subject.directory, experiment, run.simulator, video.estimators);
-    all.push_back(
-        filmed(logs::read_recording(log), experiment, profile, {video.estimators, models, levels}));
+        read_models(subject.directory, experiment, run.simulator, shown);
+    all.push_back(filmed(logs::read_recording(log), experiment, profile, {shown, models, levels}));
   }
   return all;
 }

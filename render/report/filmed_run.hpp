@@ -32,8 +32,8 @@ experiments::FittedModels read_models(const std::filesystem::path& directory,
                                       const std::string& simulator,
                                       const std::vector<std::string>& estimators);
 
-/// Adds an estimator's belief at the next row.
-void add_belief(BeliefTrack& track, const ContactEstimator& estimator, const Belief& belief);
+/// Adds an estimator's belief at the next row. The estimator is null if it processed a whole run.
+void add_belief(BeliefTrack& track, const ContactEstimator* estimator, const Belief& belief);
 
 /// A run with all data for a film of it.
 struct FilmedRun {

@@ -42,6 +42,23 @@ void film_runs(const std::vector<FilmedRun>& runs, const fs::path& run_directory
   }
 }
 
+fs::file_time_type newest_in(const fs::path& folder) {
+  fs::file_time_type newest = fs::file_time_type::min();
+  std::error_code ignored;
+  for (const fs::path& entry : entries_in(folder)) {
+    newest = std::max(newest, fs::last_write_time(entry, ignored));
+  }
+  return newest;
+}
+
+/// Whether a film shows the run's present recordings and models.
+bool is_current(const fs::path& file, const fs::path& run_directory) {
+  std::error_code error;
+  const fs::file_time_type written = fs::last_write_time(file, error);
+  return !error && written > newest_in(run_directory / "recordings") &&
+         written > newest_in(run_directory / "models");
+}
+
 }  // namespace
 
 ReportFilm report_film(const fs::path& run_directory) {
@@ -51,7 +68,8 @@ ReportFilm report_film(const fs::path& run_directory) {
 void film_for_report(const std::vector<FilmedRun>& runs, const fs::path& run_directory, int workers,
                      const std::atomic<bool>* stop) {
   const ReportFilm files = report_film(run_directory);
-  if (runs.empty() || (is_there(files.video) && is_there(files.picture))) return;
+  if (runs.empty()) return;
+  if (is_current(files.video, run_directory) && is_current(files.picture, run_directory)) return;
   std::vector<VideoSource> shown;
   double end = 0.0;
   for (const FilmedRun& run : runs) {

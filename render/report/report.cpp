@@ -40,7 +40,9 @@ ReportSection reproduce_section(const ReportSubject& subject) {
       "<p>One command computes everything on this page again, from the configuration beside it. "
       "The "
       "same program gives the same numbers, to the last digit:</p>\n"
-      "<pre><code>touchdown run config.yaml</code></pre>\n";
+      "<pre><code>" +
+      std::string(manifest.contains("python_estimators") ? "python3 -m " : "") +
+      "touchdown run config.yaml</code></pre>\n";
   if (manifest.contains("command") && manifest["command"].is_string()) {
     html += fmt::format("<p>The command of this run:</p>\n<pre><code>{}</code></pre>\n",
                         escaped(manifest["command"].get<std::string>()));

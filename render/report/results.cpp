@@ -50,13 +50,13 @@ Cells ranked(const Cells& all, const std::string& simulator, const noise::NoiseC
 std::string best_title(const experiments::Experiment& experiment,
                        const experiments::CellSummary& cell) {
   const experiments::EstimatorEntry* const entry =
-      experiments::find_estimator(cell.condition.estimator);
+      experiments::find_estimator(cell.condition.estimator, experiment.external_estimators);
   const auto is_fitted_to = [&](const std::string& scene) {
     return std::ranges::find(experiment.fit.scenarios, scene) != experiment.fit.scenarios.end();
   };
   const bool is_own = entry != nullptr && entry->fits() &&
                       std::ranges::any_of(experiment.test.scenarios, is_fitted_to);
-  return experiments::estimator_title(cell.condition.estimator) +
+  return experiments::estimator_title_in(experiment, cell.condition.estimator) +
          (is_own ? ", fitted to these scenes," : "");
 }
 
@@ -71,10 +71,12 @@ std::string finding(const experiments::Experiment& experiment, const Cells& cell
   std::vector<std::string> next, losers;
   for (const experiments::CellSummary& cell : cells) {
     if (&cell != &best && next.size() < 2) {
-      next.push_back(fmt::format("{} ({})", experiments::estimator_title(cell.condition.estimator),
-                                 percent_of(cell.success.estimate)));
+      next.push_back(fmt::format(
+          "{} ({})", experiments::estimator_title_in(experiment, cell.condition.estimator),
+          percent_of(cell.success.estimate)));
     }
-    if (cell.loses()) losers.push_back(experiments::estimator_title(cell.condition.estimator));
+    if (cell.loses())
+      losers.push_back(experiments::estimator_title_in(experiment, cell.condition.estimator));
   }
   std::string text = fmt::format(
       "{}, {} has the highest success rate, {} [{}, {}]{}. ",

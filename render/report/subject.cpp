@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "experiments/config/experiment_yaml.hpp"
+#include "experiments/estimators/registry.hpp"
 #include "experiments/results/result_files.hpp"
 #include "experiments/results/summary_file.hpp"
 
@@ -30,7 +31,8 @@ ReportSubject read_subject(const std::filesystem::path& run_directory) {
     throw InputError((run_directory / "manifest.json").string() + ": expected an object");
   }
   subject.experiment =
-      experiments::experiment_from_yaml(YamlDocument::load(run_directory / "config.yaml"));
+      experiments::experiment_from_yaml(YamlDocument::load(run_directory / "config.yaml"),
+                                        experiments::written_estimators(run_directory));
   subject.config_text = read_file(run_directory / "config.yaml");
   subject.summary = experiments::read_summary(run_directory);
   const std::map<std::string, std::string> digests = experiments::table_digests(run_directory);

@@ -30,12 +30,13 @@ bool is_number(const std::string& cell) {
   return !cell.empty() && cell.find_first_not_of("0123456789.+-eE") == std::string::npos;
 }
 
-std::string readable_cell(const std::string& name, const TableRow& row) {
+std::string readable_cell(const std::string& name, const TableRow& row,
+                          const experiments::Experiment& experiment) {
   std::string cell = row.text(name);
   if (cell == "nan") return "–";
   if (name.ends_with("simulator")) return simulators::simulator_title(cell);
   if (name == "estimator" || name == "first" || name == "second")
-    return experiments::estimator_title(cell);
+    return experiments::estimator_title_in(experiment, cell);
   if (is_number(cell) && cell.find('.') != std::string::npos) {
     return fmt::format("{:.4g}", row.number(name));
   }
@@ -58,7 +59,7 @@ std::string readable_name(std::string name) {
 }
 
 /// The table with columns `x`, `x_low`, `x_high` merged, and with readable names.
-TextTable readable(const Table& table) {
+TextTable readable(const Table& table, const experiments::Experiment& experiment) {
   std::set<std::string> names, ends;
   for (const Column& column : table.columns) {
     names.insert(column.name);
@@ -74,7 +75,7 @@ TextTable readable(const Table& table) {
       const TableRow row(table, r);
       result.rows[r].push_back(
           has_interval ? with_interval(row.interval(name), name.ends_with("_ms") ? 1 : 3)
-                       : readable_cell(name, row));
+                       : readable_cell(name, row, experiment));
     }
   }
   return result;
@@ -140,7 +141,7 @@ ReportSection more_tables_section(const ReportSubject& subject) {
       table.rows.resize(most_rows);
       caption += fmt::format(", the first {} of them", most_rows);
     }
-    const TextTable shown = readable(table);
+    const TextTable shown = readable(table, subject.experiment);
     std::size_t text_columns = 1;
     while (text_columns < shown.header.size() && !is_number(shown.rows[0][text_columns]) &&
            shown.rows[0][text_columns].find_first_of("0123456789") == std::string::npos) {

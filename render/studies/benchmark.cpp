@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
+#include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/request.hpp"
 #include "experiments/studies/benchmark.hpp"
@@ -32,7 +33,8 @@ BenchmarkTables benchmark_tables(const std::filesystem::path& run_directory) {
     return is_there(file) ? table_of(from_csv(read_file(file))) : Table();
   };
   BenchmarkTables tables{table("benchmark.csv"), table("benchmark_standings.csv"),
-                         table("benchmark_differences.csv")};
+                         table("benchmark_differences.csv"),
+                         experiments::written_estimators(run_directory)};
   const Table all = std::exchange(tables.scenes, {tables.scenes.columns, {}});
   for (std::size_t i = 0; i < all.rows.size(); ++i) {
     if (TableRow(all, i).text("fitted_on") == "own") tables.scenes.rows.push_back(all.rows[i]);

@@ -19,6 +19,7 @@ struct BenchmarkTables {
   /// `benchmark_differences.csv`. Rows without a scene have differences of the means over all
   /// scenes.
   Table pairs;
+  std::vector<experiments::EstimatorEntry> external = {};  ///< those written in Python
 };
 
 /// Empty where the run directory has no such tables. Errors: `InputError` for unreadable ones.

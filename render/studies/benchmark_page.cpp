@@ -52,13 +52,16 @@ std::size_t level_of(double accuracy) {
                                   limits.begin());
 }
 
+using Estimators = std::vector<experiments::EstimatorEntry>;
+
 struct AccuracyCell {
   double value = nothing;
   std::string tooltip = {};
 };
 
 /// A table with a row per estimator. The best of each column is bold, and columns can be sorted.
-std::string accuracy_table(const std::string& caption, const std::vector<std::string>& columns,
+std::string accuracy_table(const Estimators& external, const std::string& caption,
+                           const std::vector<std::string>& columns,
                            const std::vector<std::string>& estimators,
                            const std::vector<std::vector<AccuracyCell>>& cells) {
   std::string html = fmt::format(
@@ -73,7 +76,7 @@ std::string accuracy_table(const std::string& caption, const std::vector<std::st
   html += "</tr></thead>\n<tbody>\n";
   for (std::size_t row = 0; row < estimators.size(); ++row) {
     html += fmt::format("<tr><th class=\"name\" scope=\"row\">{}</th>",
-                        escaped(experiments::estimator_title(estimators[row])));
+                        escaped(experiments::estimator_title(estimators[row], external)));
     for (std::size_t column = 0; column < columns.size(); ++column) {
       const AccuracyCell& cell = cells[row][column];
       if (std::isnan(cell.value)) {
@@ -98,7 +101,8 @@ std::string name_of(const TableRow& score) {
   return score.text("scene") + (score.text("split") == "unseen" ? " *" : "");
 }
 
-std::string scene_table(const std::vector<TableRow>& scores, const std::string& caption) {
+std::string scene_table(const Estimators& external, const std::vector<TableRow>& scores,
+                        const std::string& caption) {
   const auto estimators = unique(scores, estimator_of);
   const auto columns = unique(scores, name_of);
   std::vector<std::vector<AccuracyCell>> cells(estimators.size());
@@ -112,12 +116,13 @@ std::string scene_table(const std::vector<TableRow>& scores, const std::string& 
                                : AccuracyCell{accuracy_of(*found), tooltip(*found)});
     }
   }
-  return accuracy_table(caption, columns, estimators, cells);
+  return accuracy_table(external, caption, columns, estimators, cells);
 }
 
 /// Mean balanced accuracy over all scenes and engines: a table for every noise setting, with a row
 /// per estimator and a column per robot with its sensors.
-std::string matrix_html(const std::vector<TableRow>& standings) {
+std::string matrix_html(const BenchmarkTables& tables) {
+  const std::vector<TableRow> standings = tables.standings.all();
   const auto estimators = unique(standings, estimator_of);
   const auto settings = unique(standings, setting_of);
   std::string html;
@@ -138,6 +143,7 @@ std::string matrix_html(const std::vector<TableRow>& standings) {
                       simulators::simulator_title(standing.text("worst_simulator")))};
     }
     html += accuracy_table(
+        tables.external,
         fmt::format("Mean balanced accuracy over all scenes and engines, by robot and sensors, {}",
                     noise),
         settings, estimators, cells);
@@ -148,8 +154,9 @@ std::string matrix_html(const std::vector<TableRow>& standings) {
 /// Balanced accuracy by scene for one robot with its sensors: a table for every engine and noise
 /// setting, with a row per estimator and a column per scene. A star marks scenes that no estimator
 /// was fitted to.
-std::string scenes_html(const std::vector<TableRow>& scores, const std::string& setting,
+std::string scenes_html(const BenchmarkTables& tables, const std::string& setting,
                         const std::vector<std::string>& simulators) {
+  const std::vector<TableRow> scores = tables.scenes.all();
   std::string html;
   for (const std::string& noise : unique(scores, noise_of)) {
     for (const std::string& simulator : simulators) {
@@ -158,9 +165,9 @@ std::string scenes_html(const std::vector<TableRow>& scores, const std::string& 
                score.text("simulator") == simulator;
       });
       if (alike.empty()) continue;
-      html +=
-          scene_table(alike, fmt::format("Balanced accuracy by scene: {}, {}, {}",
-                                         simulators::simulator_title(simulator), setting, noise));
+      html += scene_table(tables.external, alike,
+                          fmt::format("Balanced accuracy by scene: {}, {}, {}",
+                                      simulators::simulator_title(simulator), setting, noise));
     }
   }
   return html;
@@ -169,8 +176,8 @@ std::string scenes_html(const std::vector<TableRow>& scores, const std::string& 
 constexpr std::size_t most_failures = 4;  ///< scenes on a card
 constexpr double failure = 0.95;          ///< a card lists scenes of lower balanced accuracy
 
-std::string summary_of(const std::string& estimator) {
-  const auto* const entry = experiments::find_estimator(estimator);
+std::string summary_of(const std::string& estimator, const Estimators& external) {
+  const auto* const entry = experiments::find_estimator(estimator, external);
   return entry == nullptr ? "Submitted as beliefs" : entry->summary;
 }
 
@@ -238,14 +245,15 @@ std::string card(const BenchmarkTables& tables, const std::string& estimator,
                 "preload=\"metadata\" aria-label=\"The worst two seconds of {0}\" "
                 "src=\"{1}\"></video>\n<figcaption>The two seconds in which it makes the most "
                 "errors.</figcaption></figure>\n",
-                escaped(experiments::estimator_title(estimator)), data_uri("video/mp4", film))
+                escaped(experiments::estimator_title(estimator, tables.external)),
+                data_uri("video/mp4", film))
           : "";
   return fmt::format(
       "<article class=\"card\">\n<h3>{}</h3>\n<p>{}. Not significantly worse than the best in {} "
       "of {} settings. Mean balanced accuracy: {} to {}.{}</p>\n{}{}</article>\n",
-      escaped(experiments::estimator_title(estimator)), escaped(summary_of(estimator)), not_worse,
-      standings.size(), escaped(standing_text(*worst)), escaped(standing_text(*best)),
-      escaped(excess),
+      escaped(experiments::estimator_title(estimator, tables.external)),
+      escaped(summary_of(estimator, tables.external)), not_worse, standings.size(),
+      escaped(standing_text(*worst)), escaped(standing_text(*best)), escaped(excess),
       items.empty() ? fmt::format("<p>At least {:.2f} in every scene.</p>\n", failure)
                     : "<ul>\n" + items + "</ul>\n",
       film_html);
@@ -313,12 +321,12 @@ fs::path write_benchmark_page(const ReportSubject& subject) {
     };
     const fs::path figure = standings_stem(subject.directory, standing).string() + ".svg";
     if (is_there(figure)) standings += folded(figure_html(figure, subject.experiment.simulators));
-    scenes += folded(scenes_html(tables.scenes.all(), last, subject.experiment.simulators));
+    scenes += folded(scenes_html(tables, last, subject.experiment.simulators));
   }
   fs::path path = experiments::record_file(subject.directory, "benchmark.html");
   write_page(subject, path, header_of(subject, tables),
              {{"standings", "Ranking", standings},
-              {"matrix", "Robots and sensors", matrix_html(all)},
+              {"matrix", "Robots and sensors", matrix_html(tables)},
               {"scenes", "Scene by scene", scenes},
               {"cards", "Failures of each estimator", cards_html(tables, subject.directory)}});
   return path;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -21,6 +22,11 @@ bool has_section(const experiments::Experiment& experiment) {
 /// The pictures of all studies that have some besides figures of their tables, in the order of
 /// drawing.
 const std::vector<StudyPictures>& study_pictures();
+
+/// Draws all figures of an experiment's result and, if `with_films`, its films, and writes its
+/// report. Errors: as `draw_pictures` and `make_report`.
+void draw_and_report(experiments::ExperimentResult& result, bool with_films,
+                     const std::atomic<bool>* stop);
 
 /// The rankings of estimators, a page about every scene, and films of the worst segments.
 StudyPictures benchmark_pictures();

@@ -30,8 +30,8 @@ struct TiedRanks {
   std::size_t first, last;
 };
 
-std::string title_of(const TableRow& standing) {
-  return experiments::estimator_title(estimator_of(standing));
+std::string title_of(const TableRow& standing, const BenchmarkTables& tables) {
+  return experiments::estimator_title(estimator_of(standing), tables.external);
 }
 
 double worst_of(const TableRow& standing) { return standing.number("worst_balanced_accuracy"); }
@@ -106,26 +106,27 @@ constexpr std::array<BoundLine, 2> bound_lines = {{{2, "dashed"}, {3, "dotted"}}
 const BoundLine& line_of(std::size_t bound) { return bound_lines[bound % bound_lines.size()]; }
 
 /// A sentence about the lines of the reference upper bounds; empty without any.
-std::string legend_of(const std::vector<TableRow>& upper_bounds) {
+std::string legend_of(const std::vector<TableRow>& upper_bounds, const BenchmarkTables& tables) {
   std::string text;
   for (std::size_t i = 0; i < upper_bounds.size(); ++i) {
     text += fmt::format("{}{}, {}", i > 0 ? "; " : " Reference upper bounds: ", line_of(i).text,
-                        title_of(upper_bounds[i]));
+                        title_of(upper_bounds[i], tables));
   }
   return text.empty() ? text : text + ".";
 }
 
-std::string described(const std::vector<Panel>& panels) {
+std::string described(const std::vector<Panel>& panels, const BenchmarkTables& tables) {
   std::string text = "Mean balanced accuracy, the best first.";
   for (const Panel& panel : panels) {
     fmt::format_to(std::back_inserter(text), " {}:", noise_of(panel.standings.front()));
     for (const TableRow& bound : panel.upper_bounds) {
       fmt::format_to(std::back_inserter(text), " reference upper bound, {}, {:.3f};",
-                     title_of(bound), mean_of(bound));
+                     title_of(bound, tables), mean_of(bound));
     }
     for (const TableRow& standing : panel.standings) {
-      fmt::format_to(std::back_inserter(text), " {} {:.3f} (worst {:.3f}, {});", title_of(standing),
-                     mean_of(standing), worst_of(standing), standing.text("worst_scene"));
+      fmt::format_to(std::back_inserter(text), " {} {:.3f} (worst {:.3f}, {});",
+                     title_of(standing, tables), mean_of(standing), worst_of(standing),
+                     standing.text("worst_scene"));
     }
   }
   return text;
@@ -157,7 +158,8 @@ Figure draw_standings_figure(const BenchmarkTables& tables, const std::string& s
     lowest = std::fmin(lowest, std::isnan(low) ? mean_of(standing) : low);
   }
   std::vector<std::string> names;
-  for (const TableRow& standing : tables.standings.all()) names.push_back(title_of(standing));
+  for (const TableRow& standing : tables.standings.all())
+    names.push_back(title_of(standing, tables));
   const double names_width = 24.0 + text_width(names);
   const double height = row_height * static_cast<double>(panels.front().standings.size());
   // Printed narrow, the worst scenes are below the means, and both parts have the same width.
@@ -175,8 +177,8 @@ Figure draw_standings_figure(const BenchmarkTables& tables, const std::string& s
            "runs, and over fits where these were repeated. A bar joins estimators that do not "
            "differ significantly: the simultaneous bands of their paired differences include zero. "
            "On the right, the worst scene of each estimator.{}",
-           100.0 * level, legend_of(panels.front().upper_bounds)),
-       described(panels)},
+           100.0 * level, legend_of(panels.front().upper_bounds, tables)),
+       described(panels, tables)},
       is_stacked ? names_width + part + words_width : wide,
       static_cast<double>(panels.size()) * step);
   const std::string file = gnuplot_file(target.name() + ".dat");
@@ -184,7 +186,7 @@ Figure draw_standings_figure(const BenchmarkTables& tables, const std::string& s
   for (std::size_t p = 0; p < panels.size(); ++p) {
     const std::vector<TableRow>& standings = panels[p].standings;
     std::vector<std::string> estimators;
-    for (const TableRow& standing : standings) estimators.push_back(title_of(standing));
+    for (const TableRow& standing : standings) estimators.push_back(title_of(standing, tables));
     const double top = 24.0 + static_cast<double>(p) * step;
     commands += frame.panel(names_width, top, part, height);
     for (std::size_t i = 0; i < panels[p].upper_bounds.size(); ++i) {

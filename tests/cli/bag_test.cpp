@@ -144,6 +144,20 @@ TEST_F(Bag, OfAnotherRobotGivesBeliefsAsGoodAsTheRunsOwnLog) {
   EXPECT_EQ(folder_.text("a.csv"), folder_.text("bag.csv"));
 }
 
+TEST_F(Bag, IsLabelledByItsMappingForAFitToItsExportedLog) {
+  const std::string label = "label bag.mcap --mapping robot.yaml --transfer -o ";
+  EXPECT_THAT(folder_.output_of(label + "bag.csv"),
+              AllOf(HasSubstr("touchdown watch bag.mcap --labels bag.csv --mapping robot.yaml\n"),
+                    HasSubstr("touchdown export bag.mcap --mapping robot.yaml -o log.mpack\n"),
+                    HasSubstr("touchdown fit log.mpack --labels bag.csv ")));
+  folder_.output_of("export bag.mcap --mapping robot.yaml -o log.mpack");
+  folder_.output_of("label log.mpack --transfer -o log.csv");
+  EXPECT_EQ(folder_.text("log.csv"), folder_.text("bag.csv"));
+  folder_.output_of("fit log.mpack --labels bag.csv -o model.npz");
+  folder_.expect_refusals({{"label log.mpack --mapping robot.yaml -o x.csv",
+                            {"log.mpack: a log in Upkie's layout needs no mapping"}}});
+}
+
 /// The same door as that of `estimate`: bags, CSV files and arrays by a mapping.
 TEST_F(Bag, IsCheckedByAMapping) {
   for (const std::string log : {"bag", "bag.mcap", "bag/bag_0.db3"}) {

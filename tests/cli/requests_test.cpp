@@ -61,6 +61,38 @@ TEST_F(WrongRequest, IsOneLineWithThePlaceAndTheNearestName) {
   EXPECT_FALSE(folder_.has("new.mp4"));
 }
 
+/// A place in a file is enough; without one, several options may have named the file.
+TEST_F(WrongRequest, AboutAFileNamesItsOptionOrThePlaceInIt) {
+  logs::write_recording(test::synthetic_log(3.0), folder_ / "log.mpack");
+  folder_.write("bad.npz", "bad");
+  folder_.write("bad.csv", "bad\n");
+  folder_.write("bad.yaml", "a: [\n");
+  const std::string simulate = "simulate scenarios/hop.yaml -o x.mpack ";
+  for (const std::string verb : {"estimate log.mpack ", "label log.mpack -o x.csv "}) {
+    folder_.expect_refusals(
+        {{verb + "--model bad.npz", {"touchdown: --model: bad.npz: "}},
+         {verb + "--model none.npz", {"touchdown: --model: none.npz: no such"}},
+         {verb + "--mapping none.yaml", {"touchdown: --mapping: none.yaml: "}},
+         {verb + "--mapping bad.yaml", {"touchdown: bad.yaml:2:1: "}},
+         {verb + "--robot none.xml", {"touchdown: --robot: none.xml: no such"}}});
+  }
+  folder_.expect_refusals({
+      {"fit log.mpack -o x.npz --prior bad.npz", {"touchdown: --prior: bad.npz: "}},
+      {"fit log.mpack -o x.npz --prior none.npz", {"touchdown: --prior: none.npz: no such file"}},
+      {"fit log.mpack -o x.npz --labels none.csv", {"touchdown: --labels: none.csv: no such file"}},
+      {"fit log.mpack -o x.npz --labels bad.csv", {"touchdown: bad.csv:1:1: "}},
+      {"fit log.mpack -o x.npz --contact none.mpack",
+       {"touchdown: --contact: none.mpack: no such"}},
+      {"fit none.mpack -o x.npz", {"touchdown: none.mpack: no such file"}},
+      {"fit log.mpack -o log.mpack", {"touchdown: log.mpack: is the log itself"}},
+      {"check log.mpack --mapping none.yaml", {"touchdown: --mapping: none.yaml: no such file"}},
+      {"export none.npz -o x.hpp", {"touchdown: none.npz: no such file"}},
+      {"export log.mpack -o x.mcap --robot none.xml", {"touchdown: --robot: none.xml: no such"}},
+      {simulate + "--sensors none.yaml", {"touchdown: --sensors: none.yaml: no such file"}},
+      {simulate + "--sensors bad.yaml", {"touchdown: bad.yaml:2:1: "}},
+  });
+}
+
 TEST_F(WrongRequest, InAnExperimentIsNamedWithItsLine) {
   write_tiny_experiment(folder_);
   for (const auto& [added, texts] : std::vector<std::pair<std::string, std::vector<std::string>>>{

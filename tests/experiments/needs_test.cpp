@@ -64,9 +64,11 @@ TEST(Needs, LeaveOutSignalsThatLeaveTheMemoryAfterTheirEvaluation) {
 }
 
 TEST(Needs, CountPartsInWholeDiskBlocks) {
-  const Plan plan = whole_plan(request_of(experiment_with("seed=3")));
-  EXPECT_GE(disk_needs(plan).parts, 4096.0 * static_cast<double>(plan.tasks.size()));
-  EXPECT_LE(disk_needs(plan).parts, 1e6 * static_cast<double>(plan.tasks.size()));
+  const RunRequest request = request_of(experiment_with("seed=3"));
+  const Plan plan = whole_plan(request);
+  const double parts = disk_needs(plan, request.experiment).parts;
+  EXPECT_GE(parts, 4096.0 * static_cast<double>(plan.tasks.size()));
+  EXPECT_LE(parts, 1e6 * static_cast<double>(plan.tasks.size()));
 }
 
 }  // namespace

@@ -194,6 +194,29 @@ class WrittenInPython(InExperimentFolder):
         self.assertNotEqual(changed.id, first.id)
         self.assertTrue((changed.tables["classification"]["contact_recall"] == 1.0).all())
 
+    def test_gets_figures_a_film_and_a_report_like_any_other(self):
+        experiment = {"estimators": ["free_fall", "python:mine.Same"], "recordings": "pictured", "noise.seeds": 1,
+                      "video": {"estimators": ["free_fall", "python:mine.Same"]}, "benchmark": {}}
+        run = touchdown.run("hops.yaml", overrides=experiment, out="out", pictures=True)
+        report = (run.path / "report.html").read_text()
+        shown = report[:report.index("The command of this run")]
+        for page in [shown, (run.path / "benchmark.html").read_text(),
+                     *(path.read_text() for path in (run.path / "figures").glob("*.svg")),
+                     *(path.read_text() for path in (run.path / "tables").glob("*.tex"))]:
+            self.assertNotRegex(page, "(?<!=)python:mine.Same(?!.mp4)")  # but in the data of results.csv
+        self.assertIn("The same", (run.path / "figures/error_mujoco.svg").read_text())
+        self.assertIn("Gives the beliefs of free_fall", shown)
+        self.assertIn("python3 -m touchdown run config.yaml", shown)
+        self.assertGreater(len(list((run.path / "videos").glob("*.mp4"))), 1)
+        # The program shows the results of estimators that it cannot run.
+        done = program("report", "out")
+        self.assertIn("python:mine.Same: left out of films and replay", done.stderr)
+        self.assertIn("The same", (run.path / "report.html").read_text())
+        touchdown.run("hops.yaml", overrides={**experiment, "estimators": ["python:mine.Never", "python:mine.Same"],
+                                              "video": {"enabled": False}, "recordings": "none"}, out="other")
+        self.assertIn("python:mine.Same", program("compare", "out", "other", "-o", "compare.csv").stdout
+                      + (self.folder / "compare.csv").read_text())
+
     def test_is_one_clear_error_in_the_program(self):
         done = program("run", "hops.yaml", "--set", "estimators=[robust,python:mine.Never]", check=False)
         self.assertEqual(done.returncode, 2)

@@ -19,6 +19,7 @@ namespace touchdown::render {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -33,7 +34,8 @@ std::string script_of(const std::vector<std::string>& shown, const ScratchFolder
   }
   const Table table = table_of(from_csv(text));
   experiments::FigureSpec spec{.name = name, .table = name + ".csv"};
-  spec.series = experiments::groups_in(table, "estimator", experiments::estimator_title);
+  spec.series =
+      experiments::groups_in(table, "estimator", experiments::titles_in(experiments::Experiment{}));
   spec.colour_order = estimators;
   spec.x = {.column = "switches", .title = "switches"};
   spec.measures = {experiments::axis_with_interval("error", "error")};
@@ -44,9 +46,10 @@ std::string script_of(const std::vector<std::string>& shown, const ScratchFolder
 TEST(EstimatorColours, AreTheSameInFiguresOfDifferentSubsets) {
   const ScratchFolder folder;
   // In the experiment, the phase filter is the third estimator.
-  EXPECT_THAT(script_of(estimators, folder, "all"), HasSubstr("lt 3 title 'Phase filter'"));
+  EXPECT_THAT(script_of(estimators, folder, "all"),
+              ContainsRegex("lt 3 lw [0-9.]+ title 'Phase filter'"));
   EXPECT_THAT(script_of({"phase", "robust"}, folder, "two"),
-              HasSubstr("lt 3 title 'Phase filter'"));
+              ContainsRegex("lt 3 lw [0-9.]+ title 'Phase filter'"));
   EXPECT_THAT(script_of({"phase"}, folder, "alone"),
               AllOf(HasSubstr("with yerrorlines lt 3 "), Not(HasSubstr("with yerrorlines lt 1 "))));
 }
@@ -61,7 +64,7 @@ TEST(EstimatorColours, AreThoseOfTheScoresAndFilms) {
   const ScoreFigure figure{"Reliability", {{"no noise", {row}}}, ""};
   draw_reliability_figure(figure, folder / "reliability");
   EXPECT_THAT(read_file(folder / "reliability.gp"),
-              HasSubstr("with linespoints lt 3 title 'Phase filter'"));
+              ContainsRegex("with linespoints lt 3 lw [0-9.]+ title 'Phase filter'"));
 
   const models::RobotModel robot = models::compile_robot_model(upkie_mjcf, staged_terrain());
   const logs::Recording run = staged_run(0.5);

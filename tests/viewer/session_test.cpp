@@ -159,7 +159,53 @@ TEST(WatchSession, BeginsAFileOfLabelsAndDragsAnEdge) {
   ASSERT_EQ(watch(folder, script, quoted(robot_log(folder)) + " --labels " + quoted(labels), ""), 0)
       << text(folder, "err");
   EXPECT_EQ(read_file(labels), "start,end,left,right\n0,1.4,1,1\n");
-  EXPECT_THAT(text(folder, "out"), HasSubstr("2 edits saved; 1 intervals"));
+  EXPECT_THAT(text(folder, "out"), HasSubstr("2 edits saved; 1 interval, "));
+}
+
+/// A log in another layout, and from a bag's clock, is labelled by its mapping.
+TEST(WatchSession, EditsLabelsOfALogThatIsReadByItsMapping) {
+  if (!has_display_tools()) GTEST_SKIP() << "needs the packages xvfb and xdotool";
+  const ScratchFolder folder;
+  const logs::Recording log = logs::read_recording(robot_log(folder));
+  std::string csv = "stamp";
+  for (const char* signal : {"p", "v", "t"}) {
+    for (int i = 0; i < 6; ++i) csv += fmt::format(",{}{}", signal, i);
+  }
+  csv += ",qw,qx,qy,qz,gx,gy,gz,ax,ay,az\n";
+  for (std::size_t k = 0; k < log.steps(); ++k) {
+    const models::Observation& o = log.observation[k];
+    csv += fmt::format("{:.3f}", 81000.0 + 0.001 * static_cast<double>(k));
+    for (const auto& servo : o.servo) csv += fmt::format(",{}", servo.position);
+    for (const auto& servo : o.servo) csv += fmt::format(",{}", servo.velocity);
+    for (const auto& servo : o.servo) csv += fmt::format(",{}", servo.torque);
+    const auto& imu = o.imu;
+    const auto& q = imu.orientation;
+    csv += fmt::format(",{},{},{},{},{},{},{},{},{},{}\n", q.w(), q.x(), q.y(), q.z(),
+                       imu.angular_velocity.x(), imu.angular_velocity.y(), imu.angular_velocity.z(),
+                       imu.raw_linear_acceleration.x(), imu.raw_linear_acceleration.y(),
+                       imu.raw_linear_acceleration.z());
+  }
+  const auto table = folder.write("robot.csv", csv);
+  const auto mapping = folder.write(
+      "robot.yaml",
+      "time: {from: stamp}\n"
+      "joints: {position: {from: [p0, p1, p2, p3, p4, p5]}, velocity: {from: [v0, v1, v2, v3, v4, "
+      "v5]}, torque: {from: [t0, t1, t2, t3, t4, t5]}}\n"
+      "imu: {axes: [x, y, z], orientation: {from: [qw, qx, qy, qz], order: wxyz}, "
+      "angular_velocity: {from: [gx, gy, gz]}, proper_acceleration: {from: [ax, ay, az]}}\n");
+  const auto labels = folder / "labels.csv";
+  const std::string arguments = quoted(table) + " --mapping " + quoted(mapping);
+  ASSERT_EQ(shell(folder, TOUCHDOWN_PROGRAM " label " + arguments + " -o " + quoted(labels)), 0)
+      << text(folder, "err");
+  EXPECT_THAT(text(folder, "out"), HasSubstr("touchdown export " + table.string() + " --mapping " +
+                                             mapping.string() + " -o log.mpack\n"));
+  EXPECT_TRUE(read_file(labels).starts_with("start,end,left,right,sure\n0,2,1,1,"))
+      << read_file(labels);
+  const std::string script = "sleep 2; xdotool key n Return; sleep 0.5; xdotool key q";
+  ASSERT_EQ(watch(folder, script, arguments + " --labels " + quoted(labels)), 0)
+      << text(folder, "err");
+  EXPECT_THAT(text(folder, "out"), HasSubstr("1 edit saved; 1 interval, 2.000 s, 0 to look at"));
+  EXPECT_EQ(read_file(labels), "start,end,left,right\n0,2,1,1\n");
 }
 
 TEST(WatchSession, ShowsAFilmWithAnOffsetToTypeNextTime) {

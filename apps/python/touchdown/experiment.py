@@ -62,13 +62,15 @@ class Result:
     path: its run directory
     id: the digest of everything that determines its numbers
     tables: its tables by name ("success", "classification", "latency", …), each a dict of columns
+    text: the tables that the program prints
     studies: text summaries of its studies
     failed_demands: estimators that fail a verdict the experiment demands
     """
 
-    def __init__(self, path: pathlib.Path, id: str, studies: list[str], failed_demands: list[str]):
+    def __init__(self, path: pathlib.Path, id: str, text: str, studies: list[str], failed_demands: list[str]):
         self.path = path
         self.id = id
+        self.text = text
         self.studies = studies
         self.failed_demands = failed_demands
         self.tables = Tables(path / "tables")
@@ -168,13 +170,15 @@ def _described(name: str, place: str) -> dict[str, Any]:
 
 
 def run(experiment: str | os.PathLike | Mapping[str, Any], *, overrides: Mapping[str, Any] | Iterable[str] | None = None,
-        out: str | os.PathLike | None = None, overwrite: bool = False) -> Result:
-    """Run an experiment, as `touchdown run --no-pictures` does: simulate, fit, estimate, score, tables.
+        out: str | os.PathLike | None = None, overwrite: bool = False, pictures: bool = False, video: bool = True) -> Result:
+    """Run an experiment, as `touchdown run` does: simulate, fit, estimate, score, tables, figures, films, report.
 
     experiment: a path, one of the shipped ones ("experiments/stairs.yaml"), or a dict with the content of such a file
     overrides: values to change, by dotted key: {"test.runs": 2, "estimators": ["robust", Mine]}
     out: run directory; without it runs/<experiment>/<id>
     overwrite: replace another experiment in that directory
+    pictures: draw figures, films and report.html; without it, tables only
+    video: False leaves out the films
 
     Results that an earlier call saved there are reused. Estimators may include your own:
     "python:module.Class", or the class itself in `overrides` or a dict. Such a class is instantiated
@@ -197,7 +201,8 @@ def run(experiment: str | os.PathLike | Mapping[str, Any], *, overrides: Mapping
     external_estimators = [_described(name, place) for name, place in _touchdown.python_estimators(file, text, changes)]
     command = " ".join(["touchdown.run" if text else "python3 -m touchdown run", shlex.quote(file)] +
                        [f"--set {shlex.quote(change)}" for change in changes])
-    return Result(**_touchdown.run(file, text, changes, out or "", overwrite, command, external_estimators))
+    return Result(**_touchdown.run(file, text, changes, out or "", overwrite, pictures, video,
+                                   command, external_estimators))
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -210,14 +215,19 @@ def main(arguments: list[str] | None = None) -> int:
     verb.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="change a value of the experiment")
     verb.add_argument("--out", help="run directory (default: runs/<experiment>/<id>)")
     verb.add_argument("--overwrite", action="store_true", help="replace another experiment in that directory")
+    verb.add_argument("--no-pictures", action="store_true", help="write tables only, without figures and videos")
+    verb.add_argument("--no-video", action="store_true", help="write tables, figures and the report, but no videos")
     given = parser.parse_args(arguments)
     try:
-        result = run(given.experiment, overrides=given.set, out=given.out, overwrite=given.overwrite)
+        result = run(given.experiment, overrides=given.set, out=given.out, overwrite=given.overwrite,
+                     pictures=not given.no_pictures, video=not given.no_video)
     except _touchdown.Error as error:
         print(f"touchdown: {error}", file=sys.stderr)
         return 2 if isinstance(error, InputError) else 1
     except KeyboardInterrupt as interrupt:
         print("touchdown:", *getattr(interrupt, "__notes__", ["stopped"]), file=sys.stderr)
         return 1
-    print(*result.studies, f"results   {result.path}", sep="\n")
+    print(result.text, f"results   {result.path}", f"tables    {result.path / 'tables'}", sep="\n")
+    if not given.no_pictures:
+        print(f"report    {result.path / 'report.html'}", f"figures   {result.path / 'figures'}", sep="\n")
     return 1 if result.failed_demands else 0

@@ -128,7 +128,7 @@ void evaluate(const WatchRequest& request, const logs::ContactIntervals* labels,
   }
   while (const experiments::LogStep* step = log.next()) {
     for (std::size_t i = 0; i < estimators.size(); ++i) {
-      render::add_belief(run.beliefs[i], *estimators[i], estimators[i]->update(step->signals));
+      render::add_belief(run.beliefs[i], estimators[i].get(), estimators[i]->update(step->signals));
     }
   }
   if (labels != nullptr) {
@@ -331,7 +331,7 @@ int run_program(int argc, char** argv) {
   try {
     return watch(flags, stop_on_interrupt());
   } catch (const InputError& error) {
-    return complain(error.what(), wrong_request);
+    return complain(with_option(program, error.what()), wrong_request);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {

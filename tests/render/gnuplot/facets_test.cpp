@@ -183,7 +183,7 @@ TEST_F(Facets, DrawNamesThatGnuplotWouldInterpret) {
   }
   EXPECT_TRUE(draw_facets(spec, table_of(table), folder_ / "figure"));
   const std::string text = read_file(folder_ / "figure.gp");
-  EXPECT_EQ(count(text, "with linespoints lt [1-7] notitle"), 7);
+  EXPECT_EQ(count(text, "with linespoints lt [1-7] lw [0-9.]+ notitle"), 7);
   // The script's own selections, applied by gnuplot to the figure's data.
   std::string check = "set datafile separator comma\nset datafile columnheaders\n";
   for (const std::string& line : lines_with(text, "series")) check += line;
@@ -246,9 +246,9 @@ TEST_F(Facets, DrawMarksByTheirConditionsAndTransformedValues) {
                                   "robust,0.1,0.95,0,1\n"
                                   "phase,,0.99,2,0\n"
                                   "phase,0.5,0.992,3,1\n");
-  EXPECT_EQ(count(text, "with linespoints lt 2 notitle"), 1);
+  EXPECT_EQ(count(text, "with linespoints lt 2 lw [0-9.]+ notitle"), 1);
   EXPECT_EQ(count(text, "with points lt 2 pt 6 ps 1.6 lw 2 notitle"), 1);
-  EXPECT_EQ(count(text, "with linespoints lt 3 notitle"), 1);
+  EXPECT_EQ(count(text, "with linespoints lt 3 lw [0-9.]+ notitle"), 1);
   EXPECT_EQ(count(text, "with points lt 3 pt 6 ps 1.6 lw 2 notitle"), 1);
   EXPECT_THAT(text, HasSubstr("at_least(column('switches'), 0.3)"));
   EXPECT_THAT(text, HasSubstr("100+-100*column('accuracy')"));
