@@ -20,6 +20,8 @@ double seconds(std::int64_t nanoseconds) {
 }
 
 constexpr std::size_t no_slot = static_cast<std::size_t>(-1);
+/// Columns of a message's time are none of its numbers.
+constexpr std::size_t stamp_slot = no_slot - 1, log_time_slot = no_slot - 2;
 
 std::size_t place_in(const std::vector<std::string>& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
@@ -38,7 +40,8 @@ TopicRows::TopicRows(SignalTopic topic, const std::vector<std::string>& columns,
       config_(config),
       row_(columns.size()),
       columns_(columns),
-      held_(columns.size()) {}
+      held_(columns.size()),
+      has_log_time_(contains(columns, log_time_column)) {}
 
 bool TopicRows::update(const BagMessage& message) {
   try {
@@ -48,18 +51,19 @@ bool TopicRows::update(const BagMessage& message) {
     return false;
   }
   const bool are_joints = topic_.type == joint_state_type;
-  if (paths_ != numbers_.paths || (are_joints && !std::ranges::equal(names_, numbers_.joints()))) {
-    find_columns();
-  }
+  const bool is_known = number_at_.size() == columns_.size() && lengths_ == numbers_.lengths &&
+                        count_ == numbers_.paths.size() &&
+                        (!are_joints || std::ranges::equal(names_, numbers_.joints()));
+  if (!is_known) find_columns();
   const MessageStamp stamp = numbers_.stamp();
   const double log_time = seconds(message.time);
   const bool lacks_stamp = stamp.is_zero() && std::abs(topic_.stamp_delay) < longest_delay;
   const double stamp_time = config_.uses_log_time || lacks_stamp ? log_time : seconds(stamp.time());
-  time_ = contains(columns_, log_time_column) ? log_time : stamp_time;
+  time_ = has_log_time_ ? log_time : stamp_time;
   for (std::size_t i = 0; i < row_.size(); ++i) {
-    if (columns_[i] == stamp_column) {
+    if (number_at_[i] == stamp_slot) {
       row_[i] = stamp_time;
-    } else if (columns_[i] == log_time_column) {
+    } else if (number_at_[i] == log_time_slot) {
       row_[i] = log_time;
     } else {
       row_[i] = number_at_[i] == no_slot ? std::numeric_limits<double>::quiet_NaN()
@@ -73,10 +77,17 @@ bool TopicRows::update(const BagMessage& message) {
 
 /// Finds the columns among the numbers of the message, which has other ones than the last.
 void TopicRows::find_columns() {
-  paths_ = numbers_.paths;
+  const std::vector<std::string>& paths = numbers_.paths;
+  lengths_ = numbers_.lengths;
+  count_ = paths.size();
   number_at_.clear();
+  const auto add = [&](const std::string& column, const std::string& path) {
+    number_at_.push_back(column == stamp_column      ? stamp_slot
+                         : column == log_time_column ? log_time_slot
+                                                     : place_in(paths, path));
+  };
   if (topic_.type != joint_state_type) {
-    for (const std::string& column : columns_) number_at_.push_back(place_in(paths_, column));
+    for (const std::string& column : columns_) add(column, column);
     return;
   }
   names_.assign(numbers_.joints().begin(), numbers_.joints().end());
@@ -90,12 +101,12 @@ void TopicRows::find_columns() {
       index = fmt::format("[{}]", place_in(names_, column.substr(0, slash)));
       field = column.substr(slash + 1);
     }
-    number_at_.push_back(place_in(paths_, field + index));
+    add(column, field + index);
     if (has_first || column == stamp_column || column == log_time_column) continue;
     has_first = slash == std::string::npos
                     ? std::ranges::any_of(
                           joint_fields,
-                          [&](const std::string& list) { return contains(paths_, list + index); })
+                          [&](const std::string& list) { return contains(paths, list + index); })
                     : contains(names_, column.substr(0, slash));
   }
   is_row_ = has_first.value_or(true);

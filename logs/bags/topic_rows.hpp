@@ -166,8 +166,10 @@ class TopicRows {
   MessageNumbers numbers_;              ///< of the last message
   std::vector<std::string> columns_;    ///< the selected ones; of joints, the first makes rows
   std::vector<Held> held_;              ///< by column
-  std::vector<std::string> paths_;      ///< of the numbers …
-  std::vector<std::string> names_;      ///< … and the texts, for which these are found:
+  bool has_log_time_;                   ///< whether a column is `log_time_column`
+  std::vector<std::uint32_t> lengths_;  ///< of the message's lists, …
+  std::size_t count_ = 0;               ///< … the number of its numbers …
+  std::vector<std::string> names_;      ///< … and its texts, for which these are found:
   std::vector<std::size_t> number_at_;  ///< of the columns among the numbers
   bool is_row_ = true;
   /// Of messages with the first joint: the number by their names, and how often they change.
