@@ -23,6 +23,7 @@
 #include "estimator/npz/npz.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
+#include "experiments/results/captions.hpp"
 #include "logs/log/reader.hpp"
 #include "models/mjcf/robot_file.hpp"
 #include "models/robot_description.hpp"
@@ -289,7 +290,7 @@ void check(const CheckFlags& flags, const CliSession& session) {
   Found found;
   for (const std::string& file : flags.files) check_file(file, flags, session, found);
   const std::size_t all = found.complaints + (flags.strict ? found.findings : 0);
-  if (all > 0) throw Error(fmt::format("check: {} finding{}", all, all == 1 ? "" : "s"));
+  if (all > 0) throw Error("check: " + experiments::plural(all, "finding"));
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "core/table.hpp"
 #include "experiments/logs/estimator.hpp"
 #include "experiments/logs/log_steps.hpp"
+#include "experiments/results/captions.hpp"
 #include "logs/log/contact_intervals.hpp"
 
 namespace touchdown::cli {
@@ -67,8 +68,9 @@ void label(const LabelFlags& flags, const CliSession& session) {
   double seconds = 0.0;
   for (const logs::ContactInterval& one : labels.intervals) seconds += one.end - one.start;
   write_atomically(flags.output, logs::to_csv(labels));
-  print("{}: {} interval{}, {:.3f} s\n{}", flags.output, labels.intervals.size(),
-        labels.intervals.size() == 1 ? "" : "s", seconds, least_sure(labels.intervals));
+  print("{}: {}, {:.3f} s\n{}", flags.output,
+        experiments::plural(labels.intervals.size(), "interval"), seconds,
+        least_sure(labels.intervals));
   const std::string robot = flags.options.robot.empty() ? "" : " --robot " + flags.options.robot;
   const bool is_mapped = !flags.options.mapping.empty();
   const std::string mapping = is_mapped ? " --mapping " + flags.options.mapping : "";

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/progress.hpp"
+#include "experiments/results/captions.hpp"
 #include "logs/log/byte_source.hpp"
 #include "logs/mapping/conversion.hpp"
 
@@ -63,7 +64,7 @@ logs::LogReader open_log(const std::string& path, const LogOptions& options,
 void require_no_findings(std::size_t findings) {
   if (findings == 0) return;
   throw Error(
-      fmt::format("--strict: {} finding{} about the signals", findings, findings == 1 ? "" : "s"));
+      fmt::format("--strict: {} about the signals", experiments::plural(findings, "finding")));
 }
 
 void print_findings(const std::string& log, const std::vector<std::string>& findings) {

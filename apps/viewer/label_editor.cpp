@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "experiments/results/captions.hpp"
 
 namespace touchdown::viewer {
 
@@ -228,12 +229,10 @@ std::string LabelEditor::finish() {
   if (!problem_.empty()) throw Error(problem_);
   double seconds = 0.0;
   for (const ContactInterval& one : labels().intervals) seconds += one.end - one.start;
-  const auto count = [](auto number, const char* thing) {
-    return fmt::format("{} {}{}", number, thing, number == 1 ? "" : "s");
-  };
   return fmt::format("{}: {} saved; {}, {:.3f} s, {} to look at\n", labels().file,
-                     count(history_.edits(), "edit"), count(labels().intervals.size(), "interval"),
-                     seconds, logs::least_sure(labels()).size());
+                     experiments::plural(history_.edits(), "edit"),
+                     experiments::plural(labels().intervals.size(), "interval"), seconds,
+                     logs::least_sure(labels()).size());
 }
 
 }  // namespace touchdown::viewer

@@ -309,9 +309,9 @@ FigureSpec comparison_figure(const Comparison& comparison, std::size_t metric) {
                ? tested
                : fmt::format("{}, fitted in {}", tested, simulators::simulator_title(engines[1]));
   });
-  spec.series = groups_in(table, "estimator", [&](const std::string& name) {
-    return estimator_title(name, written_estimators(comparison.after));
-  });
+  const std::vector<EstimatorEntry> external = written_estimators(comparison.after);
+  spec.series = groups_in(table, "estimator",
+                          [&](const std::string& name) { return estimator_title(name, external); });
   std::erase_if(spec.series.groups, [&](const FigureGroup& estimator) {
     return std::ranges::all_of(comparison.cells, [&](const ComparedCell& cell) {
       return cell.has_equal_counts || cell.condition.estimator != estimator.values.front();

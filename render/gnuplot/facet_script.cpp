@@ -34,9 +34,6 @@ std::string value_text(const FigureAxis& axis, const std::string& column) {
   return axis.floor ? fmt::format("at_least({}, {})", text, *axis.floor) : text;
 }
 
-/// Rings and crosses are drawn around and over other marks, without intervals.
-bool is_highlight(MarkShape shape) { return shape == MarkShape::ring || shape == MarkShape::cross; }
-
 /// The plotting style of a measure's marks, with bars for its intervals.
 std::string shape_text(MarkShape shape, bool has_rows, bool has_interval) {
   if (is_highlight(shape)) return "points";
@@ -196,6 +193,8 @@ const char* key_shape(const FigureSpec& spec) {
                          });
   return has_curve ? "linespoints" : "points";
 }
+
+bool is_highlight(MarkShape shape) { return shape == MarkShape::ring || shape == MarkShape::cross; }
 
 std::string plot_command(const FigureSpec& spec, const FigureAxis& measure, MarkShape shape,
                          const std::string& file, const FacetPlot& plot) {

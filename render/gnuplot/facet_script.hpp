@@ -55,6 +55,10 @@ struct FacetPlot {
   std::string style;
 };
 
+/// Rings and crosses are drawn around and over other marks, without intervals and with lines of a
+/// width of their own.
+bool is_highlight(experiments::MarkShape shape);
+
 /// An element of gnuplot's `plot`, without a title. `file` is a text constant.
 std::string plot_command(const experiments::FigureSpec& spec,
                          const experiments::FigureAxis& measure, experiments::MarkShape shape,

@@ -263,11 +263,9 @@ class FacetFigure {
         });
         if (!is_drawn) continue;
         const auto shape = spec_.marks[mark].shape;
-        const bool has_width =
-            shape == experiments::MarkShape::ring || shape == experiments::MarkShape::cross;
         const FacetPlot plot{.selections = selections(panel, series_[i], mark),
                              .aside = aside_of(i, panel, *measures_[place.measure]),
-                             .style = has_width ? style : curve_style};
+                             .style = is_highlight(shape) ? style : curve_style};
         add(plot_command(spec_, *measures_[place.measure], shape, file_, plot));
       }
       if (has_key) {
