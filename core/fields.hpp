@@ -147,8 +147,7 @@ class Fields {
   /// The same for a value that is written only if it is set.
   template <typename T, typename... Limits>
   KeyNotes if_set(bool is_set, std::string_view key, T& value, Limits... limits) {
-    know(key);
-    return present(key, is_set) ? (*this)(key, value, limits...) : KeyNotes();
+    return given(key, is_set) ? (*this)(key, value, limits...) : KeyNotes();
   }
 
   /// An enumerator or a text, chosen from `names`. An enumerator's value is its index in `names`.
@@ -191,8 +190,7 @@ class Fields {
   /// A nested struct that is written only if it is set.
   template <typename T>
   KeyNotes section_if_set(bool is_set, std::string_view key, T& value) {
-    know(key);
-    return present(key, is_set) ? section(key, value) : KeyNotes();
+    return given(key, is_set) ? section(key, value) : KeyNotes();
   }
 
   /// A list of structs. The struct that is being read is the last of the list.
