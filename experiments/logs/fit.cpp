@@ -4,7 +4,6 @@
 #include <cmath>
 #include <deque>
 #include <functional>
-#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
@@ -328,8 +327,9 @@ Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
         "--no-contact: are they exchanged?",
         with.sum / with.count, without.sum / without.count));
   }
-  add_to_provenance("logs", fmt::format("{}", fmt::join(std::views::keys(report.digests), ", ")),
-                    model);
+  std::vector<std::string> digests;
+  for (const auto& [digest, name] : report.digests) digests.push_back(digest);
+  add_to_provenance("logs", fmt::format("{}", fmt::join(digests, ", ")), model);
   if (!config.robot.name.empty()) report.fitted_to.robots = {config.robot.name};
   if (config.robot.legs) report.fitted_to.legs = *config.robot.legs;
   report.fitted_to.servo_load = config.servo_load;

@@ -153,7 +153,7 @@ TOUCHDOWN_FUZZ(message_type) {
     type.decode(payload, numbers);
     if (numbers.paths.size() != numbers.values.size()) __builtin_trap();
   }
-  (void)logs::stamp_of(numbers);
+  (void)numbers.stamp();
 }
 
 /// An MCAP file.

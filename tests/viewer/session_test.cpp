@@ -199,13 +199,13 @@ TEST(WatchSession, EditsLabelsOfALogThatIsReadByItsMapping) {
       << text(folder, "err");
   EXPECT_THAT(text(folder, "out"), HasSubstr("touchdown export " + table.string() + " --mapping " +
                                              mapping.string() + " -o log.mpack\n"));
-  EXPECT_TRUE(read_file(labels).starts_with("start,end,left,right,sure\n0,2,1,1,"))
+  EXPECT_TRUE(read_file(labels).starts_with("start,end,left,right,sure\n0,2.001,1,1,"))
       << read_file(labels);
   const std::string script = "sleep 2; xdotool key n Return; sleep 0.5; xdotool key q";
   ASSERT_EQ(watch(folder, script, arguments + " --labels " + quoted(labels)), 0)
       << text(folder, "err");
-  EXPECT_THAT(text(folder, "out"), HasSubstr("1 edit saved; 1 interval, 2.000 s, 0 to look at"));
-  EXPECT_EQ(read_file(labels), "start,end,left,right\n0,2,1,1\n");
+  EXPECT_THAT(text(folder, "out"), HasSubstr("1 edit saved; 1 interval, 2.001 s, 0 to look at"));
+  EXPECT_EQ(read_file(labels), "start,end,left,right\n0,2.001,1,1\n");
 }
 
 TEST(WatchSession, ShowsAFilmWithAnOffsetToTypeNextTime) {
