@@ -291,6 +291,14 @@ Figure draw_drop_detail(const experiments::DropDetail& detail,
   std::vector<std::string> names;
   for (const auto& trace : detail.noisy.front().beliefs) names.push_back(trace.title);
   layout.right = std::max(300.0, 70.0 + 1.1 * text_width(names));  // letters of 11 pt
+  for (const auto& [row, place] : rows) {
+    layout.keys.push_back(row == belief                               ? names.size()
+                          : row == wheel || row == noisy_spectrum     ? 0
+                          : row == true_spectrum || row == transition ? 3
+                          : row == evidence                           ? 1
+                                                                      : 2);
+  }
+  layout.narrow_right = 190.0;  // tics and colour bar of the spectra
   for (const experiments::NoisyDrop& drop : detail.noisy) {
     layout.columns.push_back(fmt::format("noise: torques {} N·m, accelerometer {} m/s²",
                                          drop.noise.torque, drop.noise.accelerometer));

@@ -239,6 +239,8 @@ Figure draw_phase_posterior(const std::vector<experiments::DropPosterior>& drops
   layout.columns.clear();
   layout.at = drops.front().at;
   layout.row_heights = {52.0, 26.0, 216.0, 120.0, 250.0, 120.0};
+  layout.keys = {1, 0, 0, 4, phase_count, 2};
+  layout.narrow_right = 110.0;  // the colour bar of the likelihoods
   double from = 0.0, to = 0.0, largest_error = 0.0;
   for (const experiments::DropPosterior& drop : drops) {
     layout.columns.push_back(simulators::simulator_title(drop.simulator));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -10,8 +9,10 @@ namespace touchdown::render {
 
 namespace {
 
-// Of a grid of panels (px): tics and labels beside and below, and the gaps between panels.
-constexpr double left_of = 104.0, narrow_left_of = 140.0, below = 62.0, gap = 22.0;
+// Of a grid of panels (px): tics and labels beside, and the gaps between panels.
+constexpr double left_of = 104.0, narrow_left_of = 140.0, gap = 22.0;
+// Below it, in units of the letters' size.
+constexpr double below = 62.0 / 11.0;
 
 /// At most `most` tics between `from` and `to`, far enough from both ends that the labels of
 /// neighbouring panels do not touch.
@@ -114,11 +115,14 @@ PanelGrid::Layout PanelGrid::fitting(Layout layout, double room) {
   layout.panel_width = std::clamp(free, least, layout.panel_width);
   layout.is_narrow = free < least;
   if (layout.is_narrow) {  // texts are larger beside such panels
-    layout.right *= 1.25;
+    layout.right = layout.narrow_right;
+    const double width = narrow_left_of + columns * (layout.panel_width + gap) - gap + layout.right;
+    layout.letters = std::max(layout.letters, 10.0 * width / room);
     for (double& height : layout.row_heights) height *= 1.5;
   }
+  const double letter = letter_of(layout.letters + (layout.is_narrow ? 0.0 : 0.7));
   for (std::string& title : layout.columns) {
-    title = wrapped(title, static_cast<std::size_t>(layout.panel_width / 8.6));
+    title = wrapped(title, static_cast<std::size_t>(layout.panel_width / letter));
   }
   return layout;
 }
@@ -126,11 +130,22 @@ PanelGrid::Layout PanelGrid::fitting(Layout layout, double room) {
 PanelGrid::PanelGrid(const FigureFile& file, Layout layout, FigureText text)
     : layout_(fitting(std::move(layout), file.room())),
       frame_(file, std::move(text), left(layout_.columns.size()) - gap + layout_.right,
-             top(rows()) - gap + below, 11.0) {}
+             top(rows()) - gap + below * layout_.letters, 11.0) {}
 
 double PanelGrid::left(std::size_t column) const {
   return (layout_.is_narrow ? narrow_left_of : left_of) +
          static_cast<double>(column) * (layout_.panel_width + gap);
+}
+
+std::size_t PanelGrid::key_lines(std::size_t row) const {
+  const bool is_above = layout_.is_narrow && row < layout_.keys.size();
+  return is_above ? (layout_.keys[row] + 1) / 2 : 0;
+}
+
+double PanelGrid::key_height(std::size_t row) const {
+  const auto lines = static_cast<double>(key_lines(row));
+  // Clear of the uppermost tic's label.
+  return lines > 0.0 ? line_of(layout_.letters) * lines + layout_.letters : 0.0;
 }
 
 double PanelGrid::top(std::size_t row) const {
@@ -138,9 +153,11 @@ double PanelGrid::top(std::size_t row) const {
   for (const std::string& title : layout_.columns) {
     if (!title.empty()) lines = std::max(lines, 1 + std::ranges::count(title, '\n'));
   }
-  const auto first = layout_.row_heights.begin();
-  return std::accumulate(first, first + static_cast<std::ptrdiff_t>(row),
-                         14.0 + 22.0 * static_cast<double>(lines) + static_cast<double>(row) * gap);
+  double top = 14.0 + 2.0 * layout_.letters * static_cast<double>(lines) + key_height(0);
+  for (std::size_t above = 0; above < row; ++above) {
+    top += layout_.row_heights[above] + gap + key_height(above + 1);
+  }
+  return top;
 }
 
 std::string PanelGrid::begin(double from, double to) const {
@@ -153,8 +170,10 @@ std::string PanelGrid::begin(double from, double to) const {
   for (std::size_t i = 0; i < layout_.columns.size(); ++i) {
     if (layout_.columns[i].empty()) continue;
     const auto lines = std::count(layout_.columns[i].begin(), layout_.columns[i].end(), '\n');
-    text += frame_.label(layout_.columns[i], left(i) + 0.5 * layout_.panel_width,
-                         top(0) - 18.0 - 22.0 * static_cast<double>(lines), "center font ',13'");
+    text += frame_.label(
+        layout_.columns[i], left(i) + 0.5 * layout_.panel_width,
+        top(0) - key_height(0) - 18.0 - 2.0 * layout_.letters * static_cast<double>(lines),
+        "center font ',13'");
   }
   return text;
 }
@@ -180,14 +199,16 @@ std::string PanelGrid::panel(std::size_t row, std::size_t column, std::string_vi
 }
 
 std::string PanelGrid::key(std::size_t row, double offset) const {
-  return frame_.key(keys() + offset, top(row) - 2.0);
+  if (!layout_.is_narrow) return frame_.key(beside() + offset, top(row) - 2.0);
+  return fmt::format("set key maxrows {}\n{}", key_lines(row),
+                     frame_.key(16.0, top(row) - key_height(row)));
 }
 
 std::string PanelGrid::colour_bar(std::size_t row, double offset, double width) const {
   const double height = layout_.row_heights[row];
   return fmt::format(
       "set colorbox user vertical origin screen {}, screen {} size screen {}, screen {} noborder\n",
-      frame_.x(keys() + offset), frame_.y(top(row) + height), frame_.x(width),
+      frame_.x(beside() + offset), frame_.y(top(row) + height), frame_.x(width),
       height / frame_.height());
 }
 

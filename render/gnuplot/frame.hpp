@@ -60,9 +60,8 @@ class FigureFrame {
 };
 
 /// Panels in rows and columns that share their time axis, at fixed pixel positions. The title is
-/// above, the caption below, and every row has a legend on its right. It builds the gnuplot
-/// commands of a figure with a width of about 1280 pixels; its texts stay legible in a paper's
-/// column.
+/// above, the caption below, and every row has a legend on its right, or above it where the figure
+/// is printed narrow. It builds the gnuplot commands of a figure with a width of about 1280 pixels.
 class PanelGrid {
  public:
   struct Layout {
@@ -70,7 +69,10 @@ class PanelGrid {
     std::vector<double> row_heights;          ///< px
     double panel_width = 452.0;               ///< px; less where the figure is printed narrow
     double right = 250.0;                     ///< width of the legends beside the panels (px)
+    std::vector<std::size_t> keys = {};       ///< lines of each row's legend; none: no legends
+    double narrow_right = 24.0;               ///< the same with the legends above their rows (px)
     bool is_narrow = false;                   ///< printed on a width that is too small for it
+    double letters = 11.0;                    ///< at least (pt)
     std::optional<double> at = {};            ///< origin of the time axis (s); default: a takeoff
   };
 
@@ -83,7 +85,7 @@ class PanelGrid {
   /// Places the next plot. The last row has tics and label of the time axis, the first column those
   /// of the vertical axis. `y_label` may have two lines.
   std::string panel(std::size_t row, std::size_t column, std::string_view y_label) const;
-  /// Puts the next plot's key right of the row, at this distance (px).
+  /// Puts the next plot's key right of the row, at this distance (px), or above the row.
   std::string key(std::size_t row, double offset = 14.0) const;
   /// Puts a colour bar of this width right of the row, at this distance (px).
   std::string colour_bar(std::size_t row, double offset, double width) const;
@@ -94,9 +96,11 @@ class PanelGrid {
 
  private:
   static Layout fitting(Layout layout, double room);
-  double left(std::size_t column) const;                          ///< edge of a panel (px)
-  double top(std::size_t row) const;                              ///< from the top of the body (px)
-  double keys() const { return frame_.width() - layout_.right; }  ///< left edge of legends (px)
+  double left(std::size_t column) const;         ///< edge of a panel (px)
+  double top(std::size_t row) const;             ///< from the top of the body (px)
+  std::size_t key_lines(std::size_t row) const;  ///< of two entries each, above a row
+  double key_height(std::size_t row) const;      ///< px
+  double beside() const { return frame_.width() - layout_.right; }  ///< right of the panels (px)
 
   Layout layout_;
   FigureFrame frame_;

@@ -88,6 +88,7 @@ Figure draw_drop_overlay(const logs::Recording& first, const logs::Recording& se
   layout.row_heights.assign(labels.size(), 124.0);
   layout.panel_width = 860.0;
   layout.right = 130.0;
+  layout.keys = {2};
   const PanelGrid grid(target, layout, {what.title, what.caption, described(recordings, what)});
   std::string commands =
       grid.begin(-1e3 * before, 1e3 * after) +
