@@ -76,12 +76,8 @@ class StepArray {
     return array_.ndim() > 1 ? static_cast<std::size_t>(array_.shape(1)) : 1;
   }
   double operator()(std::size_t step, std::size_t item = 0) const {
-    return *reinterpret_cast<const double*>(row(step) + item * item_bytes_);
+    return *reinterpret_cast<const double*>(data_ + step * step_bytes_ + item * item_bytes_);
   }
-  /// Address of a step's numbers, and the distances (bytes) between its items and between steps.
-  const char* row(std::size_t step) const { return data_ + step * step_bytes_; }
-  std::size_t item_bytes() const { return item_bytes_; }
-  std::size_t step_bytes() const { return step_bytes_; }
 
  private:
   Array array_;  ///< keeps the numbers alive

@@ -206,8 +206,11 @@ class Estimator {
   std::atomic<bool> busy_ = false;
 };
 
-py::tuple both(const Belief& belief, const auto& of) {
-  return py::make_tuple(of(belief.wheel[0]), of(belief.wheel[1]));
+/// A property of both wheels.
+auto both(const auto& of) {
+  return [of](const Belief& belief) {
+    return py::make_tuple(of(belief.wheel[0]), of(belief.wheel[1]));
+  };
 }
 
 void add_belief(py::module_& module) {
@@ -221,23 +224,11 @@ void add_belief(py::module_& module) {
       "signal that is NaN "
       "or "
       "beyond its bound, if any (\"left hip position\").")
-      .def_property_readonly("p_contact",
-                             [](const Belief& belief) {
-                               return both(belief, [](auto& wheel) { return wheel.p_contact; });
-                             })
-      .def_property_readonly("contact",
-                             [](const Belief& belief) {
-                               return both(belief, [](auto& wheel) { return wheel.contact; });
-                             })
-      .def_property_readonly("load",
-                             [](const Belief& belief) {
-                               return both(belief, [](auto& wheel) { return wheel.load.force; });
-                             })
+      .def_property_readonly("p_contact", both([](auto& wheel) { return wheel.p_contact; }))
+      .def_property_readonly("contact", both([](auto& wheel) { return wheel.contact; }))
+      .def_property_readonly("load", both([](auto& wheel) { return wheel.load.force; }))
       .def_property_readonly("load_deviation",
-                             [](const Belief& belief) {
-                               return both(belief,
-                                           [](auto& wheel) { return wheel.load.deviation; });
-                             })
+                             both([](auto& wheel) { return wheel.load.deviation; }))
       .def_readonly("p_any_wheel", &Belief::p_any_wheel)
       .def_readonly("p_both_wheels", &Belief::p_both_wheels)
       .def_property_readonly("status", [](const Belief& belief) { return to_text(belief.status); })
@@ -289,11 +280,7 @@ void add_estimator(py::module_& module) {
       .def_property_readonly("sample_rate", &Estimator::sample_rate)
       .def("reset", &Estimator::reset, "Return to the initial belief: P(contact) is 0.5.")
       .def(
-          "update",
-          [](Estimator& estimator, const py::object& signals, bool gravity_included) {
-            return estimator.update(signals, gravity_included);
-          },
-          "signals"_a, "gravity_included"_a = false,
+          "update", &Estimator::update, "signals"_a, "gravity_included"_a = false,
           "Update the belief by one step. signals: `time` (s), `position` (6, rad), `velocity` (6, "
           "rad/s), `torque` (6, "
           "N·m) of the joints, left hip, knee, wheel, then right; `linear_acceleration` (3, m/s², "

@@ -27,11 +27,7 @@ namespace touchdown::python {
 
 namespace {
 
-/// Entries of an experiment's estimators that are written in Python. Each is described by a dict of
-/// its `name`, `title`, `summary`, the names of its `sensors`, its `revision`, and `make`, which
-/// makes an instance. The experiment calls `run` of an instance from any thread, with the signals
-/// of a whole run.
-std::vector<experiments::EstimatorEntry> external_estimators_of(const pybind11::list& described);
+namespace fs = std::filesystem;
 
 /// A Python object that threads without Python's lock may copy and destroy.
 std::shared_ptr<const py::object> shared(py::object object) {
@@ -90,14 +86,15 @@ experiments::EstimatorEntry entry_of(const py::dict& described) {
   return entry;
 }
 
+/// Entries of an experiment's estimators that are written in Python. Each is described by a dict of
+/// its `name`, `title`, `summary`, the names of its `sensors`, its `revision`, and `make`, which
+/// makes an instance. The experiment calls `run` of an instance from any thread, with the signals
+/// of a whole run.
 std::vector<experiments::EstimatorEntry> external_estimators_of(const py::list& described) {
   std::vector<experiments::EstimatorEntry> entries;
   for (const py::handle& one : described) entries.push_back(entry_of(one.cast<py::dict>()));
   return entries;
 }
-
-namespace py = pybind11;
-namespace fs = std::filesystem;
 
 /// An experiment as given by a caller: a file, or the text of one.
 struct ExperimentRequest {

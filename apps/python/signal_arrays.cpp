@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <utility>
 
 #include <fmt/format.h>
@@ -34,21 +33,6 @@ void set_targets(Signals& signals, double JointTarget::*member, const Number& nu
   for (LegTargets& leg : signals.target) {
     for (JointTarget* joint : {&leg.hip, &leg.knee, &leg.wheel}) joint->*member = number(index++);
   }
-}
-
-/// Whether the three arrays view one row of joints with the layout of `Signals`, as those of a
-/// recording do. Such rows are copied at once.
-bool have_layout_of_signals(const StepArray& position, const StepArray& velocity,
-                            const StepArray& torque) {
-  static_assert(sizeof(Signals::leg) == joint_count * sizeof(JointSignals));
-  const auto is_member = [&](const StepArray& column, std::size_t offset) {
-    return column.row(0) == position.row(0) + offset &&
-           column.item_bytes() == sizeof(JointSignals) &&
-           column.step_bytes() == position.step_bytes();
-  };
-  return is_member(position, offsetof(JointSignals, position)) &&
-         is_member(velocity, offsetof(JointSignals, velocity)) &&
-         is_member(torque, offsetof(JointSignals, torque));
 }
 
 /// `count` numbers of one step, by name, as an array of one step.
@@ -125,8 +109,6 @@ SignalArrays::SignalArrays(const py::object& arrays, const SignalNeeds& needs, A
     target_[i] = column(target_arrays[i].name, joint_count, false);
   }
   if (!is_one_step) has_record_ = column("has_record", 0, false);
-  has_layout_of_signals_ =
-      position_ && velocity_ && torque_ && have_layout_of_signals(*position_, *velocity_, *torque_);
 }
 
 Signals SignalArrays::at(std::size_t step) const {
@@ -135,13 +117,9 @@ Signals SignalArrays::at(std::size_t step) const {
   const auto number = [&](const std::optional<StepArray>& array, std::size_t item) {
     return array ? (*array)(step, item) : 0.0;
   };
-  if (has_layout_of_signals_) {
-    std::memcpy(signals.leg.data(), position_->row(step), sizeof signals.leg);
-  } else {
-    set_joints(signals, [&](std::size_t i) {
-      return JointSignals{number(position_, i), number(velocity_, i), number(torque_, i)};
-    });
-  }
+  set_joints(signals, [&](std::size_t i) {
+    return JointSignals{number(position_, i), number(velocity_, i), number(torque_, i)};
+  });
   for (std::size_t i = 0; i < 3; ++i) {
     signals.linear_acceleration[static_cast<int>(i)] = number(linear_acceleration_, i);
     signals.angular_velocity[static_cast<int>(i)] = number(angular_velocity_, i);

@@ -73,7 +73,6 @@ class SignalArrays {
   std::optional<StepArray> orientation_;
   std::array<std::optional<StepArray>, 5> target_;  ///< by member of `JointTarget`
   std::optional<StepArray> has_record_;
-  bool has_layout_of_signals_ = false;
 };
 
 /// Arrays that view the signals of a run, with the same names.
