@@ -234,6 +234,9 @@ std::string refused_words(const CLI::App& command, std::string message) {
   for (const std::string& word : command.remaining(true)) {
     if (word.starts_with('-')) return unknown_flag(word, command);
   }
+  if (!command.remaining(true).empty()) {
+    return fmt::format("'{}': expected no further word", command.remaining(true).front());
+  }
   std::replace(message.begin(), message.end(), '\n', ' ');
   return message;
 }
@@ -248,6 +251,26 @@ std::string with_option(const CLI::App& command, const std::string& message) {
     }
   }
   return named + message;
+}
+
+int run_command(CLI::App& program, int argc, char** argv, const std::function<int()>& work) {
+  try {
+    program.parse(argc, argv);
+    return work();
+  } catch (const CLI::Success& asked) {  // --help
+    return print_answer(program, asked);
+  } catch (const CLI::ParseError& error) {
+    const std::string& name = program.get_name();
+    return complain(fmt::format("{}: {}", name.substr(name.rfind(' ') + 1),
+                                refused_words(program, error.what())),
+                    wrong_request);
+  } catch (const InputError& error) {
+    return complain(with_option(program, error.what()), wrong_request);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    return complain(error.what(), failed);
+  }
 }
 
 }  // namespace touchdown

@@ -82,6 +82,10 @@ void require_extension(const std::filesystem::path& output,
 /// Prints what `--help` and `--version` ask for, and returns the exit code.
 int print_answer(const CLI::App& program, const CLI::Success& asked);
 
+/// Runs a command with a program of its own: reads its words, then does `work`. Returns the exit
+/// code. Reports refused words with the command's name, and errors of `work`.
+int run_command(CLI::App& program, int argc, char** argv, const std::function<int()>& work);
+
 /// "unknown flag '--otu' (did you mean '--out'?)". Without a near flag, it lists all flags of the
 /// command. A value after "=" does not count. For a file of this name, it shows how to write it.
 std::string unknown_flag(std::string_view word, const CLI::App& command);

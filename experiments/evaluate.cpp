@@ -32,11 +32,10 @@ std::size_t evaluate_streamed(const ExperimentContext& context,
                    context.should_continue, [&](std::size_t index, Rollout run) {
                      NoiseFreeScores noise_free;
                      for (const Task* task : tasks_of.at(index)) {
-                       computed += evaluate_and_save(plan, *task, run, experiment, done.models,
-                                                     context.directory.store(), noise_free,
-                                                     context.should_continue)
-                                       ? 1U
-                                       : 0U;
+                       const bool is_new = evaluate_and_save(plan, *task, run, experiment,
+                                                             done.models, context.directory.store(),
+                                                             noise_free, context.should_continue);
+                       if (is_new) ++computed;
                      }
                      drop_signals(run);
                      done.runs.at(index) = std::move(run);

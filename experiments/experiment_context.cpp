@@ -103,15 +103,12 @@ ExperimentContext reopened(const std::filesystem::path& path, const RunOptions& 
 
 std::string what_is_saved(const ExperimentContext& context) {
   const std::vector<PlannedRun>& runs = context.plan.runs;
-  const auto kept =
-      std::count_if(runs.begin(), runs.end(), [](const PlannedRun& run) { return run.kept; });
-  const auto recordings = std::count_if(runs.begin(), runs.end(), [&](const PlannedRun& run) {
-    return run.kept && has_stamp(run, context.directory);
+  const auto kept = std::ranges::count(runs, true, &PlannedRun::kept);
+  const auto recordings = std::ranges::count_if(
+      runs, [&](const PlannedRun& run) { return run.kept && has_stamp(run, context.directory); });
+  const auto parts = std::ranges::count_if(context.plan.tasks, [&](const Task& task) {
+    return saved_counts(context.plan, task, context.directory.store()).has_value();
   });
-  const auto parts =
-      std::count_if(context.plan.tasks.begin(), context.plan.tasks.end(), [&](const Task& task) {
-        return saved_counts(context.plan, task, context.directory.store());
-      });
   return fmt::format(
       "stopped; {} of {} recordings and {} of {} parts of the evaluation are saved in {}; the "
       "same command continues from there",

@@ -68,7 +68,6 @@ std::optional<ExperimentResult> run_stages(ExperimentContext& context, Computed&
   throw Stopped(what_is_saved(context));
 }
 
-/// The whole experiment.
 ExperimentResult whole(ExperimentContext& context, MissingRun missing) {
   Computed done(context.plan, context.plan.all_tasks(), missing);
   return *run_stages(context, done);

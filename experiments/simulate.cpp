@@ -103,20 +103,19 @@ void FitRunCheck::add(const Rollout& run) {
                                  simulator, fmt::join(whole_run_estimators_, ", "),
                                  failures_text(runs.failures)));
   }
-  const auto& [flight, one_wheel, rolling] = runs.has_contact;
-  require(rolling, phase_estimators_, "rolling on both wheels", simulator, runs);
+  const auto require = [&](bool holds, const std::vector<std::string>& estimators,
+                           const char* missing) {
+    if (holds || estimators.empty()) return;
+    throw InputError(fmt::format("fit on {}: {}: fit.scenarios contain no {}: {}", simulator,
+                                 fmt::join(estimators, ", "), missing,
+                                 fmt::join(runs.scenes, ", ")));
+  };
+  const auto [flight, one_wheel, rolling] = runs.has_contact;
+  require(rolling, phase_estimators_, "rolling on both wheels");
   require(flight, phase_estimators_,
-          one_wheel ? "flight of both wheels at once, only of one" : "flight", simulator, runs);
-  require(rolling || one_wheel, measurement_estimators_, "contact", simulator, runs);
-  require(flight || one_wheel, measurement_estimators_, "step without contact", simulator, runs);
-}
-
-void FitRunCheck::require(bool holds, const std::vector<std::string>& estimators,
-                          const std::string& missing, const std::string& simulator,
-                          const Runs& runs) {
-  if (holds || estimators.empty()) return;
-  throw InputError(fmt::format("fit on {}: {}: fit.scenarios contain no {}: {}", simulator,
-                               fmt::join(estimators, ", "), missing, fmt::join(runs.scenes, ", ")));
+          one_wheel ? "flight of both wheels at once, only of one" : "flight");
+  require(rolling || one_wheel, measurement_estimators_, "contact");
+  require(flight || one_wheel, measurement_estimators_, "step without contact");
 }
 
 }  // namespace touchdown::experiments

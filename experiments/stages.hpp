@@ -31,7 +31,6 @@ class PendingTasks {
 
   /// Removes and returns the tasks with all their fits among `models`, as indices in the plan.
   std::vector<std::size_t> take_ready(const FittedModels& models);
-  /// Removes and returns all tasks that are left.
   std::vector<std::size_t> take_all();
 
   /// Whether a task that is left needs the fit with this key.
@@ -116,9 +115,6 @@ class FitRunCheck {
     std::map<std::string, std::string> failures = {};  ///< endings by file
   };
 
-  static void require(bool holds, const std::vector<std::string>& estimators,
-                      const std::string& missing, const std::string& simulator, const Runs& runs);
-
   std::vector<std::string> whole_run_estimators_;  ///< fitted, and not to segments
   std::vector<std::string> phase_estimators_;
   std::vector<std::string> measurement_estimators_;
@@ -154,7 +150,6 @@ void fit_training_sets(ExperimentContext& context, const std::vector<NeededFit>&
 /// `evaluate_rest`, which evaluates more of them in parallel.
 void evaluate_ready(ExperimentContext& context, Computed& done);
 
-/// Evaluates the tasks that are left.
 void evaluate_rest(ExperimentContext& context, Computed& done);
 
 /// Computes the share's model tasks (`Plan::model_tasks`).

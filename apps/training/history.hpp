@@ -7,7 +7,6 @@
 
 namespace touchdown::training {
 
-/// Results of one iteration of training.
 struct IterationRecord {
   int iteration = 0;          ///< from 1
   double data_seconds = 0.0;  ///< labelled data used so far (s)

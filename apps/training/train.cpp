@@ -25,30 +25,6 @@ namespace touchdown::training {
 
 namespace {
 
-constexpr std::uint64_t weights_stream = 0x77656967687473;  // "weights"
-
-/// Draws uniform weights, layer by layer, from one stream.
-class UniformWeights {
- public:
-  explicit UniformWeights(std::uint64_t seed) : seed_(seed) {}
-
-  DenseLayer layer(Eigen::Index outputs, Eigen::Index inputs, Eigen::Index fan) {
-    const double bound = 1.0 / std::sqrt(static_cast<double>(fan));
-    DenseLayer dense{Eigen::MatrixXf(outputs, inputs), Eigen::VectorXf(outputs)};
-    for (float& weight : dense.weight.reshaped()) weight = draw(bound);
-    for (float& bias : dense.bias) bias = draw(bound);
-    return dense;
-  }
-
- private:
-  float draw(double bound) {
-    return static_cast<float>(bound * (2.0 * uniform01(seed_, weights_stream, drawn_++) - 1.0));
-  }
-
-  std::uint64_t seed_;
-  std::uint64_t drawn_ = 0;
-};
-
 void standardise(NeuralNetwork& network, const std::vector<float>& inputs) {
   using Rows = Eigen::Matrix<float, Eigen::Dynamic, neural_input_count, Eigen::RowMajor>;
   const Eigen::Map<const Rows> rows(inputs.data(),
@@ -289,13 +265,24 @@ NeuralNetwork initial_network(const NetworkSize& size, std::uint64_t seed, const
   NeuralNetwork network;
   network.period = period;
   standardise(network, data.input);
-  UniformWeights weights(seed);
+  constexpr std::uint64_t weights_stream = 0x77656967687473;  // "weights"
+  std::uint64_t drawn = 0;
+  const auto layer = [&](Eigen::Index outputs, Eigen::Index inputs, Eigen::Index fan) {
+    const double bound = 1.0 / std::sqrt(static_cast<double>(fan));
+    const auto draw = [&] {
+      return static_cast<float>(bound * (2.0 * uniform01(seed, weights_stream, drawn++) - 1.0));
+    };
+    DenseLayer dense{Eigen::MatrixXf(outputs, inputs), Eigen::VectorXf(outputs)};
+    for (float& weight : dense.weight.reshaped()) weight = draw();
+    for (float& bias : dense.bias) bias = draw();
+    return dense;
+  };
   const Eigen::Index hidden = size.hidden;
-  network.gru_input = weights.layer(3 * hidden, neural_input_count, hidden);
-  network.gru_hidden = weights.layer(3 * hidden, hidden, hidden);
-  network.first = weights.layer(size.first, hidden, hidden);
-  network.second = weights.layer(size.second, size.first, size.first);
-  network.heads = weights.layer(neural_output_count, size.second, size.second);
+  network.gru_input = layer(3 * hidden, neural_input_count, hidden);
+  network.gru_hidden = layer(3 * hidden, hidden, hidden);
+  network.first = layer(size.first, hidden, hidden);
+  network.second = layer(size.second, size.first, size.first);
+  network.heads = layer(neural_output_count, size.second, size.second);
   return network;
 }
 

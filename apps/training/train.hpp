@@ -23,14 +23,12 @@ struct TrainingRequest {
   const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user wants to stop
 
   bool wants_stop() const { return stop != nullptr && *stop; }
-  /// The requested number of threads.
   int thread_count() const {
     if (threads > 0) return threads;
     return machine_share().processors;
   }
 };
 
-/// Results of a training.
 struct TrainingResult {
   std::filesystem::path directory;
   std::filesystem::path network;  ///< the weights of the chosen iteration

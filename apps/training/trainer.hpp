@@ -49,7 +49,6 @@ using StopIfAsked = std::function<void()>;
 /// bits for any number of threads.
 class Trainer {
  public:
-  /// Starts from `network`.
   Trainer(const NeuralNetwork& network, const OptimiserConfig& config);
   ~Trainer();
   Trainer(const Trainer&) = delete;

@@ -51,15 +51,11 @@ bool is_known(const LoggedRun& run, std::size_t row) {
          right[row] != LabelState::unknown;
 }
 
-static bool is_known_anywhere(const LoggedRun& run) {
-  for (std::size_t k = 0; k < run.contact[0].size(); ++k) {
-    if (is_known(run, k)) return true;
-  }
-  return false;
-}
-
 std::vector<StepRange> flights_of(const LoggedRun& run) {
-  const bool is_believed = !is_known_anywhere(run) && !run.beliefs.empty();
+  bool is_believed = !run.beliefs.empty();
+  for (std::size_t k = 0; k < run.contact[0].size(); ++k) {
+    is_believed = is_believed && !is_known(run, k);
+  }
   const auto shortest = static_cast<std::size_t>(
       std::llround(scoring::ScoringConfig{}.minimum_flight / run.recording.period()));
   std::vector<StepRange> flights;

@@ -10,19 +10,20 @@
 
 namespace touchdown::viewer {
 
-Film::Film(const std::filesystem::path& path) : name_(path.string()) {
-  if (!is_there(path)) throw InputError(fmt::format("--film: there is no file '{}'", name_));
+Film::Film(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  if (!is_there(path)) throw InputError(fmt::format("--film: there is no file '{}'", name));
   // Their own messages would stand beside ours.
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // NOLINT(concurrency-mt-unsafe): before threads
-  bool is_film = capture_.open(name_, cv::CAP_FFMPEG);
+  bool is_film = capture_.open(name, cv::CAP_FFMPEG);
   if (is_film) {
     rate_ = capture_.get(cv::CAP_PROP_FPS);
     count_ = std::lround(capture_.get(cv::CAP_PROP_FRAME_COUNT));
     is_film = rate_ > 0.0 && rate_ < 1e5 && count_ > 0 && !frame(0).empty();
   }
   if (!is_film) {
-    throw InputError(fmt::format("--film: '{}': expected a film, such as an .mp4 of H.264", name_));
+    throw InputError(fmt::format("--film: '{}': expected a film, such as an .mp4 of H.264", name));
   }
   size_ = picture_.size();
 }

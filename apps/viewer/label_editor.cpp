@@ -43,9 +43,13 @@ void LabelEditor::select_wheel(std::size_t wheel) {
   wheel_ = wheel;
   if (!selection_) return;
   selection_->wheel = wheel;
+  const double edge = selection_->range.begin;
+  if (selection_->is_edge() && !has_edge(wheel, edge)) select_interval(wheel, edge);
+}
+
+bool LabelEditor::has_edge(std::size_t wheel, double time) const {
   const std::vector<double> edges = logs::edges_of(labels(), wheel);
-  const bool has_edge = std::binary_search(edges.begin(), edges.end(), selection_->range.begin);
-  if (selection_->is_edge() && !has_edge) select_interval(wheel, selection_->range.begin);
+  return std::binary_search(edges.begin(), edges.end(), time);
 }
 
 void LabelEditor::select_interval(std::size_t wheel, double time) {
@@ -107,10 +111,6 @@ std::optional<double> LabelEditor::next_least_sure(bool back) {
   const ContactInterval& row = rows[*next];
   looked_at_ = TimeRange{row.start, row.end};
   looked_at_sure_ = *row.sure;
-  const auto has_edge = [&](std::size_t wheel, double time) {
-    const std::vector<double> edges = logs::edges_of(labels(), wheel);
-    return std::binary_search(edges.begin(), edges.end(), time);
-  };
   if (!has_edge(wheel_, row.start) && !has_edge(wheel_, row.end)) wheel_ = 1 - wheel_;
   selection_ = LabelSelection{wheel_, *looked_at_};
   return row.start;
@@ -194,15 +194,8 @@ std::optional<double> LabelEditor::accept() {
   return next_least_sure(false);
 }
 
-bool LabelEditor::undo() {
-  if (!history_.undo()) return false;
-  selection_.reset();
-  save();
-  return true;
-}
-
-bool LabelEditor::redo() {
-  if (!history_.redo()) return false;
+bool LabelEditor::saved_if(bool has_changed) {
+  if (!has_changed) return false;
   selection_.reset();
   save();
   return true;

@@ -77,8 +77,8 @@ class LabelEditor {
   /// Accepts the interval of `next_least_sure`, else the selected one; returns the next one to look
   /// at.
   std::optional<double> accept();
-  bool undo();
-  bool redo();
+  bool undo() { return saved_if(history_.undo()); }
+  bool redo() { return saved_if(history_.redo()); }
 
   /// Why the labels could not be written; empty if they were.
   const std::string& problem() const { return problem_; }
@@ -92,6 +92,8 @@ class LabelEditor {
   };
 
   void select_wheel(std::size_t wheel);
+  bool has_edge(std::size_t wheel, double time) const;
+  bool saved_if(bool has_changed);
   void take(logs::ContactIntervals edited);
   void save();
   void follow_edge(double from, double to);
@@ -117,6 +119,9 @@ struct LaneScale {
   double x(double step) const { return left + (step - first) / steps_per_pixel; }
   double step(double x) const { return first + (x - left) * steps_per_pixel; }
 };
+
+/// The column of a time of the log.
+int column_of(const LabelEditor& editor, const LaneScale& scale, double time);
 
 /// Colours of contact, air and unknown time (0xRRGGBB).
 inline constexpr unsigned contact_colour = 0x2f8f5b, air_colour = 0xa9cdf0,

@@ -18,9 +18,7 @@ const render::Colour quiet = render::rgb(0x5c636e);
 cv::Rect columns(const LabelEditor& editor, const LaneScale& scale, const logs::TimeRange& range,
                  int top, int bottom) {
   const auto x = [&](double time) {
-    return static_cast<int>(
-        std::lround(std::clamp<double>(scale.x(static_cast<double>(editor.clock().step_at(time))),
-                                       scale.left, scale.left + scale.width)));
+    return std::clamp(column_of(editor, scale, time), scale.left, scale.left + scale.width);
   };
   return {x(range.begin), top, x(range.end) - x(range.begin), bottom - top};
 }
@@ -31,9 +29,9 @@ void draw_hatching(cv::Mat lane) {
   }
 }
 
-void draw_edge(cv::Mat& image, const LaneScale& scale, double step, int top, int bottom,
-               bool is_selected) {
-  const int at = static_cast<int>(std::lround(scale.x(step)));
+void draw_edge(cv::Mat& image, const LabelEditor& editor, const LaneScale& scale, double edge,
+               int top, int bottom, bool is_selected) {
+  const int at = column_of(editor, scale, edge);
   if (at < scale.left || at > scale.left + scale.width) return;
   cv::line(image, {at, top}, {at, bottom - 1}, is_selected ? selected : edge_colour,
            is_selected ? 3 : 1);
@@ -46,6 +44,10 @@ void draw_edge(cv::Mat& image, const LaneScale& scale, double step, int top, int
 }
 
 }  // namespace
+
+int column_of(const LabelEditor& editor, const LaneScale& scale, double time) {
+  return static_cast<int>(std::lround(scale.x(static_cast<double>(editor.clock().step_at(time)))));
+}
 
 void draw_lane(cv::Mat& image, const LabelEditor& editor, std::size_t wheel, const LaneScale& scale,
                int top, int bottom) {
@@ -63,16 +65,12 @@ void draw_lane(cv::Mat& image, const LabelEditor& editor, std::size_t wheel, con
   const bool is_here = selection && selection->wheel == wheel;
   if (is_large) {
     for (const double edge : logs::edges_of(editor.labels(), wheel)) {
-      draw_edge(image, scale, static_cast<double>(editor.clock().step_at(edge)), top, bottom,
-                false);
+      draw_edge(image, editor, scale, edge, top, bottom, false);
     }
   }
   if (!is_here) return;
   if (selection->is_edge()) {
-    if (is_large) {
-      draw_edge(image, scale, static_cast<double>(editor.clock().step_at(selection->range.begin)),
-                top, bottom, true);
-    }
+    if (is_large) draw_edge(image, editor, scale, selection->range.begin, top, bottom, true);
     return;
   }
   cv::Rect area = columns(editor, scale, selection->range, top, bottom);
@@ -118,8 +116,7 @@ void draw_ruler(cv::Mat& image, const render::TextPen& pen, const LabelEditor& e
   const double last = time_at(scale.left + scale.width);
   for (int i = 0; first + i * spacing <= last; ++i) {
     const double time = first + i * spacing;
-    const int x =
-        static_cast<int>(std::lround(scale.x(static_cast<double>(editor.clock().step_at(time)))));
+    const int x = column_of(editor, scale, time);
     const std::string text = fmt::format("{:.{}f}", time, digits);
     if (x + pen.width(text, letters) + 4 > scale.left + scale.width) break;
     cv::line(image, {x, top + 2}, {x, bottom - 1}, quiet, 1);

@@ -13,9 +13,6 @@ namespace touchdown::viewer {
 
 namespace {
 
-constexpr double largest_velocity = 1.5;  // m/s
-constexpr double largest_yaw_rate = 2.0;  // rad/s
-constexpr double largest_crouch = 1.2;    // rad
 constexpr double slowest = 1.0 / 64, fastest = 4.0;
 
 /// `run.mpack`, then `run_2.mpack`, …
@@ -64,33 +61,23 @@ std::string LiveControls::sensors_name() const {
   return request_.sensors.empty() ? "ideal" : request_.sensors[sensors_].first;
 }
 
+/// The settings that a number sets, all of them alike.
+static std::vector<double*> members_of(LiveSettings& settings, LiveNumber number) {
+  noise::SensorNoise& noise = settings.noise;
+  if (number == LiveNumber::contact_delay) return {&settings.contact_delay};
+  if (number == LiveNumber::acceleration_noise) return {&noise.acceleration};
+  return {&noise.knee_torque, &noise.hip_torque, &noise.wheel_torque};
+}
+
 double LiveControls::value(LiveNumber number) const {
-  switch (number) {
-    case LiveNumber::torque_noise:
-      return settings_.noise.knee_torque;
-    case LiveNumber::acceleration_noise:
-      return settings_.noise.acceleration;
-    case LiveNumber::contact_delay:
-      break;
-  }
-  return settings_.contact_delay;
+  LiveSettings settings = settings_;
+  return *members_of(settings, number).front();
 }
 
 void LiveControls::set(LiveNumber number, double value) {
   value = std::clamp(value, 0.0, range_of(number).most);
   change([&](LiveSettings& settings) {
-    switch (number) {
-      case LiveNumber::torque_noise:
-        settings.noise.knee_torque = settings.noise.hip_torque = settings.noise.wheel_torque =
-            value;
-        break;
-      case LiveNumber::acceleration_noise:
-        settings.noise.acceleration = value;
-        break;
-      case LiveNumber::contact_delay:
-        settings.contact_delay = value;
-        break;
-    }
+    for (double* const member : members_of(settings, number)) *member = value;
   });
 }
 
@@ -100,32 +87,6 @@ void LiveControls::change(const std::function<void(LiveSettings&)>& action) {
     run.change(settings_);
     settings_ = run.settings();
   });
-}
-
-void LiveControls::drive(LiveRun& run, double velocity, double yaw_rate) {
-  run.drive(std::clamp(velocity, -largest_velocity, largest_velocity),
-            std::clamp(yaw_rate, -largest_yaw_rate, largest_yaw_rate));
-}
-
-void LiveControls::drive_faster(double velocity, double yaw_rate) {
-  loop_.use(
-      [&](LiveRun& run) { drive(run, run.velocity() + velocity, run.yaw_rate() + yaw_rate); });
-}
-
-void LiveControls::stop_driving() {
-  loop_.use([&](LiveRun& run) { drive(run, 0.0, 0.0); });
-}
-
-void LiveControls::crouch_lower(double hip) {
-  loop_.use([&](LiveRun& run) { run.crouch(std::clamp(run.hip() + hip, 0.0, largest_crouch)); });
-}
-
-void LiveControls::hop() {
-  loop_.use([](LiveRun& run) { run.hop(); });
-}
-
-void LiveControls::drag(const std::optional<Drag>& drag) {
-  loop_.use([&](LiveRun& run) { run.drag(drag); });
 }
 
 void LiveControls::pause(bool paused) {

@@ -11,7 +11,6 @@
 
 namespace touchdown::viewer {
 
-/// What a user asked to watch live.
 struct LiveRequest {
   LiveScene scene;
   std::vector<experiments::LogEstimator> estimators;
@@ -52,18 +51,12 @@ class LiveControls {
   double value(LiveNumber number) const;
   void set(LiveNumber number, double value);
 
-  /// Adds to the commanded speed (m/s) and yaw rate (rad/s).
-  void drive_faster(double velocity, double yaw_rate);
-  void stop_driving();
-  /// Bends the legs by so much more (rad).
-  void crouch_lower(double hip);
-  void hop();
-  void drag(const std::optional<Drag>& drag);
+  /// Commands the run, between two steps.
+  void use(const std::function<void(LiveRun&)>& action) { loop_.use(action); }
 
   void pause(bool paused);
   /// Pauses and simulates this many control steps.
   void step(int count);
-  /// Multiplies the speed.
   void scale_speed(double factor);
 
   void restart();
@@ -81,7 +74,6 @@ class LiveControls {
   std::unique_ptr<LiveRun> make_run();
   void take_over();
   void change(const std::function<void(LiveSettings&)>& action);
-  void drive(LiveRun& run, double velocity, double yaw_rate);
 
   LiveRequest request_;
   std::function<void()> started_;

@@ -29,6 +29,9 @@ constexpr int most_steps_at_once = 8;
 
 using WheelContacts = std::array<bool, models::wheel_count>;
 
+constexpr double largest_velocity = 1.5;  // m/s
+constexpr double largest_yaw_rate = 2.0;  // rad/s
+constexpr double largest_crouch = 1.2;    // rad
 constexpr double longest_delay = 0.2;     // s: of the policy's contact
 constexpr double longest_run = 1e5;       // s
 constexpr std::uint64_t pull_steps = 10;  // control steps with the same force of a drag
@@ -56,10 +59,6 @@ LiveScene endless(LiveScene scene) {
 
 noise::NoiseKey noise_key(const LiveScene& scene) {
   return {scene.seed, static_cast<std::uint64_t>(std::max(scene.run, std::int64_t{0}))};
-}
-
-double mass_of(const simulators::Simulator& simulator) {
-  return simulator.model().mj->body_subtreemass[0];
 }
 
 }  // namespace
@@ -181,8 +180,7 @@ LiveState RealTimeLoop::state() {
                   .rate = rate_};
   for (const LiveEstimator& estimator : run_->estimators()) {
     const auto& wheel = estimator.belief.wheel;
-    state.estimates.push_back({{wheel[0].p_contact, wheel[1].p_contact},
-                               {wheel[0].contact, wheel[1].contact},
+    state.estimates.push_back({{wheel[0].contact, wheel[1].contact},
                                {wheel[0].load, wheel[1].load},
                                estimator.accuracy()});
   }
@@ -324,7 +322,7 @@ void LiveRun::pull() {
   const Eigen::Vector3d position = truth.base_position + lever;
   const Eigen::Vector3d velocity =
       truth.base_linear_velocity + truth.base_angular_velocity.cross(lever);
-  const double mass = mass_of(*simulator_);
+  const double mass = simulator_->model().mj->body_subtreemass[0];
   drag_force_ = mass * (drag_stiffness * (drag_->target - position) - drag_damping * velocity);
   const double most = largest_drag * gravity * mass;
   if (drag_force_.norm() > most) drag_force_ *= most / drag_force_.norm();
@@ -344,7 +342,14 @@ void LiveRun::change(const LiveSettings& settings) {
   settings_.contact_delay = std::clamp(settings_.contact_delay, 0.0, longest_delay);
 }
 
-void LiveRun::crouch(double hip) { rollout_->crouch(hip, crouch_rate); }
+void LiveRun::drive(double more_velocity, double more_yaw_rate) {
+  rollout_->drive(std::clamp(velocity() + more_velocity, -largest_velocity, largest_velocity),
+                  std::clamp(yaw_rate() + more_yaw_rate, -largest_yaw_rate, largest_yaw_rate));
+}
+
+void LiveRun::crouch(double more) {
+  rollout_->crouch(std::clamp(hip() + more, 0.0, largest_crouch), crouch_rate);
+}
 
 void LiveRun::hop() {
   rollout_->crouch(hop_crouch, hop_crouch_rate);

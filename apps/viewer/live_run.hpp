@@ -88,8 +88,11 @@ class LiveRun {
 
   const LiveSettings& settings() const { return settings_; }
   void change(const LiveSettings& settings);
-  void drive(double velocity, double yaw_rate) { rollout_->drive(velocity, yaw_rate); }
-  void crouch(double hip);
+  /// Adds to the commanded speed (m/s) and yaw rate (rad/s), and to the bend of the legs (rad), up
+  /// to limits.
+  void drive(double more_velocity, double more_yaw_rate);
+  void crouch(double more);
+  void stop_driving() { rollout_->drive(0.0, 0.0); }
   void hop();
   void drag(const std::optional<Drag>& drag) { drag_ = drag; }
 
@@ -150,7 +153,6 @@ struct LiveState {
   std::array<bool, models::wheel_count> contact = {};         ///< true contact
   std::array<bool, models::wheel_count> policy_contact = {};  ///< that the policy received
   struct Estimate {
-    std::array<double, models::wheel_count> p_contact;
     std::array<bool, models::wheel_count> contact;
     std::array<WheelLoad, models::wheel_count> load;
     double accuracy;

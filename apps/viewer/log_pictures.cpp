@@ -161,7 +161,7 @@ void LogWindow::draw_lanes() {
                         is_chosen ? render::rgb(0x0b3d91) : render::rgb(0x5c636e));
   }
   const auto mark = [&](double time, const render::Colour& colour) {
-    const int x = static_cast<int>(std::lround(scale.x(static_cast<double>(clock_.step_at(time)))));
+    const int x = column_of(*editor_, scale, time);
     if (x < scale.left || x > scale.left + scale.width) return;
     cv::line(image, {x, LogAreas::ruler - 4}, {x, area.height}, colour, 1);
   };

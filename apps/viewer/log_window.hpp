@@ -54,7 +54,6 @@ class Film {
  private:
   const cv::Mat& frame(long number);
 
-  std::string name_;
   cv::VideoCapture capture_;
   double rate_ = 0.0;  ///< pictures per second
   cv::Size size_;

@@ -51,7 +51,6 @@ struct PanelSlider {
   double share;  ///< 0 to 1
 };
 
-/// One line of the panel beside the scene.
 struct PanelLine {
   std::string text;
   std::string value = {};  ///< at the right

@@ -33,17 +33,13 @@ int key_of(int glfw_key) {
                                                                          : 0;
 }
 
-std::string last_error() {
-  const char* text = nullptr;
-  glfwGetError(&text);
-  return text == nullptr ? "no reason given" : text;
-}
-
 [[noreturn]] void complain_about_display() {
+  const char* reason = nullptr;
+  glfwGetError(&reason);
   throw Error(fmt::format(
       "watch: no window can be opened ({}). Without a display, `touchdown simulate` and "
       "`touchdown render` make a film",
-      last_error()));
+      reason == nullptr ? "no reason given" : reason));
 }
 
 /// The cameras: as in films, behind the robot, at its side, above it.
@@ -114,16 +110,10 @@ Window::~Window() {
 bool Window::is_open() const { return glfwWindowShouldClose(window_) == GLFW_FALSE; }
 void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 
-int Window::width() const {
-  int width = 0;
-  glfwGetFramebufferSize(window_, &width, nullptr);
-  return width;
-}
-
-int Window::height() const {
-  int height = 0;
-  glfwGetFramebufferSize(window_, nullptr, &height);
-  return height;
+cv::Size Window::size() const {
+  cv::Size size;
+  glfwGetFramebufferSize(window_, &size.width, &size.height);
+  return size;
 }
 
 void Window::show() { glfwSwapBuffers(window_); }
@@ -134,7 +124,7 @@ WindowInput Window::take_input() {
   glfwGetCursorPos(window_, &mouse.x, &mouse.y);
   int window_width = 1;
   glfwGetWindowSize(window_, &window_width, nullptr);
-  const double scale = static_cast<double>(width()) / (window_width > 0 ? window_width : 1);
+  const double scale = static_cast<double>(size().width) / (window_width > 0 ? window_width : 1);
   mouse.x *= scale;
   mouse.y *= scale;
   mouse.left = glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
@@ -228,7 +218,7 @@ Chip running_chip(bool is_paused, double speed) {
 
 mjrRect Screen::viewport() const {
   const Area scene = layout().scene;
-  return {scene.left, window_.height() - scene.top - scene.height, scene.width, scene.height};
+  return {scene.left, window_.size().height - scene.top - scene.height, scene.width, scene.height};
 }
 
 void Screen::draw_scene(std::span<const render::SceneVector> vectors) {
@@ -240,7 +230,7 @@ void Screen::draw(const cv::Mat& picture, int left, int top) {
   cv::flip(picture, flipped, 0);  // OpenGL counts from below
   cv::cvtColor(flipped, upload_, cv::COLOR_BGR2RGB);
   view_->copy(upload_.data,
-              {left, window_.height() - top - picture.rows, picture.cols, picture.rows});
+              {left, window_.size().height - top - picture.rows, picture.cols, picture.rows});
 }
 
 void Screen::draw_keys(const std::vector<std::pair<std::string, std::string>>& mouse) {

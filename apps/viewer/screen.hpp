@@ -61,14 +61,11 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  /// False once the user has closed the window.
   bool is_open() const;
   void close();
   /// The drawn area (pixels).
-  int width() const;
-  int height() const;
+  cv::Size size() const;
 
-  /// Shows what was drawn.
   void show();
   /// What the user did since the last call.
   WindowInput take_input();
@@ -160,7 +157,7 @@ class Screen {
   /// Shows this robot on its terrain from now on. Keeps the reference.
   void set_robot(const models::RobotModel& robot) { view_.emplace(robot); }
 
-  Layout layout() const { return layout_of(window_.width(), window_.height(), extras_); }
+  Layout layout() const { return layout_of(window_.size().width, window_.size().height, extras_); }
   CameraControl& camera() { return camera_; }
   const render::TextPen& pen() const { return pen_; }
   /// The robot's state: write its positions with `models::write_pose`, or with `Poses`.

@@ -23,7 +23,6 @@ struct PictureTimes {
   double display = 0.0;  ///< the window system shows the picture
 };
 
-/// The result of a session.
 struct LiveSession {
   std::vector<std::string> recorded;  ///< one line per recording
   int frames = 0;
@@ -54,7 +53,6 @@ std::array<std::vector<logs::LabelState>, models::wheel_count> labelled_contact(
 std::array<std::vector<logs::LabelState>, models::wheel_count> true_contact(
     const logs::Recording& recording, const scoring::LabelConfig& definition);
 
-/// Whether the true contact of a row is known.
 bool is_known(const LoggedRun& run, std::size_t row);
 
 /// A segment of a run: steps [begin, end).
@@ -76,7 +74,6 @@ std::vector<StepRange> flights_of(const LoggedRun& run);
 /// 5 ms.
 std::vector<StepRange> errors_of(const LoggedRun& run, std::size_t index);
 
-/// How a run is played.
 struct LogSession {
   /// To be edited; their file is written after each edit.
   std::optional<logs::ContactIntervals> labels = {};

@@ -134,25 +134,28 @@ std::vector<KeyBinding> driving_keys(LiveControls& controls) {
        "↑ ↓",
        "drive faster, slower or backwards",
        [&controls](const KeyPress& press) {
-         controls.drive_faster(press.key == key_up ? velocity_step : -velocity_step, 0.0);
+         const double step = press.key == key_up ? velocity_step : -velocity_step;
+         controls.use([&](LiveRun& run) { run.drive(step, 0.0); });
        }},
       {{key_left, key_right},
        "← →",
        "turn left, right",
        [&controls](const KeyPress& press) {
-         controls.drive_faster(0.0, press.key == key_left ? yaw_rate_step : -yaw_rate_step);
+         const double step = press.key == key_left ? yaw_rate_step : -yaw_rate_step;
+         controls.use([&](LiveRun& run) { run.drive(0.0, step); });
        }},
       {{key_backspace},
        "Backspace",
        "stop driving",
-       [&controls](auto&) { controls.stop_driving(); }},
+       [&controls](auto&) { controls.use(&LiveRun::stop_driving); }},
       {{'c'},
        "c  C",
        "crouch lower, higher",
        [&controls](const KeyPress& press) {
-         controls.crouch_lower(press.shift ? -crouch_step : crouch_step);
+         const double step = press.shift ? -crouch_step : crouch_step;
+         controls.use([&](LiveRun& run) { run.crouch(step); });
        }},
-      {{'j'}, "j", "hop", [&controls](auto&) { controls.hop(); }},
+      {{'j'}, "j", "hop", [&controls](auto&) { controls.use(&LiveRun::hop); }},
   };
 }
 
@@ -306,7 +309,7 @@ void LiveWindow::use_mouse(const Mouse& mouse) {
   }
   if (!mouse.left) {
     slid_.reset();
-    if (dragged_) controls_.drag(std::nullopt);
+    if (dragged_) controls_.use([](LiveRun& run) { run.drag(std::nullopt); });
     dragged_.reset();
   }
   if (slid_) {
@@ -315,7 +318,7 @@ void LiveWindow::use_mouse(const Mouse& mouse) {
     controls_.set(*slid_, range.step * std::round(share * range.most / range.step));
   } else if (dragged_) {
     *dragged_ += screen_.motion_of(*dragged_, right, down);
-    controls_.drag(Drag{*dragged_});
+    controls_.use([&](LiveRun& run) { run.drag(Drag{*dragged_}); });
   } else if ((mouse.left && before.left) || (mouse.right && before.right)) {
     if (in_scene) screen_.camera().turn(right, down);
   }

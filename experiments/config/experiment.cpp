@@ -1,7 +1,8 @@
 #include "experiments/config/experiment.hpp"
 
-#include <algorithm>
+#include <functional>
 
+#include "core/rows.hpp"
 #include "experiments/estimators/registry.hpp"
 
 namespace touchdown::experiments {
@@ -14,46 +15,26 @@ const EstimatorEntry& estimator_entry(const Experiment& experiment, std::string_
   return estimator_entry(name, experiment.external_estimators);
 }
 
-static std::vector<StudyFiles> study_files(const Experiment& experiment) {
-  std::vector<StudyFiles> files;
-  for (const StudySection& study : study_sections()) {
-    if (study.files) files.push_back(study.files(experiment));
-  }
-  return files;
-}
-
-std::vector<std::string> scenario_files(const Experiment& experiment) {
-  std::vector<std::string> files = experiment.fit.scenarios;
-  files.insert(files.end(), experiment.test.scenarios.begin(), experiment.test.scenarios.end());
-  for (const TrainingSegments& segments : experiment.training_segments) {
-    files.push_back(segments.scenario);
-  }
-  for (const StudyFiles& more : study_files(experiment)) {
-    files.insert(files.end(), more.scenarios.begin(), more.scenarios.end());
-  }
-  return files;
-}
-
-std::vector<std::string> robot_files(const Experiment& experiment) {
-  std::vector<std::string> files = {""};
-  for (const StudyFiles& more : study_files(experiment)) {
-    files.insert(files.end(), more.robots.begin(), more.robots.end());
-  }
-  return files;
-}
-
-std::vector<std::string> sensor_files(const Experiment& experiment) {
-  std::vector<std::string> files;
-  const auto add = [&](const std::string& file) {
-    if (!file.empty() && std::find(files.begin(), files.end(), file) == files.end()) {
-      files.push_back(file);
-    }
+ExperimentFiles files_of(const Experiment& experiment) {
+  ExperimentFiles all{.scenarios = experiment.fit.scenarios, .robots = {""}};
+  const auto append = [](auto& files, const auto& more) {
+    files.insert(files.end(), more.begin(), more.end());
   };
-  add(experiment.sensors);
-  for (const StudyFiles& more : study_files(experiment)) {
-    for (const std::string& file : more.sensors) add(file);
+  append(all.scenarios, experiment.test.scenarios);
+  for (const TrainingSegments& segments : experiment.training_segments) {
+    all.scenarios.push_back(segments.scenario);
   }
-  return files;
+  std::vector<std::string> sensors = {experiment.sensors};
+  for (const StudySection& study : study_sections()) {
+    if (!study.files) continue;
+    const ExperimentFiles more = study.files(experiment);
+    append(all.scenarios, more.scenarios);
+    append(all.robots, more.robots);
+    append(sensors, more.sensors);
+  }
+  all.sensors = unique(sensors, std::identity());
+  std::erase(all.sensors, "");
+  return all;
 }
 
 }  // namespace touchdown::experiments

@@ -144,11 +144,9 @@ struct Experiment {
 /// draws.
 inline constexpr std::int64_t first_fit_run = 1'000'000;
 
-/// The files that an experiment names: scenarios of all its runs; robots of its test scenarios, ""
-/// for each scenario's own; sensor profiles, the experiment's own first.
-std::vector<std::string> scenario_files(const Experiment& experiment);
-std::vector<std::string> robot_files(const Experiment& experiment);
-std::vector<std::string> sensor_files(const Experiment& experiment);
+/// The files that an experiment names, with those of its studies' sections; robots of its test
+/// scenarios, "" for each scenario's own; the experiment's own sensors first.
+ExperimentFiles files_of(const Experiment& experiment);
 
 /// The names of all estimators that the experiment can use: built-in ones, then its external ones.
 std::vector<std::string> estimator_names(const Experiment& experiment);

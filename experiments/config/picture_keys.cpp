@@ -32,17 +32,14 @@ void describe_choice(Fields& fields, DropChoice& choice, const Experiment& exper
 }
 
 /// As many estimators as are readable, the paper's and the phase filter first.
-std::vector<std::string> shown_by_default(const std::vector<std::string>& estimators) {
-  std::vector<std::string> shown;
-  const auto show = [&](const std::string& name) {
-    const bool is_new = std::find(shown.begin(), shown.end(), name) == shown.end();
-    if (is_new && shown.size() < most_estimators) shown.push_back(name);
-  };
-  for (const char* name : {"robust", "measurement_only", "reference", "phase"}) {
-    if (std::find(estimators.begin(), estimators.end(), name) != estimators.end()) show(name);
+std::vector<std::string> shown_by_default(std::vector<std::string> estimators) {
+  auto next = estimators.begin();
+  for (const char* const name : {"robust", "measurement_only", "reference", "phase"}) {
+    next = std::stable_partition(next, estimators.end(),
+                                 [&](const std::string& other) { return other == name; });
   }
-  for (const std::string& name : estimators) show(name);
-  return shown;
+  estimators.resize(std::min(estimators.size(), most_estimators));
+  return estimators;
 }
 
 void describe(Fields& fields, DetailConfig& detail, const Experiment& experiment) {

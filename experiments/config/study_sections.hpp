@@ -19,10 +19,10 @@ namespace experiments {
 
 struct Experiment;
 
-/// Files that a study needs in addition to those of the experiment's own keys.
-struct StudyFiles {
+/// Files that an experiment names, or a study in addition to the experiment's own keys.
+struct ExperimentFiles {
   std::vector<std::string> scenarios = {};
-  std::vector<std::string> robots = {};  ///< of all scenarios, in addition to their own
+  std::vector<std::string> robots = {};  ///< of all test scenarios
   std::vector<std::string> sensors = {};
 };
 
@@ -34,8 +34,8 @@ struct StudySection {
   /// The experiment's own key before which it is written; empty: after all own keys. Written files
   /// determine the ids of runs.
   std::string before = {};
-  std::function<StudyFiles(const Experiment&)> files = {};  ///< none without the section
-  std::vector<std::string> file_keys = {};                  ///< dotted keys of their names
+  std::function<ExperimentFiles(const Experiment&)> files = {};  ///< none without the section
+  std::vector<std::string> file_keys = {};                       ///< dotted keys of their names
   /// Makes the estimators that only an experiment with the section may name; none if empty.
   std::function<std::vector<EstimatorEntry>()> estimators = {};
 };

@@ -99,10 +99,6 @@ std::unique_ptr<ContactEstimator> make_shipped(const EstimatorEntry& entry,
                            .geometry = setup.legs.value_or(LegGeometry{})});
 }
 
-void require_shipped_serves(const EstimatorEntry& entry, const EstimatorSetup& setup) {
-  (void)shipped_model_for(entry, setup);
-}
-
 EstimatorEntry shipped_entry(const char* name, const char* title, EstimatorEntry entry) {
   entry.name = name;
   entry.title = title;
@@ -113,7 +109,9 @@ EstimatorEntry shipped_entry(const char* name, const char* title, EstimatorEntry
   entry.fitting = {.trained_by = "scripts/fit_shipped_model.sh"};
   entry.making = {.model_file = shipped_file(name),
                   .by_step = make_shipped,
-                  .require_served = require_shipped_serves};
+                  .require_served = [](const EstimatorEntry& own, const EstimatorSetup& setup) {
+                    (void)shipped_model_for(own, setup);
+                  }};
   return entry;
 }
 

@@ -50,10 +50,8 @@ const EstimatorEntry& estimator_entry(std::string_view name,
 }
 
 bool is_upper_bound(std::string_view estimator) {
-  const std::span<const EstimatorEntry> entries = estimator_entries();
-  return std::any_of(entries.begin(), entries.end(), [&](const EstimatorEntry& entry) {
-    return entry.is_upper_bound && entry.name == estimator;
-  });
+  const EstimatorEntry* const entry = find(estimator_entries(), estimator);
+  return entry != nullptr && entry->is_upper_bound;
 }
 
 void check_external_names(std::span<const EstimatorEntry> external) {

@@ -1,7 +1,7 @@
 #include "experiments/evaluation/joint_bootstrap.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <span>
 
 #include "core/random.hpp"
 
@@ -20,8 +20,9 @@ std::size_t drawn(std::size_t count, double u) {
 }  // namespace
 
 std::vector<std::size_t> runs_in_scene(const Plan& plan, const Experiment& experiment,
-                                       std::size_t group, std::size_t scene) {
-  std::vector<std::size_t> runs = plan.runs_in(group);
+                                       std::size_t group, std::size_t scene,
+                                       std::string_view simulator) {
+  std::vector<std::size_t> runs = plan.runs_in(group, simulator);
   std::erase_if(runs,
                 [&](std::size_t run) { return scene_of(plan.runs[run], experiment) != scene; });
   return runs;
@@ -38,10 +39,8 @@ std::vector<CollectedCounts> counts_by_scene(const Evaluation& evaluation, std::
   return scenes;
 }
 
-std::vector<std::vector<scoring::Classification>> points_by_fit(const CollectedCounts& counts,
-                                                                Condition condition,
-                                                                std::size_t cell) {
-  std::vector<std::vector<scoring::Classification>> fits;
+CountsByFit points_by_fit(const CollectedCounts& counts, Condition condition, std::size_t cell) {
+  CountsByFit fits;
   for (const ConditionScores& scored : counts.scored) {
     if (!(scored.condition == condition)) continue;
     std::vector<scoring::Classification>& points = fits.emplace_back();
@@ -60,39 +59,28 @@ std::uint64_t stream_of(std::size_t scene, const std::string& simulator,
   return scene * engines.size() + static_cast<std::size_t>(engine);
 }
 
-FitsAndRuns fits_and_runs(std::vector<std::vector<scoring::Classification>> by_fit) {
-  FitsAndRuns scores;
-  if (by_fit.empty()) return scores;
-  scores.runs = std::move(by_fit.front());
-  by_fit.erase(by_fit.begin());
-  scores.of_refit = std::move(by_fit);
-  return scores;
-}
-
 namespace {
 
-/// How much better the refits are than the estimator's own fit, on average over all runs.
-double bias_of_refits(const FitsAndRuns& scores, double estimate) {
-  if (scores.of_refit.empty()) return 0.0;
+using Fits = std::span<const std::vector<scoring::Classification>>;
+
+double mean_accuracy(const Fits& fits) {
   double sum = 0.0;
-  for (const auto& refit : scores.of_refit) sum += scoring::sum(refit).balanced_accuracy();
-  return sum / static_cast<double>(scores.of_refit.size()) - estimate;
+  for (const auto& fit : fits) sum += scoring::sum(fit).balanced_accuracy();
+  return sum / static_cast<double>(fits.size());
 }
 
-/// Subtracts `bias` from all values but the estimate; a share stays between 0 and 1.
-Resampled resampled(const FitsAndRuns& scores, double bias, std::uint64_t scene,
+/// A bootstrap over runs and these fits. Subtracts `bias` from all values but the estimate; a share
+/// stays between 0 and 1.
+Resampled resampled(double estimate, const Fits& fits, double bias, std::uint64_t scene,
                     const scoring::BootstrapConfig& bootstrap) {
-  Resampled result{scoring::sum(scores.runs).balanced_accuracy()};
+  Resampled result{estimate};
   const auto centred = [bias](const scoring::Classification& counts) {
     return std::clamp(counts.balanced_accuracy() - bias, 0.0, 1.0);  // NaN stays NaN
   };
-  const std::size_t runs = scores.runs.size();
-  const std::size_t refits = scores.of_refit.size();
+  const std::size_t runs = fits.front().size();
   for (std::uint64_t r = 0; r < static_cast<std::uint64_t>(bootstrap.resamples); ++r) {
     if (bootstrap.before_resamples && r % 256 == 0) bootstrap.before_resamples();
-    const auto& scored =
-        refits == 0 ? scores.runs
-                    : scores.of_refit[drawn(refits, uniform01(bootstrap.seed, fit_stream, r))];
+    const auto& scored = fits[drawn(fits.size(), uniform01(bootstrap.seed, fit_stream, r))];
     result.of_fits.push_back(centred(scoring::sum(scored)));
     if (runs < 2) continue;
     scoring::Classification sum;
@@ -106,39 +94,36 @@ Resampled resampled(const FitsAndRuns& scores, double bias, std::uint64_t scene,
 
 }  // namespace
 
-Resampled balanced_accuracy(const FitsAndRuns& scores, std::uint64_t scene,
+Resampled balanced_accuracy(const CountsByFit& by_fit, std::uint64_t scene,
                             const scoring::BootstrapConfig& bootstrap) {
-  const double estimate = scoring::sum(scores.runs).balanced_accuracy();
-  return resampled(scores, bias_of_refits(scores, estimate), scene, bootstrap);
+  const double estimate = scoring::sum(by_fit.front()).balanced_accuracy();
+  const Fits refits = Fits(by_fit).subspan(1);
+  if (refits.empty()) return resampled(estimate, by_fit, 0.0, scene, bootstrap);
+  return resampled(estimate, refits, mean_accuracy(refits) - estimate, scene, bootstrap);
 }
 
-Resampled balanced_accuracy_of_fits(const std::vector<std::vector<scoring::Classification>>& by_fit,
-                                    std::uint64_t scene,
+Resampled balanced_accuracy_of_fits(const CountsByFit& by_fit, std::uint64_t scene,
                                     const scoring::BootstrapConfig& bootstrap) {
-  Resampled result = resampled({by_fit.front(), by_fit}, 0.0, scene, bootstrap);
-  result.estimate = 0.0;
-  for (const auto& fit : by_fit) {
-    result.estimate += scoring::sum(fit).balanced_accuracy() / static_cast<double>(by_fit.size());
+  return resampled(mean_accuracy(by_fit), by_fit, 0.0, scene, bootstrap);
+}
+
+/// The sum of lists with weights, as long as the shortest one.
+static std::vector<double> sum_of(const std::vector<const Resampled*>& all, double weight,
+                                  std::vector<double> Resampled::*list) {
+  if (all.empty()) return {};
+  std::vector<double> sum((all.front()->*list).size());
+  for (const Resampled* one : all) {
+    sum.resize(std::min(sum.size(), (one->*list).size()));
+    for (std::size_t r = 0; r < sum.size(); ++r) sum[r] += weight * (one->*list)[r];
   }
-  return result;
+  return sum;
 }
 
 Resampled mean(const std::vector<const Resampled*>& all) {
-  Resampled result;
-  std::size_t resamples = all.empty() ? 0 : all.front()->values.size();
-  for (const Resampled* one : all) resamples = std::min(resamples, one->values.size());
-  result.values.resize(resamples);
-  std::size_t fits = all.empty() ? 0 : all.front()->of_fits.size();
-  for (const Resampled* one : all) fits = std::min(fits, one->of_fits.size());
-  result.of_fits.resize(fits);
   const double share = 1.0 / static_cast<double>(all.size());
-  for (const Resampled* one : all) {
-    result.estimate += share * one->estimate;
-    for (std::size_t r = 0; r < resamples; ++r) result.values[r] += share * one->values[r];
-    for (std::size_t r = 0; r < result.of_fits.size(); ++r) {
-      result.of_fits[r] += share * one->of_fits[r];
-    }
-  }
+  Resampled result{0.0, sum_of(all, share, &Resampled::values),
+                   sum_of(all, share, &Resampled::of_fits)};
+  for (const Resampled* one : all) result.estimate += share * one->estimate;
   return result;
 }
 

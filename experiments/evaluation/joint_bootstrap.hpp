@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/interval.hpp"
@@ -12,32 +13,24 @@
 
 namespace touchdown::experiments {
 
-/// The runs of a group in one of the experiment's scenes.
+/// The runs of a group in one of the experiment's scenes, of one engine or of all.
 std::vector<std::size_t> runs_in_scene(const Plan& plan, const Experiment& experiment,
-                                       std::size_t group, std::size_t scene);
+                                       std::size_t group, std::size_t scene,
+                                       std::string_view simulator = {});
 
 /// The collected results of a group, by scene.
 std::vector<CollectedCounts> counts_by_scene(const Evaluation& evaluation, std::size_t group);
 
-/// The counts of each run in one cell, both wheels added: of the condition, then of its refits,
-/// each in the same runs. Empty for a condition that is not scored.
-std::vector<std::vector<scoring::Classification>> points_by_fit(const CollectedCounts& counts,
-                                                                Condition condition,
-                                                                std::size_t cell);
+/// The counts of each run (the statistical samples): of an estimator's fit, then of its refits,
+/// each in the same runs.
+using CountsByFit = std::vector<std::vector<scoring::Classification>>;
+
+/// Those of a condition in one cell, both wheels added. Empty for a condition that is not scored.
+CountsByFit points_by_fit(const CollectedCounts& counts, Condition condition, std::size_t cell);
 
 /// A unique number for every scene and engine, for draws of their own.
 std::uint64_t stream_of(std::size_t scene, const std::string& simulator,
                         const Experiment& experiment);
-
-/// One estimator in one scene: counts of each run (the statistical samples), for the estimator's
-/// fit and for its refits.
-struct FitsAndRuns {
-  std::vector<scoring::Classification> runs;
-  std::vector<std::vector<scoring::Classification>> of_refit = {};
-};
-
-/// The same from the counts by fit: of the estimator's fit, then of its refits.
-FitsAndRuns fits_and_runs(std::vector<std::vector<scoring::Classification>> by_fit);
 
 /// Balanced accuracy over all runs, and over each of the resamples.
 struct Resampled {
@@ -54,13 +47,13 @@ struct Resampled {
 /// centred on the estimate. Equal `bootstrap` draws the same refits in every scene, since
 /// estimators are fitted once for all scenes. `scene` separates the draws of runs of different
 /// scenes.
-Resampled balanced_accuracy(const FitsAndRuns& scores, std::uint64_t scene,
+Resampled balanced_accuracy(const CountsByFit& by_fit, std::uint64_t scene,
                             const scoring::BootstrapConfig& bootstrap);
 
 /// The same for fits of equal rank, such as those to different training sets: nothing is
 /// subtracted. The estimate is the mean over fits.
-Resampled balanced_accuracy_of_fits(const std::vector<std::vector<scoring::Classification>>& by_fit,
-                                    std::uint64_t scene, const scoring::BootstrapConfig& bootstrap);
+Resampled balanced_accuracy_of_fits(const CountsByFit& by_fit, std::uint64_t scene,
+                                    const scoring::BootstrapConfig& bootstrap);
 
 /// The mean of quantities that were resampled together. It has no resamples if one of them has
 /// none.

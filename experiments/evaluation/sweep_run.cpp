@@ -87,12 +87,6 @@ NoiseStep draws_at(const NoiseRun& noise, std::size_t step) {
   return draws;
 }
 
-std::vector<noise::SensorNoise> levels_of(std::span<const noise::NoiseCell> cells) {
-  std::vector<noise::SensorNoise> levels;
-  for (const noise::NoiseCell& cell : cells) levels.push_back(cell.levels());
-  return levels;
-}
-
 }  // namespace
 
 bool needs_no_guard(const RunSignals& run, std::span<const noise::SensorNoise> levels) {
@@ -174,7 +168,8 @@ std::vector<scoring::Classification> sweep_run(std::span<const Condition> condit
                                                const Experiment& experiment,
                                                const ShouldContinue& should_continue) {
   const scoring::ScoringConfig& scoring = experiment.scoring;
-  const std::vector<noise::SensorNoise> all_levels = levels_of(cells);
+  std::vector<noise::SensorNoise> all_levels;
+  for (const noise::NoiseCell& cell : cells) all_levels.push_back(cell.levels());
   const bool can_batch = needs_no_guard(run, all_levels);
   const std::size_t segments = run.segments.size();
   std::vector<scoring::Classification> counts;

@@ -46,14 +46,6 @@ struct FoldJob {
   std::vector<SceneCounts> counts;  ///< by trial
 };
 
-/// Noise of a held-out run. Its key differs from those of all other runs and tests.
-NoiseRun noise_of(const RunSignals& run, const Experiment& experiment) {
-  constexpr std::uint64_t tuning_stream = 0x74756e696e67;  // "tuning"
-  const auto bits = philox(seed_of_fit(experiment), tuning_stream, 0);
-  return noise_run(run, {.seed = (std::uint64_t{bits[0]} << 32U) | bits[1],
-                         .run = static_cast<std::uint64_t>(run.info.run)});
-}
-
 void count(EstimatorRunner& runner, const RunSignals& run, const NoiseRun& noise,
            const noise::SensorNoise& levels, const scoring::ScoringConfig& scoring,
            scoring::Classification& sum) {
@@ -105,7 +97,11 @@ std::vector<SceneCounts> run_fold(const FoldJob& job, const Fold& fold,
   const FitRuns runs{fold.fitted, fold.segments, experiment.scoring, stop_if_asked,
                      experiment.fit_servo_load};
   HeldOut held_out{fold.held_out, {}};
-  for (const RunSignals* run : fold.held_out) held_out.noise.push_back(noise_of(*run, experiment));
+  constexpr std::uint64_t tuning_stream = 0x74756e696e67;  // "tuning": no other run has its noise
+  for (const RunSignals* run : fold.held_out) {
+    const auto draws = draws_of(seed_of_fit(experiment), tuning_stream, 0, run->info.run);
+    held_out.noise.push_back(noise_run(*run, draws));
+  }
   // Trials with one fit follow each other: a phase model takes tens of megabytes.
   std::map<HyperparameterValues, std::vector<std::size_t>> trials_of;
   for (std::size_t number = 0; number < trials.size(); ++number) {

@@ -54,12 +54,6 @@ std::string text_of(const HyperparameterValues& hyperparameters) {
   return fmt::format("{}", fmt::join(all, " "));
 }
 
-HyperparameterValues hyperparameters_in(const std::string& text) {
-  std::istringstream words(text);
-  return hyperparameters_of(
-      std::vector<std::string>(std::istream_iterator<std::string>(words), {}));
-}
-
 /// Fits are named "_robot_sensors". The column omits the leading underscore.
 std::string fit_text(const std::string& fit) { return fit.starts_with('_') ? fit.substr(1) : fit; }
 
@@ -124,8 +118,10 @@ TunedHyperparameters read_chosen(const std::filesystem::path& run_directory) {
   TunedHyperparameters chosen;
   for (const std::vector<std::string>& row : table.rows) {
     if (cell(table, row, "chosen") != "1" || !cell(table, row, "fit").empty()) continue;
+    std::istringstream text(cell(table, row, "hyperparameters"));
+    const std::vector<std::string> words(std::istream_iterator<std::string>(text), {});
     chosen[cell(table, row, "simulator")][cell(table, row, "estimator")] =
-        hyperparameters_in(cell(table, row, "hyperparameters"));
+        hyperparameters_of(words);
   }
   return chosen;
 }

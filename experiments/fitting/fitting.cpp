@@ -21,16 +21,15 @@ using EngineAndScene = std::pair<std::string, std::string>;
 /// with an empty name of a scene.
 std::map<EngineAndScene, RunPointers> pools_of(const RunPointers& runs) {
   std::map<EngineAndScene, RunPointers> pools;
-  std::map<std::string, RunPointers> of_engine;
   std::map<std::string, bool> has_repeated_scene;
   for (const RunSignals* run : runs) {
     RunPointers& pool = pools[{run->info.simulator, run->info.scenario}];
     pool.push_back(run);
-    of_engine[run->info.simulator].push_back(run);
+    pools[{run->info.simulator, ""}].push_back(run);
     has_repeated_scene[run->info.simulator] |= pool.size() > 1;
   }
   for (const auto& [simulator, is_repeated] : has_repeated_scene) {
-    if (!is_repeated) pools[{simulator, ""}] = of_engine[simulator];
+    if (is_repeated) pools.erase({simulator, ""});
   }
   return pools;
 }

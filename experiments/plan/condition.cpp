@@ -29,16 +29,16 @@ std::vector<Condition> tested_on(std::vector<Condition> conditions, const std::s
   return conditions;
 }
 
-noise::NoiseKey draws_of(const Experiment& experiment, std::uint64_t stream, std::uint64_t number,
+noise::NoiseKey draws_of(std::uint64_t seed, std::uint64_t stream, std::uint64_t number,
                          std::int64_t run) {
-  const auto bits = philox(experiment.seed, stream, number);
+  const auto bits = philox(seed, stream, number);
   return {.seed = (std::uint64_t{bits[0]} << 32U) | bits[1],
           .run = static_cast<std::uint64_t>(run)};
 }
 
 noise::NoiseKey noise_key(const Experiment& experiment, int noise_seed, std::int64_t run) {
   constexpr std::uint64_t noise_stream = 0x6e6f697365;  // "noise"
-  return draws_of(experiment, noise_stream, static_cast<std::uint64_t>(noise_seed), run);
+  return draws_of(experiment.seed, noise_stream, static_cast<std::uint64_t>(noise_seed), run);
 }
 
 }  // namespace touchdown::experiments

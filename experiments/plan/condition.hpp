@@ -37,15 +37,13 @@ bool is_of_refit(std::string_view model_key);
 /// The experiment's estimators, each tested on the engine of its fit, "always contact" last.
 std::vector<Condition> own_engine_conditions(const Experiment& experiment);
 
-/// The conditions with tests on this engine.
 std::vector<Condition> tested_on(std::vector<Condition> conditions, const std::string& simulator);
 
 /// The key of random draws for a run, by stream and number. It is independent of all other uses of
-/// the experiment's seed.
-noise::NoiseKey draws_of(const Experiment& experiment, std::uint64_t stream, std::uint64_t number,
+/// the seed.
+noise::NoiseKey draws_of(std::uint64_t seed, std::uint64_t stream, std::uint64_t number,
                          std::int64_t run);
 
-/// The key of one noise realisation.
 noise::NoiseKey noise_key(const Experiment& experiment, int noise_seed, std::int64_t run);
 
 }  // namespace touchdown::experiments

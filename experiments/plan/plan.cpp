@@ -120,10 +120,11 @@ const ModelTasks& Plan::model_tasks_called(std::string_view name) const {
   return *found;
 }
 
-std::vector<std::size_t> Plan::runs_in(std::size_t group) const {
+std::vector<std::size_t> Plan::runs_in(std::size_t group, std::string_view simulator) const {
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (runs[i].role == RunRole::test && runs[i].group == group) indices.push_back(i);
+    const bool is_wanted = simulator.empty() || runs[i].simulator == simulator;
+    if (runs[i].role == RunRole::test && runs[i].group == group && is_wanted) indices.push_back(i);
   }
   return indices;
 }

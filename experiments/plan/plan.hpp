@@ -87,10 +87,8 @@ Measure measure_of_predictions(
           most * sizeof(Score)};
 }
 
-/// The purpose of a run.
 enum class RunRole : int { fit, test };
 
-/// "fit", "test".
 std::string_view to_text(RunRole role);
 
 /// A robot and its sensors, with a fit of their own.
@@ -168,7 +166,6 @@ struct TaskRange {
   std::size_t size() const { return end - begin; }
 };
 
-/// A sensor model of runs.
 struct PlannedSensors {
   std::string name;  ///< unique; empty for the experiment's own
   noise::SensorProfile profile;
@@ -177,7 +174,6 @@ struct PlannedSensors {
 /// The test runs that keep their signals after their evaluation, for studies and pictures.
 enum class KeptSignals : int { none, own, all };
 
-/// Everything that an experiment will compute.
 struct Plan {
   std::vector<PlannedSensors> sensors = {{}};  ///< the experiment's own first
   std::vector<PlannedRun> runs;                ///< by role (fit first), engine, scenario, index
@@ -197,8 +193,8 @@ struct Plan {
   std::optional<std::size_t> group_called(std::string_view name) const;
   /// The model tasks of this name. Errors: `Error` if there are none.
   const ModelTasks& model_tasks_called(std::string_view name) const;
-  /// The test runs of a group, in the order of the plan.
-  std::vector<std::size_t> runs_in(std::size_t group) const;
+  /// The test runs of a group, of one engine or of all, in the order of the plan.
+  std::vector<std::size_t> runs_in(std::size_t group, std::string_view simulator = {}) const;
 };
 
 /// Whether a run is simulated when it is needed, and its signals are dropped as soon as they are

@@ -45,8 +45,9 @@ std::vector<NamedScenario>::const_iterator find_named(const std::vector<NamedSce
 template <typename Read>
 std::vector<NamedScenario> scenarios_of(const Experiment& experiment, const Read& read) {
   std::vector<NamedScenario> scenarios;
-  for (const std::string& robot : robot_files(experiment)) {
-    for (const std::string& file : scenario_files(experiment)) {
+  const ExperimentFiles files = files_of(experiment);
+  for (const std::string& robot : files.robots) {
+    for (const std::string& file : files.scenarios) {
       if (find_named(scenarios, file, robot) != scenarios.end()) continue;
       scenarios.push_back({file, robot, read(file, robot, scenarios.size())});
       scenarios::Scenario& scenario = scenarios.back().scenario;
@@ -159,7 +160,7 @@ std::string state_key(const RunRequest& request) { return key_of(request.id, bui
 /// a file that is missing or wrong.
 std::vector<NamedSensors> read_sensors(Experiment& experiment) {
   std::vector<NamedSensors> sensors;
-  for (const std::string& file : sensor_files(experiment)) {
+  for (const std::string& file : files_of(experiment).sensors) {
     sensors.push_back({file, noise::find_sensor_profile(file)});
   }
   if (!experiment.sensors.empty() && noise::is_ideal(sensors.front().profile)) {
@@ -174,7 +175,7 @@ std::vector<NamedSensors> read_sensors(Experiment& experiment) {
 std::vector<NamedSensors> read_sensors(const Experiment& experiment,
                                        const std::filesystem::path& run_directory) {
   std::vector<NamedSensors> sensors;
-  for (const std::string& file : sensor_files(experiment)) {
+  for (const std::string& file : files_of(experiment).sensors) {
     const auto kept = YamlDocument::load(kept_file(run_directory, sensors.size()));
     sensors.push_back({file, from_yaml<noise::SensorProfile>(kept)});
   }
@@ -188,7 +189,7 @@ noise::SensorProfile profile_of(const std::vector<NamedSensors>& sensors, const 
 
 noise::NoiseKey sensor_key(const Experiment& experiment, std::int64_t run) {
   constexpr std::uint64_t sensor_stream = 0x73656e736f7273;  // "sensors"
-  return draws_of(experiment, sensor_stream, 0, run);
+  return draws_of(experiment.seed, sensor_stream, 0, run);
 }
 
 void report_through_sensors(const noise::SensorProfile& profile, const Experiment& experiment,

@@ -12,7 +12,6 @@
 
 namespace touchdown::experiments {
 
-/// The outcome of a planned run.
 struct RunReport {
   logs::Outcome outcome = logs::Outcome::finished;
   double duration = 0.0;    ///< s
@@ -37,7 +36,6 @@ struct Rollout {
   bool failed() const { return is_failure(report.outcome); }
 };
 
-/// Rollouts by their index in the plan.
 using Rollouts = std::map<std::size_t, Rollout>;
 
 /// Whether any test run can be scored: did not fail.
@@ -47,7 +45,6 @@ bool is_any_scored(const Rollouts& runs);
 const Rollout* test_run(const std::vector<Rollout>& runs, const std::string& simulator,
                         std::int64_t index);
 
-/// What to do with a run without a recording.
 enum class MissingRun : int { simulate, refuse };
 
 /// Called repeatedly during long computations; false stops them with `Stopped`.

@@ -97,7 +97,6 @@ bool is_still_there(const fs::path& file, int descriptor) {
          there.st_dev == here.st_dev && there.st_ino == here.st_ino;
 }
 
-/// The outcome of a request for a lock.
 enum class LockResult { taken, busy, no_locks };
 
 LockResult try_lock(int descriptor, Access access) {

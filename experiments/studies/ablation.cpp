@@ -106,12 +106,12 @@ AblationRow row_of(const std::vector<CollectedCounts>& scenes, const std::string
   for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
     SceneValues of_engines;
     for (const std::string& simulator : experiment.simulators) {
-      const FitsAndRuns scores =
-          fits_and_runs(points_by_fit(scenes[scene], {simulator, simulator, estimator}, cell));
-      if (scores.runs.empty()) continue;
+      const CountsByFit scores =
+          points_by_fit(scenes[scene], {simulator, simulator, estimator}, cell);
+      if (scores.empty() || scores.front().empty()) continue;
       of_engines.push_back(
           balanced_accuracy(scores, stream_of(scene, simulator, experiment), bootstrap));
-      row.runs += static_cast<int>(scores.runs.size());
+      row.runs += static_cast<int>(scores.front().size());
     }
     if (!of_engines.empty()) by_scene.push_back(std::move(of_engines));
   }

@@ -243,7 +243,7 @@ class BenchmarkStudy final : public SectionStudy<BenchmarkConfig> {
   std::optional<StudySection> section() const override {
     StudySection section = optional_section<BenchmarkConfig>(
         "benchmark", "Further robots and sensors; every scene is scored separately.");
-    section.files = [](const Experiment& experiment) -> StudyFiles {
+    section.files = [](const Experiment& experiment) -> ExperimentFiles {
       const auto* const benchmark = experiment.studies.find<BenchmarkConfig>();
       if (benchmark == nullptr) return {};
       return {.robots = benchmark->robots, .sensors = benchmark->sensors};
@@ -310,9 +310,9 @@ class BenchmarkStudy final : public SectionStudy<BenchmarkConfig> {
 
   StudyResult summarize(const Evaluation& evaluation,
                         const RunDirectory& directory) const override {
-    const BenchmarkResult found = write_benchmark(evaluation, directory);
+    std::string text = write_benchmark(evaluation, directory);
     write_overlap(evaluation, directory);
-    return {{benchmark_text(found, evaluation.request.experiment)}};
+    return {{std::move(text)}};
   }
 };
 

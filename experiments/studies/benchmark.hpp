@@ -134,14 +134,11 @@ struct Standings {
   std::vector<Difference> differences;
 };
 
-/// Standings of in-domain estimators that were scored in every scored run.
+/// Standings of in-domain estimators that were scored in every scored run. Those over the unseen
+/// scenes alone have differences of means only, and are empty without such scenes.
 std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows,
-                                 const scoring::BootstrapConfig& intervals);
-
-/// The same over the unseen scenes alone, with differences of means only. Empty without such
-/// scenes.
-std::vector<Standings> standings_of_unseen(const std::vector<BenchmarkRow>& rows,
-                                           const scoring::BootstrapConfig& intervals);
+                                 const scoring::BootstrapConfig& intervals,
+                                 bool only_unseen = false);
 
 /// Standings over unseen scenes as a Markdown table for pages: a row per estimator of
 /// `benchmark.table`, on the first robot with its sensors. Each noise setting has a column with the
@@ -149,18 +146,8 @@ std::vector<Standings> standings_of_unseen(const std::vector<BenchmarkRow>& rows
 /// Empty without standings.
 std::string unseen_markdown(const std::vector<Standings>& unseen, const Experiment& experiment);
 
-/// The result of a benchmark.
-struct BenchmarkResult {
-  std::vector<BenchmarkRow> rows;
-  std::vector<Standings> standings;
-  std::vector<Standings> unseen;  ///< over the unseen scenes
-};
-
-/// Writes the tables of a benchmark with its submissions, and returns their rows and standings.
-BenchmarkResult write_benchmark(const Evaluation& evaluation, const RunDirectory& directory);
-
-/// The terminal text: standings for every robot with its sensors, and scores by scene for the
-/// experiment's own.
-std::string benchmark_text(const BenchmarkResult& result, const Experiment& experiment);
+/// Writes the tables of a benchmark with its submissions. Returns the text for the terminal:
+/// standings for every robot with its sensors, and scores by scene for the experiment's own.
+std::string write_benchmark(const Evaluation& evaluation, const RunDirectory& directory);
 
 }  // namespace touchdown::experiments

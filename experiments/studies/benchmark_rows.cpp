@@ -36,14 +36,6 @@ std::string fitted_on(const Condition& condition, const BenchmarkSetup& here,
   return fmt::format("{} {}", there->robot, there->sensors);
 }
 
-/// The row of a scene in which every run failed.
-BenchmarkRow without_scores(BenchmarkRow row) {
-  row.balanced_accuracy = {std::numeric_limits<double>::quiet_NaN()};
-  row.score = {};
-  row.extended = {};
-  return row;
-}
-
 std::vector<BenchmarkRow> rows_of(const Evaluation& evaluation) {
   const Experiment& experiment = evaluation.request.experiment;
   const std::vector<std::string>& scenes = experiment.test.scenarios;
@@ -81,11 +73,14 @@ std::vector<BenchmarkRow> rows_of(const Evaluation& evaluation) {
         for (std::size_t cell = 0; cell < experiment.highlights.size(); ++cell) {
           row.noise = experiment.highlights[cell];
           if (scored.samples[cell].empty()) {
-            if (row.runs > 0 && row.failed == row.runs) rows.push_back(without_scores(row));
+            row.balanced_accuracy = {std::numeric_limits<double>::quiet_NaN()};
+            row.score = {};
+            row.extended = {};
+            if (row.runs > 0 && row.failed == row.runs) rows.push_back(row);
             continue;
           }
-          const FitsAndRuns fits = fits_and_runs(points_by_fit(counts, scored.condition, cell));
-          row.refits = fits.of_refit.size();
+          const CountsByFit fits = points_by_fit(counts, scored.condition, cell);
+          row.refits = fits.size() - 1;
           row.balanced_accuracy =
               balanced_accuracy(fits, stream_of(scene, simulator, experiment), bootstrap);
           row.score = scoring::sum(scored.samples[cell]).wheels();
@@ -278,13 +273,12 @@ std::vector<Standings::Entry> entries_of(const Rows& rows, const std::vector<Nam
     entry.mean = interval_of(mean.value, level);
     entry.worst = 1.0;
     for (const BenchmarkRow* row : rows) {
-      if (row->estimator == mean.name) {
-        entry.log_loss += bits_of(*row);
-        entry.extra_switches += extra_switches_per_minute(*row);
-        ++entry.scored;
-      }
+      if (row->estimator != mean.name) continue;
+      entry.log_loss += bits_of(*row);
+      entry.extra_switches += extra_switches_per_minute(*row);
+      ++entry.scored;
       const double value = row->balanced_accuracy.estimate;
-      if (row->estimator != mean.name || value > entry.worst) continue;
+      if (value > entry.worst) continue;
       entry.worst = value;
       entry.worst_scene = row->scene;
       entry.worst_simulator = row->simulator;
@@ -319,9 +313,15 @@ void mark_not_significantly_worse(std::vector<Standings::Entry>& entries,
   }
 }
 
-/// Standings of in-domain rows; `with_scenes` adds the differences in every scene.
-std::vector<Standings> standings_of(const Rows& planned, bool with_scenes,
-                                    const scoring::BootstrapConfig& intervals) {
+}  // namespace
+
+std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows,
+                                 const scoring::BootstrapConfig& intervals, bool only_unseen) {
+  Rows planned;
+  for (const BenchmarkRow& row : rows) {
+    const bool is_wanted = !only_unseen || row.split == "unseen";
+    if (row.fitted_on == "own" && is_wanted) planned.push_back(&row);
+  }
   const double level = intervals.level;
   Rows own = planned;
   std::erase_if(own, [](const BenchmarkRow* row) { return !row->is_scored(); });
@@ -338,35 +338,13 @@ std::vector<Standings> standings_of(const Rows& planned, bool with_scenes,
                       }).size();
     }
     mark_not_significantly_worse(standings.entries, standings.differences);
-    for (const auto& scene : group_by(with_scenes ? alike : Rows(), scene_name)) {
+    for (const auto& scene : group_by(only_unseen ? Rows() : alike, scene_name)) {
       const auto pairs = all_pairs(scene.key, means_by_estimator(scene.rows, intervals), level);
       standings.differences.insert(standings.differences.end(), pairs.begin(), pairs.end());
     }
     all.push_back(std::move(standings));
   }
   return all;
-}
-
-Rows in_domain(const std::vector<BenchmarkRow>& rows) {
-  Rows own;
-  for (const BenchmarkRow& row : rows) {
-    if (row.fitted_on == "own") own.push_back(&row);
-  }
-  return own;
-}
-
-}  // namespace
-
-std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows,
-                                 const scoring::BootstrapConfig& intervals) {
-  return standings_of(in_domain(rows), true, intervals);
-}
-
-std::vector<Standings> standings_of_unseen(const std::vector<BenchmarkRow>& rows,
-                                           const scoring::BootstrapConfig& intervals) {
-  Rows unseen = in_domain(rows);
-  std::erase_if(unseen, [](const BenchmarkRow* row) { return row->split != "unseen"; });
-  return standings_of(unseen, false, intervals);
 }
 
 }  // namespace touchdown::experiments

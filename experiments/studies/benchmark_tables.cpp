@@ -312,60 +312,58 @@ std::string scenes_text(const Standings& standings, const std::string& simulator
   return text;
 }
 
-/// Writes `benchmark.csv`, `benchmark_standings.csv`, `benchmark_unseen.csv`,
-/// `benchmark_differences.csv`, `loads.csv`, all five as `benchmark.json`, and
-/// `benchmark_unseen.md`.
-void write_results(const BenchmarkResult& result, const Experiment& experiment,
-                   const RunDirectory& directory) {
-  const double level = experiment.intervals.bootstrap.level;
-  nlohmann::ordered_json json;
-  const auto write = [&](const std::string& name, const char* key, const auto& columns,
-                         const auto& rows) {
-    json[key] = json_of(directory.write_table(name, columns, rows));
-  };
-  write("benchmark.csv", "rows", row_columns(level), result.rows);
-  write("benchmark_standings.csv", "standings", with_setup(entry_columns()),
-        parts_of(result.standings, &Standings::entries));
-  write("benchmark_unseen.csv", "unseen", with_setup(entry_columns()),
-        parts_of(result.unseen, &Standings::entries));
-  write("benchmark_differences.csv", "differences", with_setup(pair_columns()),
-        parts_of(result.standings, &Standings::differences));
-  write("loads.csv", "loads", load_columns(), load_rows(result.rows));
-  write_atomically(directory.own_file("tables", "benchmark.json"), json.dump(1) + "\n");
-  const std::string markdown = unseen_markdown(result.unseen, experiment);
-  if (markdown.empty()) return;
-  write_atomically(directory.own_file("tables", "benchmark_unseen.md"), markdown);
+/// For the terminal. `unseen`: `unseen_markdown` of the second standings.
+std::string text_of(const std::vector<BenchmarkRow>& rows, const std::vector<Standings>& all,
+                    const std::vector<Standings>& unseen, const std::string& markdown,
+                    const Experiment& experiment) {
+  std::string text = fmt::format("Balanced accuracy by scene ({})\n", labels_text(experiment));
+  if (all.empty()) return text + "No run was scored.\n";
+  const Standings& first = all.front();
+  for (const Standings& standings : all) {
+    text += standings_text(standings, experiment);
+    if (standings.robot != first.robot || standings.sensors != first.sensors) continue;
+    for (const std::string& simulator : experiment.simulators) {
+      text += scenes_text(standings, simulator, rows, experiment);
+    }
+  }
+  if (unseen.empty()) return text;
+  return text + fmt::format(
+                    "\n{}, sensors {}: mean over the {} pairs of an unseen scene and an engine "
+                    "(tables/benchmark_unseen.md)\n\n{}",
+                    unseen.front().robot, unseen.front().sensors,
+                    unseen.front().entries.front().scored, markdown);
 }
 
 }  // namespace
 
-BenchmarkResult write_benchmark(const Evaluation& evaluation, const RunDirectory& directory) {
-  const scoring::BootstrapConfig& intervals = evaluation.request.experiment.intervals.bootstrap;
-  BenchmarkResult result{benchmark_rows(evaluation, directory), {}, {}};
-  result.standings = standings(result.rows, intervals);
-  result.unseen = standings_of_unseen(result.rows, intervals);
-  write_results(result, evaluation.request.experiment, directory);
-  return result;
-}
-
-std::string benchmark_text(const BenchmarkResult& result, const Experiment& experiment) {
-  std::string text = fmt::format("Balanced accuracy by scene ({})\n", labels_text(experiment));
-  if (result.standings.empty()) return text + "No run was scored.\n";
-  const Standings& first = result.standings.front();
-  for (const Standings& standings : result.standings) {
-    text += standings_text(standings, experiment);
-    if (standings.robot != first.robot || standings.sensors != first.sensors) continue;
-    for (const std::string& simulator : experiment.simulators) {
-      text += scenes_text(standings, simulator, result.rows, experiment);
-    }
+/// The files: `benchmark.csv`, `benchmark_standings.csv`, `benchmark_unseen.csv`,
+/// `benchmark_differences.csv`, `loads.csv`, all five as `benchmark.json`, and
+/// `benchmark_unseen.md`.
+std::string write_benchmark(const Evaluation& evaluation, const RunDirectory& directory) {
+  const Experiment& experiment = evaluation.request.experiment;
+  const scoring::BootstrapConfig& intervals = experiment.intervals.bootstrap;
+  const std::vector<BenchmarkRow> rows = benchmark_rows(evaluation, directory);
+  const std::vector<Standings> all = standings(rows, intervals);
+  const std::vector<Standings> unseen = standings(rows, intervals, true);
+  nlohmann::ordered_json json;
+  const auto write = [&](const std::string& name, const char* key, const auto& columns,
+                         const auto& table_rows) {
+    json[key] = json_of(directory.write_table(name, columns, table_rows));
+  };
+  write("benchmark.csv", "rows", row_columns(intervals.level), rows);
+  write("benchmark_standings.csv", "standings", with_setup(entry_columns()),
+        parts_of(all, &Standings::entries));
+  write("benchmark_unseen.csv", "unseen", with_setup(entry_columns()),
+        parts_of(unseen, &Standings::entries));
+  write("benchmark_differences.csv", "differences", with_setup(pair_columns()),
+        parts_of(all, &Standings::differences));
+  write("loads.csv", "loads", load_columns(), load_rows(rows));
+  write_atomically(directory.own_file("tables", "benchmark.json"), json.dump(1) + "\n");
+  const std::string markdown = unseen_markdown(unseen, experiment);
+  if (!unseen.empty()) {
+    write_atomically(directory.own_file("tables", "benchmark_unseen.md"), markdown);
   }
-  const std::string markdown = unseen_markdown(result.unseen, experiment);
-  if (markdown.empty()) return text;
-  return text + fmt::format(
-                    "\n{}, sensors {}: mean over the {} pairs of an unseen scene and an engine "
-                    "(tables/benchmark_unseen.md)\n\n{}",
-                    result.unseen.front().robot, result.unseen.front().sensors,
-                    result.unseen.front().entries.front().scored, markdown);
+  return text_of(rows, all, unseen, markdown, experiment);
 }
 
 }  // namespace touchdown::experiments

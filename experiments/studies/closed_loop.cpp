@@ -26,8 +26,23 @@ constexpr const char* closed_loop_name = "closed_loop";
 /// Sources side by side in a film: more would not be readable.
 constexpr std::size_t most_panels = 4;
 
-std::size_t points_of(const ClosedLoopScene& scene) {
-  return std::max<std::size_t>(1, scene.values.size()) * scene.noise.size() * scene.delay.size();
+/// The points of a scene. At most one of values, noise and delay has more than one entry.
+std::vector<ClosedLoopCell> points(const ClosedLoopScene& scene, ClosedLoopCell cell) {
+  std::vector<double> values = scene.values;
+  if (values.empty()) values = {std::numeric_limits<double>::quiet_NaN()};
+  std::vector<ClosedLoopCell> cells;
+  for (const double value : values) {
+    for (const noise::NoiseCell& noise : scene.noise) {
+      for (const double delay : scene.delay) {
+        cell.point = cells.size();
+        cell.value = value;
+        cell.noise = noise;
+        cell.delay = delay;
+        cells.push_back(cell);
+      }
+    }
+  }
+  return cells;
 }
 
 }  // namespace
@@ -65,8 +80,8 @@ static void describe(Fields& fields, ClosedLoopFilm& film, const ClosedLoopConfi
   fields("scene", film.scene, 0, static_cast<int>(config.scenes.size()) - 1)
       .range("an index in closed_loop.scenes")
       .doc("Index of the scene.");
-  const std::size_t points = points_of(config.scenes[static_cast<std::size_t>(film.scene)]);
-  fields("point", film.point, 0, static_cast<int>(points) - 1)
+  const std::size_t count = points(config.scenes[static_cast<std::size_t>(film.scene)], {}).size();
+  fields("point", film.point, 0, static_cast<int>(count) - 1)
       .range("an index in its values")
       .doc("Index of the varied value.");
   fields("run", film.run, 0, config.runs - 1).range("0 to runs - 1").doc("Index of the run.");
@@ -105,29 +120,6 @@ static void describe(Fields& fields, ClosedLoopConfig& config, const Experiment&
       .doc("Runs per scene and value, the same for all contact sources.");
   fields.section("film", config.film, config).doc("The run that is filmed.");
 }
-
-namespace {
-
-/// The points of a scene. At most one of values, noise and delay has more than one entry.
-std::vector<ClosedLoopCell> points(const ClosedLoopScene& scene, ClosedLoopCell cell) {
-  std::vector<double> values = scene.values;
-  if (values.empty()) values = {std::numeric_limits<double>::quiet_NaN()};
-  std::vector<ClosedLoopCell> cells;
-  for (const double value : values) {
-    for (const noise::NoiseCell& noise : scene.noise) {
-      for (const double delay : scene.delay) {
-        cell.point = cells.size();
-        cell.value = value;
-        cell.noise = noise;
-        cell.delay = delay;
-        cells.push_back(cell);
-      }
-    }
-  }
-  return cells;
-}
-
-}  // namespace
 
 std::vector<ClosedLoopCell> closed_loop_cells(const Experiment& experiment) {
   const auto& config = experiment.studies.at<ClosedLoopConfig>();
@@ -207,7 +199,7 @@ class ClosedLoopStudy final : public SectionStudy<ClosedLoopConfig> {
     StudySection section = optional_section<ClosedLoopConfig>(
         closed_loop_name, "Runs with contact feedback from estimators, the truth or no source.");
     section.files = [](const Experiment& experiment) {
-      StudyFiles files;
+      ExperimentFiles files;
       const auto* const config = experiment.studies.find<ClosedLoopConfig>();
       if (config == nullptr) return files;
       for (const ClosedLoopScene& scene : config->scenes) files.scenarios.push_back(scene.scenario);

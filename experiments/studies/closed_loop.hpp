@@ -77,7 +77,6 @@ struct ContactTrace {
   std::array<std::vector<float>, models::wheel_count> p_contact;
 };
 
-/// A closed-loop run.
 struct ClosedLoopRun {
   scenarios::Scenario scenario;  ///< as simulated
   logs::Recording recording;

@@ -26,58 +26,52 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// Sensors and noise between the robot and an estimator in the loop.
-struct ClosedLoopSensors {
-  noise::SensorProfile profile;
-  noise::NoiseKey sensor_draws;  ///< of the random parts of the profile
-  noise::SensorNoise levels;     ///< added to the output of the sensors
-  noise::NoiseKey noise_draws;
-};
-
-/// The state between control steps.
+/// An estimator in the loop: sensors and noise between it and the robot, and its state between
+/// control steps.
 struct LoopState {
   std::unique_ptr<ContactEstimator> estimator;
-  ClosedLoopSensors model;
+  noise::SensorProfile profile;
+  noise::NoiseKey sensor_draws;  ///< of the random parts of the profile
   noise::ReportingSensors sensors;
+  noise::SensorNoise levels;  ///< added to the output of the sensors
+  noise::NoiseKey noise_draws;
   std::uint64_t step = 0;
   Belief belief = {};
 };
 
+/// Records beliefs in `trace`, and returns their decisions.
+std::array<bool, models::wheel_count> record(
+    const std::array<WheelBelief, models::wheel_count>& beliefs, ContactTrace& trace) {
+  std::array<bool, models::wheel_count> in_contact = {};
+  for (std::size_t wheel = 0; wheel < in_contact.size(); ++wheel) {
+    in_contact[wheel] = beliefs[wheel].contact;
+    trace.contact[wheel].push_back(beliefs[wheel].contact ? 1 : 0);
+    trace.p_contact[wheel].push_back(static_cast<float>(beliefs[wheel].p_contact));
+  }
+  return in_contact;
+}
+
 /// Makes an estimator the contact source of a policy. At every control step it receives the signals
 /// of an offline evaluation of this run, so that both give the same decisions. At a step without a
-/// record the last belief holds. `period` in seconds. `trace` records the contact and must outlive
-/// the result.
-policies::WheelContact contact_source(std::unique_ptr<ContactEstimator> estimator,
-                                      const ClosedLoopSensors& sensors, double period,
-                                      ContactTrace& trace) {
-  estimator->reset();
-  const auto state = std::make_shared<LoopState>(
-      LoopState{std::move(estimator), sensors,
-                noise::ReportingSensors(sensors.profile, sensors.sensor_draws, period)});
+/// record the last belief holds. `trace` records the contact and must outlive the result.
+policies::WheelContact contact_source(LoopState loop, ContactTrace& trace) {
+  loop.estimator->reset();
+  const auto state = std::make_shared<LoopState>(std::move(loop));
   return [state, &trace](const models::Observation& observation, const models::Action* previous) {
     models::Observation reported = observation;
     state->sensors.report(std::span(&reported, 1));
     if (!std::isnan(reported.time)) {
-      reported =
-          noise::with_noise(reported, state->model.noise_draws, state->step, state->model.levels);
+      reported = noise::with_noise(reported, state->noise_draws, state->step, state->levels);
       std::optional<models::Action> action;
       if (previous != nullptr) {
         action = *previous;
-        noise::report_targets(state->model.profile, state->model.sensor_draws,
-                              std::span(&*action, 1));
+        noise::report_targets(state->profile, state->sensor_draws, std::span(&*action, 1));
       }
       state->belief =
           state->estimator->update(logs::signals_from(reported, action ? &*action : nullptr));
     }
     ++state->step;
-    std::array<bool, models::wheel_count> in_contact = {};
-    for (std::size_t wheel = 0; wheel < in_contact.size(); ++wheel) {
-      const auto& belief = state->belief.wheel[wheel];
-      in_contact[wheel] = belief.contact;
-      trace.contact[wheel].push_back(belief.contact ? 1 : 0);
-      trace.p_contact[wheel].push_back(static_cast<float>(belief.p_contact));
-    }
-    return in_contact;
+    return record(state->belief.wheel, trace);
   };
 }
 
@@ -85,12 +79,8 @@ policies::WheelContact contact_source(std::unique_ptr<ContactEstimator> estimato
 policies::WheelContact recorded(policies::WheelContact contact, ContactTrace& trace) {
   return [contact = std::move(contact), &trace](const models::Observation& observation,
                                                 const models::Action* previous) {
-    const std::array<bool, models::wheel_count> in_contact = contact(observation, previous);
-    for (std::size_t wheel = 0; wheel < in_contact.size(); ++wheel) {
-      trace.contact[wheel].push_back(in_contact[wheel] ? 1 : 0);
-      trace.p_contact[wheel].push_back(in_contact[wheel] ? 1.0F : 0.0F);
-    }
-    return in_contact;
+    const auto [left, right] = contact(observation, previous);
+    return record({{{left ? 1.0 : 0.0, left}, {right ? 1.0 : 0.0, right}}}, trace);
   };
 }
 
@@ -148,11 +138,12 @@ ClosedLoopRun run_closed_loop(const RunRequest& request, const ClosedLoopCell& c
   } else {
     EstimatorSetup setup = robot_setup(experiment, scenario, scenes);
     setup.sample_rate = 1.0 / period;
-    source = contact_source(
-        estimator_of(experiment, cell, models, setup),
-        {profile_of(request.sensors, experiment.sensors), sensor_key(experiment, run),
-         cell.noise.levels(), noise_key(experiment, 0, run)},
-        period, loop.trace);
+    const noise::SensorProfile profile = profile_of(request.sensors, experiment.sensors);
+    const noise::NoiseKey draws = sensor_key(experiment, run);
+    source = contact_source({estimator_of(experiment, cell, models, setup), profile, draws,
+                             noise::ReportingSensors(profile, draws, period), cell.noise.levels(),
+                             noise_key(experiment, 0, run)},
+                            loop.trace);
   }
   loop.recording = scenarios::play(
       scenario, *simulator, experiment.seed, run,

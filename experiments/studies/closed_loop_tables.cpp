@@ -194,35 +194,24 @@ FigureAxis axis_of(const std::string& varied) {
   return {"value", varied};
 }
 
-/// One scene under one law, with at most one varied quantity.
-struct SurvivalFigure {
-  std::string scene, law, varied;
-  std::string sensors, runs;
-};
-
-std::string caption_of(const SurvivalFigure& figure, double level) {
-  if (figure.varied.empty()) {
-    return fmt::format(
-        "{} runs, with the same initial conditions for all contact sources; exact {:.0f} % "
-        "intervals of the share of runs that finish; root mean square speed of the tyres over the "
-        "ground at landings. Oracles read the simulator's state.",
-        figure.runs, 100.0 * level);
-  }
+/// `varied`: empty if nothing is.
+std::string caption_of(const std::string& runs, const std::string& varied, double level) {
+  const bool has_curves = !varied.empty();
   return fmt::format(
-      "{} runs per point, with the same initial conditions for all contact sources. Bars: exact "
-      "{:.0f} % intervals of the share of runs that finish; curves are shifted sideways a little. "
-      "Below: root mean square speed of the tyres over the ground at landings. Oracles read the "
-      "simulator's state.",
-      figure.runs, 100.0 * level);
+      "{} runs{}, with the same initial conditions for all contact sources{} exact {:.0f} % "
+      "intervals of the share of runs that finish; {}root mean square speed of the tyres over the "
+      "ground at landings. Oracles read the simulator's state.",
+      runs, has_curves ? " per point" : "", has_curves ? ". Bars:" : ";", 100.0 * level,
+      has_curves ? "curves are shifted sideways a little. Below: " : "");
 }
 
-FigureSpec spec_of(const SurvivalFigure& figure, const Table& survival,
-                   const Experiment& experiment) {
+/// One scene under one law, with at most one varied quantity.
+FigureSpec spec_of(const std::string& scene, const std::string& law, const std::string& varied,
+                   const Table& survival, const Experiment& experiment) {
   FigureSpec spec;
-  spec.name = fmt::format("survival_{}_{}{}{}", figure.scene, figure.law,
-                          figure.varied.empty() ? "" : "_", figure.varied);
+  spec.name = fmt::format("survival_{}_{}{}{}", scene, law, varied.empty() ? "" : "_", varied);
   spec.table = "survival.csv";
-  spec.where = {{"scenario", figure.scene}, {"policy", figure.law}, {"varied", figure.varied}};
+  spec.where = {{"scenario", scene}, {"policy", law}, {"varied", varied}};
   const FigureGroups engines =
       groups_in(survival, "simulator", simulators::simulator_title, spec.where);
   const FigureGroups contacts = groups_in(survival, "contact", contact_title, spec.where);
@@ -236,7 +225,7 @@ FigureSpec spec_of(const SurvivalFigure& figure, const Table& survival,
                                  .title = "tyre speed at landings",
                                  .unit = "m/s",
                                  .from = 0.0};
-  if (figure.varied.empty()) {
+  if (varied.empty()) {
     spec.rows = contacts;
     spec.series = engines;
     spec.measures = {finished,
@@ -248,13 +237,9 @@ FigureSpec spec_of(const SurvivalFigure& figure, const Table& survival,
     spec.panels = engines;
     spec.series = contacts;
     spec.colour_order = experiment.estimators;
-    spec.x = axis_of(figure.varied);
+    spec.x = axis_of(varied);
     spec.measures = {finished, landing_speed};
   }
-  spec.title =
-      fmt::format("Closed-loop results by contact source: {}, {}, {} sensors", figure.scene,
-                  figure.law == "soft_landing" ? "soft landing" : figure.law, figure.sensors);
-  spec.caption = caption_of(figure, experiment.intervals.bootstrap.level);
   spec.alt = "Share of runs that finish." + values_text(spec, survival);
   return spec;
 }
@@ -267,9 +252,11 @@ std::vector<FigureSpec> survival_figures(const Table& survival, const Experiment
                       [](const auto&) { return std::string(); });
   std::vector<FigureSpec> specs;
   for (const FigureGroup& of : figures.groups) {
-    const std::vector<std::string>& values = of.values;
-    specs.push_back(
-        spec_of({values[0], values[1], values[2], values[3], values[4]}, survival, experiment));
+    const std::string &scene = of.values[0], &law = of.values[1], &varied = of.values[2];
+    FigureSpec& spec = specs.emplace_back(spec_of(scene, law, varied, survival, experiment));
+    spec.title = fmt::format("Closed-loop results by contact source: {}, {}, {} sensors", scene,
+                             law == "soft_landing" ? "soft landing" : law, of.values[3]);
+    spec.caption = caption_of(of.values[4], varied, experiment.intervals.bootstrap.level);
   }
   return specs;
 }

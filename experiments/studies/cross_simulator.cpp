@@ -183,9 +183,8 @@ void plan_changed_runs(const RunRequest& request, const ChangedRuns& changed,
 }
 
 std::vector<std::size_t> runs_of(const ChangedRuns& changed, const Plan& plan) {
-  std::vector<std::size_t> runs = plan.runs_in(plan.group_called(group_name(changed)).value());
-  std::erase_if(runs,
-                [&](std::size_t run) { return plan.runs[run].simulator != changed.simulator; });
+  const std::size_t group = plan.group_called(group_name(changed)).value();
+  std::vector<std::size_t> runs = plan.runs_in(group, changed.simulator);
   runs.resize(static_cast<std::size_t>(changed.runs));
   return runs;
 }

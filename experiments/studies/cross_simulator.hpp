@@ -186,7 +186,6 @@ struct Transfer {
 /// Every estimator, fit engine and test engine of the experiment, "always contact" last.
 std::vector<Condition> transfer_conditions(const Experiment& experiment);
 
-/// The verdict on an estimator's transfers.
 struct Verdict {
   std::string estimator;
   bool holds = false;
@@ -202,7 +201,6 @@ struct Verdict {
 /// fail.
 std::vector<Verdict> verdicts(const std::vector<Transfer>& transfers, const Experiment& experiment);
 
-/// The estimators that fail a demanded verdict.
 std::vector<std::string> failed_demands(const std::vector<Verdict>& verdicts);
 
 /// Scores of an estimator, fitted on the nominal scene, in a varied one.
@@ -264,7 +262,6 @@ std::vector<CauseEffect> cause_effects(const std::vector<std::vector<RunFacts>>&
 /// Errors: `Error` when the robot completes no run in every setting.
 Causes causes_of(const Evaluation& evaluation);
 
-/// The result of the cross-simulator check.
 struct CrossSimulatorResult {
   Experiment experiment;
   Agreement agreement;

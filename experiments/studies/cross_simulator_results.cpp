@@ -272,26 +272,19 @@ std::vector<std::string> failed_demands(const std::vector<Verdict>& verdicts) {
 
 namespace {
 
-std::vector<const Rollout*> test_runs(const Evaluation& evaluation, const std::string& simulator) {
-  std::vector<const Rollout*> found;
-  for (const std::size_t index : evaluation.plan.runs_in(0)) {
-    const Rollout& run = evaluation.runs.at(index);
-    if (run.plan.simulator == simulator) found.push_back(&run);
-  }
-  return found;
-}
-
 /// The agreement over the runs that the robot completes in both engines.
 Agreement agreement_of(const Evaluation& evaluation) {
   const Experiment& experiment = evaluation.request.experiment;
-  const auto first = test_runs(evaluation, experiment.simulators[0]);
-  const auto second = test_runs(evaluation, experiment.simulators[1]);
+  const auto first = evaluation.plan.runs_in(0, experiment.simulators[0]);
+  const auto second = evaluation.plan.runs_in(0, experiment.simulators[1]);
   std::vector<RunFacts> first_facts;
   std::vector<RunFacts> second_facts;
   for (std::size_t i = 0; i < first.size(); ++i) {
-    if (first[i]->failed() || second[i]->failed()) continue;
-    first_facts.push_back(facts_of(*first[i], experiment));
-    second_facts.push_back(facts_of(*second[i], experiment));
+    const Rollout& one = evaluation.runs.at(first[i]);
+    const Rollout& other = evaluation.runs.at(second[i]);
+    if (one.failed() || other.failed()) continue;
+    first_facts.push_back(facts_of(one, experiment));
+    second_facts.push_back(facts_of(other, experiment));
   }
   if (first_facts.empty()) {
     throw Error("there is no test run that the robot completes in both engines");

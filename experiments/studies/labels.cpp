@@ -65,8 +65,7 @@ std::vector<LabelRow> label_rows(const Evaluation& evaluation) {
   for (const std::string& simulator : experiment.simulators) {
     const std::vector<Condition> conditions = tested_on(group.conditions, simulator);
     std::vector<std::vector<MeasuredScores<scoring::Classification>>> runs;
-    for (const std::size_t run : evaluation.plan.runs_in(0)) {
-      if (evaluation.plan.runs[run].simulator != simulator) continue;
+    for (const std::size_t run : evaluation.plan.runs_in(0, simulator)) {
       runs.push_back(
           measured<scoring::Classification>(labels_name, run, evaluation.plan, evaluation.saved));
       if (runs.back().empty()) runs.pop_back();

@@ -16,8 +16,6 @@ namespace touchdown::experiments {
 
 namespace {
 
-constexpr double not_defined = std::numeric_limits<double>::quiet_NaN();
-
 long cell_of(double torque) { return std::lround(torque / torque_cell); }
 
 /// The share of all steps in each cell of the (knee, wheel) plane.
@@ -57,7 +55,7 @@ double autocorrelation_time(const std::vector<TorqueSegment>& segments, Joint jo
   for (double lag = shortest; lag <= longest; lag = std::max(lag + shortest, 1.05 * lag)) {
     if (autocovariance(segments, joint, mean, lag) < variance / std::numbers::e) return lag;
   }
-  return not_defined;
+  return NAN;
 }
 
 }  // namespace
@@ -86,13 +84,10 @@ TorqueDistribution distribution_of(const std::vector<TorqueSegment>& segments, J
   for (const TorqueSegment& segment : segments) {
     all.insert(all.end(), (segment.*joint).begin(), (segment.*joint).end());
   }
-  if (all.empty()) {
-    return {0,           not_defined, not_defined, {not_defined, not_defined, not_defined},
-            not_defined, not_defined};
-  }
+  if (all.empty()) return {};
   std::sort(all.begin(), all.end());
   const auto count = static_cast<double>(all.size());
-  TorqueDistribution distribution{.samples = static_cast<std::int64_t>(all.size())};
+  TorqueDistribution distribution{.samples = static_cast<std::int64_t>(all.size()), .mean = 0.0};
   for (const double torque : all) distribution.mean += torque / count;
   double variance = 0.0;
   for (const double torque : all) variance += std::pow(torque - distribution.mean, 2) / count;
@@ -125,7 +120,7 @@ std::vector<double> density_of(const std::vector<TorqueSegment>& segments, Joint
 double overlap(const std::vector<TorqueSegment>& a, const std::vector<TorqueSegment>& b) {
   const SharesByCell in_a = shares_by_cell(a);
   const SharesByCell in_b = shares_by_cell(b);
-  if (in_a.empty() || in_b.empty()) return not_defined;
+  if (in_a.empty() || in_b.empty()) return NAN;
   std::vector<double> p, q;  // in the cells of `a`, outside of which it is zero
   for (const auto& [cell, share] : in_a) {
     const auto other = in_b.find(cell);
@@ -238,9 +233,8 @@ std::vector<EngineTorques> torques_by_engine(const Evaluation& evaluation) {
   for (const std::string& simulator : experiment.simulators) {
     EngineTorques& engine = engines.emplace_back(EngineTorques{simulator});
     TorqueSegments segments;
-    for (const std::size_t index : evaluation.plan.runs_in(0)) {
+    for (const std::size_t index : evaluation.plan.runs_in(0, simulator)) {
       const Rollout& run = evaluation.runs.at(index);
-      if (run.plan.simulator != simulator) continue;
       ++engine.runs;
       if (run.failed()) {
         ++engine.failed;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -32,14 +33,14 @@ inline constexpr std::array<double, 3> quantiles = {0.5, 0.9, 0.99};
 /// The distribution of one joint's |torque| over all segments (N·m); NaN without steps.
 struct TorqueDistribution {
   std::int64_t samples = 0;
-  double mean = 0.0;
-  double deviation = 0.0;
+  double mean = NAN;
+  double deviation = NAN;
   /// Smallest values with at least these probabilities.
-  std::array<double, quantiles.size()> quantile = {};
-  double largest = 0.0;
+  std::array<double, quantiles.size()> quantile = {NAN, NAN, NAN};
+  double largest = NAN;
   /// The first lag with an autocorrelation below 1/e (s). The search goes in steps of 5 %, at least
   /// 1 ms, up to 10 s; NaN if there is none.
-  double autocorrelation_time = 0.0;
+  double autocorrelation_time = NAN;
 };
 TorqueDistribution distribution_of(const std::vector<TorqueSegment>& segments, Joint joint);
 

@@ -215,8 +215,8 @@ std::vector<OdometryRow> scored_rows(const Evaluation& evaluation, const Benchma
     row.robot = setup.robot;
     row.sensors = setup.sensors;
   }
-  for (const std::size_t index : runs_in_scene(evaluation.plan, experiment, setup.group, scene)) {
-    if (evaluation.plan.runs[index].simulator != simulator) continue;
+  for (const std::size_t index :
+       runs_in_scene(evaluation.plan, experiment, setup.group, scene, simulator)) {
     const bool failed = evaluation.runs.at(index).failed();
     std::vector<scoring::TrajectoryScore> scores;  // by contact source, summed over noise seeds
     for (const auto& found : measured<scoring::TrajectoryScore>(

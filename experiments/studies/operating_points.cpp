@@ -56,7 +56,6 @@ void describe(Fields& fields, OperatingPointsConfig& config, const Experiment& /
       .doc("P(contact) beyond one of these for 20 ms changes a decision, too.");
 }
 
-/// The pairs of thresholds.
 std::vector<OperatingPoint> points_of(const OperatingPointsConfig& config) {
   std::vector<OperatingPoint> points;
   for (const double leave_below : config.leave_below) {
@@ -129,8 +128,8 @@ std::map<std::pair<std::uint32_t, std::uint32_t>, PointScores> point_scores(
     const Evaluation& evaluation, std::size_t scene, const std::string& simulator) {
   const Plan& plan = evaluation.plan;
   std::map<std::pair<std::uint32_t, std::uint32_t>, PointScores> sums;
-  for (const std::size_t run : runs_in_scene(plan, evaluation.request.experiment, 0, scene)) {
-    if (plan.runs[run].simulator != simulator) continue;
+  for (const std::size_t run :
+       runs_in_scene(plan, evaluation.request.experiment, 0, scene, simulator)) {
     for (const auto& found :
          measured<scoring::OperatingScore>(operating_points_name, run, plan, evaluation.saved)) {
       PointScores& sum = sums[{found.condition, found.cell}];
@@ -300,7 +299,6 @@ std::vector<std::string> short_row(const OperatingMean& own,
   return cells;
 }
 
-/// For the terminal.
 std::string operating_points_text(const std::vector<OperatingMean>& means,
                                   const Experiment& experiment) {
   std::string text = fmt::format(

@@ -22,7 +22,6 @@ std::unique_ptr<const Study> sensor_sweep_study();
 /// Every study, in the order of planning, of texts and of their sections in written experiments.
 const std::vector<std::unique_ptr<const Study>>& studies();
 
-/// Those that the experiment file asks for.
 std::vector<const Study*> requested_studies(const Experiment& experiment);
 
 }  // namespace touchdown::experiments

@@ -22,7 +22,6 @@ class Study {
   /// Its section of experiment files. Without one, another key asks for the study.
   virtual std::optional<StudySection> section() const { return std::nullopt; }
 
-  /// Whether the experiment file asks for it.
   virtual bool is_requested(const Experiment& experiment) const = 0;
 
   /// Adds what it will need, before anything is planned.

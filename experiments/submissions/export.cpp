@@ -92,56 +92,41 @@ Written write_run(const ExportedRun& exported, const RunRequest& request, const 
   return written;
 }
 
-/// A line of `index.csv`: a file of the export.
-struct IndexRow {
-  const ExportedRun* exported;
-  const PlannedRun* run;
-  const Task* task;  ///< null for a fitted run
-  noise::NoiseCell noise;
-  std::size_t steps;
-};
-
-std::vector<IndexRow> index_of(const std::vector<ExportedRun>& runs,
-                               const std::vector<Written>& written, const RunRequest& request,
-                               const Plan& plan) {
-  std::vector<IndexRow> rows;
+/// `index.csv`: a line per file of the export.
+Table index_of(const std::vector<ExportedRun>& runs, const std::vector<Written>& written,
+               const RunRequest& request, const Plan& plan) {
+  std::vector<std::size_t> files;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (written[i].steps == 0) continue;
-    const bool has_noise = runs[i].task.has_value();
-    rows.push_back({&runs[i], &plan.runs[runs[i].run],
-                    has_noise ? &plan.tasks[*runs[i].task] : nullptr,
-                    has_noise ? request.experiment.highlights[runs[i].cell] : noise::NoiseCell(),
-                    written[i].steps});
+    if (written[i].steps > 0) files.push_back(i);
   }
-  return rows;
-}
-
-std::int64_t number_of(const PlannedRun& run) {
-  return run.role == RunRole::fit ? run.run - first_fit_run : run.run;
-}
-
-Columns<IndexRow> index_columns() {
-  using Row = IndexRow;
-  return Columns<Row>()
-      .text("file", [](const Row& row) { return row.exported->name + ".npz"; })
-      .text("robot", [](const Row& row) { return row.exported->robot; })
-      .text("sensors", [](const Row& row) { return row.exported->sensors; })
-      .text("simulator", [](const Row& row) { return row.run->simulator; })
-      .text("role", [](const Row& row) { return to_text(row.run->role); })
-      .text("scene", [](const Row& row) { return row.exported->scene; })
-      .number("run", [](const Row& row) { return number_of(*row.run); })
+  const auto run = [&](std::size_t i) -> const PlannedRun& { return plan.runs[runs[i].run]; };
+  const auto number = [&](std::size_t i) {
+    return run(i).role == RunRole::fit ? run(i).run - first_fit_run : run(i).run;
+  };
+  const auto seed = [&](std::size_t i) {
+    return runs[i].task ? std::to_string(plan.tasks[*runs[i].task].seed) : "";
+  };
+  const auto noise = [&](std::size_t i) {
+    return runs[i].task ? request.experiment.highlights[runs[i].cell] : noise::NoiseCell();
+  };
+  return Columns<std::size_t>()
+      .text("file", [&](std::size_t i) { return runs[i].name + ".npz"; })
+      .text("robot", [&](std::size_t i) { return runs[i].robot; })
+      .text("sensors", [&](std::size_t i) { return runs[i].sensors; })
+      .text("simulator", [&](std::size_t i) { return run(i).simulator; })
+      .text("role", [&](std::size_t i) { return to_text(run(i).role); })
+      .text("scene", [&](std::size_t i) { return runs[i].scene; })
+      .number("run", number)
       .text("noise",
-            [](const Row& row) {
-              return row.task == nullptr ? "" : std::to_string(row.exported->cell);
-            })
-      .text(
-          "seed",
-          [](const Row& row) { return row.task == nullptr ? "" : std::to_string(row.task->seed); })
-      .part(&Row::noise, noise_columns())
-      .count("steps", &Row::steps)
-      .level("control_period_s", [](const Row& row) {
-        return 1e-6 * static_cast<double>(row.run->scenario.simulation.steps.control_us);
-      });
+            [&](std::size_t i) { return runs[i].task ? std::to_string(runs[i].cell) : ""; })
+      .text("seed", seed)
+      .part(noise, noise_columns())
+      .count("steps", [&](std::size_t i) { return written[i].steps; })
+      .level("control_period_s",
+             [&](std::size_t i) {
+               return 1e-6 * static_cast<double>(run(i).scenario.simulation.steps.control_us);
+             })
+      .table(files);
 }
 
 /// Upper bound of the size of these runs on disk (bytes).
@@ -200,7 +185,7 @@ ExportReport export_runs(const RunRequest& request, const Plan& plan,
   if (report.files == 0) {
     throw Error("no run stayed upright: there is nothing to export: " + failures_text(failed));
   }
-  const std::string index = to_csv(index_columns().table(index_of(runs, written, request, plan)));
+  const std::string index = to_csv(index_of(runs, written, request, plan));
   sums["index.csv"] = write_file(part.path() / "index.csv", index).sha256;
   sums["README.md"] = write_file(part.path() / "README.md", readme_of(request)).sha256;
   std::string lines;

@@ -51,7 +51,6 @@ struct ExportRequest {
   BenchmarkPart part;
 };
 
-/// The result of an export.
 struct ExportReport {
   std::size_t files = 0;            ///< files of signals
   std::uintmax_t bytes = 0;         ///< of these files

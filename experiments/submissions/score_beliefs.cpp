@@ -29,13 +29,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file of beliefs about one run.
 struct BeliefFile {
   fs::path path;
   std::size_t run = 0;  ///< index in the exported runs
 };
 
-/// The files of a submission.
 struct Submission {
   std::vector<BeliefFile> files;  ///< about test runs, in the order of the runs
   std::size_t about_fitted = 0;   ///< files about fitted runs, which are not scored
@@ -142,7 +140,6 @@ void require_sound(const std::vector<BeliefFile>& files, const ShouldContinue& s
   }
 }
 
-/// The step of a belief.
 std::size_t step_of(const logs::Beliefs& beliefs, std::size_t index, const RunSignals& run) {
   const double period = run.period();
   const double step = std::round(beliefs.time[index] / period);
@@ -294,8 +291,7 @@ BeliefReport scored(const BeliefRequest& wanted, ExperimentContext& context) {
   const FittedModels no_models;
   const Evaluation evaluation{context.request,           plan, runs,
                               context.directory.store(), own,  no_models};
-  report.table =
-      benchmark_text(write_benchmark(evaluation, context.directory), context.request.experiment);
+  report.table = write_benchmark(evaluation, context.directory);
   write_results(context.request, context.directory);
   return report;
 }

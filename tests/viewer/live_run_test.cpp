@@ -45,7 +45,7 @@ void use(LiveRun& run, std::uint64_t step) {
       run.drive(0.5, 0.0);
       break;
     case 400:
-      run.drive(0.5, 0.4);
+      run.drive(0.0, 0.4);
       settings.noise = {.knee_torque = 1.0, .wheel_torque = 1.0, .acceleration = 5.0};
       run.change(settings);
       break;

@@ -45,7 +45,6 @@ struct RolloutConfig {
   int stride() const { return static_cast<int>(network_step_us / control_step_us); }
 };
 
-/// Layer sizes.
 struct NetworkSize {
   int hidden = 128;  ///< of the GRU
   int first = 256;   ///< first layer of the perceptron after it
@@ -67,7 +66,6 @@ TrainingConfig training_from_yaml(const YamlDocument& document);
 /// The configuration as YAML with every default; it reads back to the same configuration.
 std::string to_yaml(const TrainingConfig& config);
 
-/// The keys of a training file.
 std::vector<Key> training_keys();
 
 }  // namespace touchdown::training

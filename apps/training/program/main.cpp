@@ -13,20 +13,16 @@ namespace touchdown::training {
 
 namespace {
 
-struct Flags {
-  std::string file;
-  std::vector<std::string> overrides;
-};
-
-int run(const Flags& flags, const TrainingRequest& request) {
-  const std::filesystem::path file = find_resource(flags.file);
+int run(const std::string& training, const std::vector<std::string>& overrides,
+        const TrainingRequest& request) {
+  const std::filesystem::path file = find_resource(training);
   if (!request.network.empty()) {
     const std::filesystem::path network = request.network;
     check_outputs({{file, "training file"}},
                   {network, std::filesystem::path(network).replace_extension("json")});
   }
   YamlDocument document = YamlDocument::load(file);
-  for (const std::string& assignment : flags.overrides) document.override_value(assignment);
+  for (const std::string& assignment : overrides) document.override_value(assignment);
   experiments::require_yaml_kind(document, experiments::YamlKind::training);
   const TrainingResult result = train(training_from_yaml(document), request);
   const IterationRecord& chosen = result.history[result.chosen];
@@ -47,8 +43,9 @@ int run_program(int argc, char** argv) {
       "touchdown train experiments/nmn.yaml\n\n"
       "Trains the neural measurement network on simulated data.",
       "touchdown train");
-  Flags flags;
-  program.add_option("training", flags.file, "Training file")->required();
+  std::string training;
+  std::vector<std::string> overrides;
+  program.add_option("training", training, "Training file")->required();
   program
       .add_option("-o,--output", request.network, "Also write the weights here, with a manifest")
       ->type_name("FILE.npz");
@@ -57,31 +54,19 @@ int run_program(int argc, char** argv) {
   program.add_option("--threads", request.threads, "Threads (default: one per core)")
       ->check(CLI::PositiveNumber);
   program
-      .add_option("--set", flags.overrides,
+      .add_option("--set", overrides,
                   "Change a value of the file, for example optimiser.iterations=20")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  try {
-    program.parse(argc, argv);
-  } catch (const CLI::Success& success) {  // --help
-    return print_answer(program, success);
-  } catch (const CLI::ParseError& error) {
-    return complain(fmt::format("train: {}", refused_words(program, error.what())), wrong_request);
-  }
-  try {
+  return run_command(program, argc, argv, [&] {
     request.stop = &stop_on_interrupt();
-    return run(flags, request);
-  } catch (const InputError& error) {
-    return complain(error.what(), wrong_request);
-  } catch (const Stopped&) {
-    return complain(
-        "stopped; finished iterations are saved, and the same command continues from there",
-        failed);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    return complain(error.what(), failed);
-  }
+    try {
+      return run(training, overrides, request);
+    } catch (const Stopped&) {
+      throw Stopped(
+          "stopped; finished iterations are saved, and the same command continues from there");
+    }
+  });
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "core/files.hpp"
 #include "core/program.hpp"
 #include "core/resources.hpp"
+#include "core/yaml.hpp"
 #include "experiments/config/yaml_kind.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
@@ -37,6 +38,8 @@ enum class SubjectKind : int {
   run        ///< an experiment's run directory
 };
 
+namespace fs = std::filesystem;
+
 struct WatchRequest {
   std::string subject;
   std::vector<std::string> estimators;  ///< NAME or NAME=MODEL; empty: the default ones
@@ -47,24 +50,24 @@ struct WatchRequest {
   std::string robot;                   ///< of a log
   std::string mapping;                 ///< of a log in another layout
   std::string labels;                  ///< of a log
+  fs::path record;
+  fs::path film;
+  double film_offset = 0.0;
+  int width = 1280;
+  int height = 720;
+  bool statistics = false;
 };
-
-namespace fs = std::filesystem;
 
 constexpr const char* flat_scenario = "scenarios/flat.yaml";
 
 constexpr const char* usual_robot = "models/upkie.xml";
 
-std::vector<std::string> or_usual(std::vector<std::string> words) {
-  if (words.empty()) words = {"shipped", "upkie_observer"};
-  return words;
-}
-
 /// The estimators that are named NAME or NAME=MODEL. They may be used with any robot and rate.
 std::vector<experiments::LogEstimator> estimators_of(const std::vector<std::string>& words,
                                                      const experiments::LogRobot& robot) {
+  const std::vector<std::string> usual = {"shipped", "upkie_observer"};
   std::vector<experiments::LogEstimator> estimators;
-  for (const std::string& word : or_usual(words)) {
+  for (const std::string& word : words.empty() ? usual : words) {
     const auto split = word.find('=');
     experiments::LogEstimatorRequest request{
         .name = word.substr(0, split), .robot = robot, .transfer = true};
@@ -165,6 +168,10 @@ LiveRequest live_request(const WatchRequest& request, SubjectKind kind) {
   live.estimators = estimators_of(request.estimators,
                                   experiments::robot_called(live.scene.scenario.robot.string()));
   live.sensors = known_sensors();
+  live.record = request.record;
+  live.width = request.width;
+  live.height = request.height;
+  live.measures = request.statistics;
   return live;
 }
 
@@ -199,16 +206,6 @@ LoggedRun logged_run(const WatchRequest& request, const logs::ContactIntervals* 
   return run;
 }
 
-struct Flags {
-  WatchRequest request;
-  std::filesystem::path record;
-  std::filesystem::path film;
-  double film_offset = 0.0;
-  int width = 1280;
-  int height = 720;
-  bool statistics = false;
-};
-
 void print_statistics(const LiveSession& session) {
   print("{} pictures in {:.1f} s: {:.1f} a second\n", session.frames, session.seconds,
         session.frames / std::max(1e-3, session.seconds));
@@ -218,42 +215,35 @@ void print_statistics(const LiveSession& session) {
         each * session.times->scene, each * session.times->overlay, each * session.times->display);
 }
 
-int play(const Flags& flags, SubjectKind kind, const std::atomic<bool>& stop) {
-  LogSession session{.film = flags.film,
-                     .film_offset = flags.film_offset,
-                     .width = flags.width,
-                     .height = flags.height};
-  const std::string& labels = flags.request.labels;
-  if (!labels.empty()) session.labels = logs::read_begun_intervals(labels);
+int play(const WatchRequest& request, SubjectKind kind, const std::atomic<bool>& stop) {
+  LogSession session{.film = request.film,
+                     .film_offset = request.film_offset,
+                     .width = request.width,
+                     .height = request.height};
+  if (!request.labels.empty()) session.labels = logs::read_begun_intervals(request.labels);
   const logs::ContactIntervals* const shown = session.labels ? &*session.labels : nullptr;
-  print("{}", watch_log(logged_run(flags.request, shown, kind), session, stop));
+  print("{}", watch_log(logged_run(request, shown, kind), session, stop));
   return good;
 }
 
-int watch(Flags& flags, const std::atomic<bool>& stop) {
-  if (!flags.record.empty()) {
-    require_extension(flags.record, {".mpack"}, "a recording");
-    check_outputs({{flags.request.subject, "subject"}}, {flags.record});
+int watch(const WatchRequest& request, const std::atomic<bool>& stop) {
+  if (!request.record.empty()) {
+    require_extension(request.record, {".mpack"}, "a recording");
+    check_outputs({{request.subject, "subject"}}, {request.record});
   }
-  const WatchRequest& request = flags.request;
   const SubjectKind kind = request.mapping.empty() ? kind_of(request.subject) : SubjectKind::log;
   if (!request.labels.empty()) {
     require_extension(request.labels, {".csv"}, "a file of labels");
     if (kind != SubjectKind::log) throw InputError("--labels: expected a log to label");
   }
   if (kind == SubjectKind::log || kind == SubjectKind::run) {
-    if (!flags.record.empty()) {
+    if (!request.record.empty()) {
       throw InputError("--record: a log cannot be driven: name a scenario or a robot");
     }
-    return play(flags, kind, stop);
+    return play(request, kind, stop);
   }
-  if (!flags.film.empty()) throw InputError("--film: expected a log or a run directory to play");
-  LiveRequest live = live_request(request, kind);
-  live.record = flags.record;
-  live.width = flags.width;
-  live.height = flags.height;
-  live.measures = flags.statistics;
-  const LiveSession session = watch_live(std::move(live), stop);
+  if (!request.film.empty()) throw InputError("--film: expected a log or a run directory to play");
+  const LiveSession session = watch_live(live_request(request, kind), stop);
   for (const std::string& line : session.recorded) print("{}\n", line);
   print_statistics(session);
   return good;
@@ -270,8 +260,7 @@ int run_program(int argc, char** argv) {
       "real time and can be driven; a log, or an experiment's run directory, is played. `h` lists\n"
       "all keys.",
       "touchdown watch");
-  Flags flags;
-  WatchRequest& request = flags.request;
+  WatchRequest request;
   program
       .add_option("subject", request.subject,
                   "Scenario file or drawn scenario, robot's file, recording or log, or run "
@@ -284,7 +273,9 @@ int run_program(int argc, char** argv) {
       ->type_name("NAME[=MODEL]")
       ->allow_extra_args(false);
   program.add_option("--simulator", request.engine, "Physics engine (default: mujoco)")
-      ->check(CLI::IsMember({"mujoco", "bullet"}));
+      ->check([](const std::string& name) {
+        return not_one_of(name, {"mujoco", "bullet"});
+      });
   program.add_option("--run", request.run, "Index of the first random draw (default: none)")
       ->check(CLI::NonNegativeNumber);
   program.add_option("--seed", request.seed, "Random seed (default: 1)");
@@ -305,38 +296,23 @@ int run_program(int argc, char** argv) {
           "Contact labels of a log, to be edited; begun if the file is not there. Each edit "
           "is saved")
       ->type_name("FILE.csv");
-  program.add_option("--film", flags.film, "Film of a log, shown beside the robot")
+  program.add_option("--film", request.film, "Film of a log, shown beside the robot")
       ->type_name("FILE.mp4");
   program
-      .add_option("--film-offset", flags.film_offset,
+      .add_option("--film-offset", request.film_offset,
                   "Time of the film when that of the log is 0 (s; default: 0)")
       ->check(CLI::Range(-1e6, 1e6));
-  program.add_option("--record", flags.record, "Recording to write of what was driven")
+  program.add_option("--record", request.record, "Recording to write of what was driven")
       ->type_name("FILE.mpack");
-  program.add_flag("--statistics", flags.statistics,
+  program.add_flag("--statistics", request.statistics,
                    "Print how long the parts of a picture took, at the end of a live run");
   constexpr int least = 600;
   constexpr int most = 8000;
-  program.add_option("--width", flags.width, "Width of the window (pixels)")
+  program.add_option("--width", request.width, "Width of the window (pixels)")
       ->check(CLI::Range(least, most));
-  program.add_option("--height", flags.height, "Height of the window (pixels)")
+  program.add_option("--height", request.height, "Height of the window (pixels)")
       ->check(CLI::Range(least, most));
-  try {
-    program.parse(argc, argv);
-  } catch (const CLI::Success& success) {  // --help
-    return program.exit(success);
-  } catch (const CLI::ParseError& error) {
-    return complain(fmt::format("watch: {}", refused_words(program, error.what())), wrong_request);
-  }
-  try {
-    return watch(flags, stop_on_interrupt());
-  } catch (const InputError& error) {
-    return complain(with_option(program, error.what()), wrong_request);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    return complain(error.what(), failed);
-  }
+  return run_command(program, argc, argv, [&] { return watch(request, stop_on_interrupt()); });
 }
 
 }  // namespace

@@ -56,11 +56,12 @@ TEST(StudySections, AreWrittenInTheirPlacesAndReadBack) {
 
 TEST(StudySections, AddTheirFiles) {
   const Experiment benchmark = with_sections("benchmark: {robots: [r.yaml], sensors: [s.yaml]}\n");
-  EXPECT_THAT(robot_files(benchmark), ElementsAre("", "r.yaml"));
-  EXPECT_THAT(sensor_files(benchmark), ElementsAre("s.yaml"));
-  EXPECT_THAT(scenario_files(with_sections("closed_loop: {scenes: [{scenario: c.yaml}]}\n")).back(),
-              "c.yaml");
-  EXPECT_THAT(sensor_files(with_sections("sweep: {delay: [0.25]}\n")), ElementsAre());
+  EXPECT_THAT(files_of(benchmark).robots, ElementsAre("", "r.yaml"));
+  EXPECT_THAT(files_of(benchmark).sensors, ElementsAre("s.yaml"));
+  EXPECT_THAT(
+      files_of(with_sections("closed_loop: {scenes: [{scenario: c.yaml}]}\n")).scenarios.back(),
+      "c.yaml");
+  EXPECT_THAT(files_of(with_sections("sweep: {delay: [0.25]}\n")).sensors, ElementsAre());
 }
 
 TEST(StudySections, ComplainOnTheLineWithTheNearestKey) {

@@ -38,8 +38,8 @@ TEST(JointBootstrap, OfASingleRunHasNoInterval) {
 
 TEST(JointBootstrap, HasTheVarianceOfAMeanOfFewRuns) {
   const std::vector<std::int64_t> right = {90, 95, 70, 99, 85, 60};
-  FitsAndRuns scores;
-  for (const std::int64_t points : right) scores.runs.push_back(run_with(points, 100 - points));
+  CountsByFit scores(1);
+  for (const std::int64_t points : right) scores[0].push_back(run_with(points, 100 - points));
   const Resampled resampled = balanced_accuracy(scores, 0, many);
   // s²/n, with the unbiased s² of the runs' shares.
   const auto n = static_cast<double>(right.size());
@@ -58,10 +58,10 @@ TEST(JointBootstrap, HasTheVarianceOfAMeanOfFewRuns) {
 }
 
 /// Of two refits one is always right and the other never.
-FitsAndRuns of_two_refits() {
-  FitsAndRuns scores{{run_with(8, 2), run_with(8, 2)}};
-  scores.of_refit = {{run_with(10, 0), run_with(10, 0)}, {run_with(0, 10), run_with(0, 10)}};
-  return scores;
+CountsByFit of_two_refits() {
+  return {{run_with(8, 2), run_with(8, 2)},
+          {run_with(10, 0), run_with(10, 0)},
+          {run_with(0, 10), run_with(0, 10)}};
 }
 
 TEST(JointBootstrap, DrawsARefitForEveryResample) {
@@ -75,17 +75,17 @@ TEST(JointBootstrap, DrawsARefitForEveryResample) {
 TEST(JointBootstrap, HoldsTheEstimateThoughRefitsAreWorse) {
   // Refits to fewer different runs are worse by 0.02 on average, and scatter by less.
   for (const std::int64_t lost : {0, 20, 60}) {
-    FitsAndRuns scores;
+    CountsByFit scores(1);
     for (const std::int64_t right : {900, 890, 905, 880, 895, 915}) {
-      scores.runs.push_back(run_with(right, 1000 - right));
+      scores[0].push_back(run_with(right, 1000 - right));
     }
     for (const std::int64_t refit : {-5, -2, 0, 2, 5}) {
       std::vector<scoring::Classification> runs;
-      for (const scoring::Classification& run : scores.runs) {
+      for (const scoring::Classification& run : scores[0]) {
         const std::int64_t right = run.contact_as_contact - lost + refit;
         runs.push_back(run_with(right, 1000 - right));
       }
-      scores.of_refit.push_back(runs);
+      scores.push_back(runs);
     }
     const Resampled resampled = balanced_accuracy(scores, 0, many);
     const Interval interval = interval_of(resampled, 0.95);
@@ -118,11 +118,11 @@ TEST(JointBootstrap, OverScenesHasTheTwoLevelVariance) {
       std::vector<Resampled> values;
       for (std::uint64_t scene = 0; scene < scene_count; ++scene) {
         const double of_scene = 0.8 + scatter.of_scenes * normal(data, scene, 1000);
-        FitsAndRuns scores;
+        CountsByFit scores(1);
         for (std::uint64_t run = 0; run < run_count; ++run) {
           const double share = of_scene + scatter.of_runs * normal(data, scene, run);
           const std::int64_t right = std::llround(1e6 * share);
-          scores.runs.push_back(run_with(right, 1'000'000 - right));
+          scores[0].push_back(run_with(right, 1'000'000 - right));
         }
         values.push_back(balanced_accuracy(scores, scene, few));
       }
@@ -152,7 +152,7 @@ TEST(JointBootstrap, DrawsTheSameRefitInEveryScene) {
 }
 
 TEST(JointBootstrap, DrawsTheRunsOfEverySceneIndependently) {
-  const FitsAndRuns scores{{run_with(10, 0), run_with(0, 10)}};
+  const CountsByFit scores = {{run_with(10, 0), run_with(0, 10)}};
   const std::vector<double> one = balanced_accuracy(scores, 0, many).values;
   const std::vector<double> other = balanced_accuracy(scores, 1, many).values;
   double both = 0.0;
