@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <yaml-cpp/eventhandler.h>
 
 #include "core/files.hpp"
@@ -297,6 +298,12 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
   const std::string near = nearest(word, candidates);
   return near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near);
+}
+
+std::string not_one_of(std::string_view word, const std::vector<std::string>& candidates) {
+  if (std::find(candidates.begin(), candidates.end(), word) != candidates.end()) return "";
+  return fmt::format("'{}': expected {}{}", word, fmt::join(candidates, " or "),
+                     did_you_mean(word, candidates));
 }
 
 }  // namespace touchdown

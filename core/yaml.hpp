@@ -51,4 +51,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
 /// " (did you mean 'nearest'?)", or nothing if none is near.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
 
+/// Empty for one of the `candidates`; else "'bulet': expected mujoco or bullet (did you mean ...)".
+std::string not_one_of(std::string_view word, const std::vector<std::string>& candidates);
+
 }  // namespace touchdown

@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/yaml.hpp"
 
@@ -31,7 +32,9 @@ Option& Option::shows_default() {
 }
 
 Option& Option::one_of(const std::vector<std::string>& values) {
-  option_->check(CLI::IsMember(values));
+  // Its description is what shells offer.
+  option_->check(CLI::Validator([values](std::string& text) { return not_one_of(text, values); },
+                                fmt::format("{{{}}}", fmt::join(values, ",")), ""));
   return *this;
 }
 
