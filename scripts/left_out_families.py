@@ -1,22 +1,25 @@
 #!/usr/bin/env python3
 """Print the table of docs/results.md about families left out of the fit: what each family loses.
 
-Every family is tested with a fit to all families, and with one to all others. The scenes of a family are the
-same in both. Run it in the checkout: scripts/left_out_families.py [--fitted 4] [--tested 6] [--seed 102]
+A fit to all families and one to all others run on the same scenes and draws of a family. Run it in the checkout
+after `make python`: PYTHONPATH=build/release/python scripts/left_out_families.py [--fitted 4] [--tested 6]
 """
 
 import argparse
-import json
-import pathlib
 import random
 import statistics
 import subprocess
 
-from scene_tables import NOISE, by, family_of, rows_of, short, table
+import touchdown
 
-EXPERIMENT = "experiments/drawn_scenes.yaml"
+from scene_tables import NOISE, by, rows_of, short, table
+
 FIT_SEED = 101
 RESAMPLES = 2000
+EXPERIMENT = {"robot": "models/upkie.xml", "sensors": "noise/profiles/upkie.yaml", "recordings": "none",
+              "noise": {"torque": [0.0, 1.0], "accelerometer": [0.0, 5.0], "hips": True},
+              "highlights": [{"torque": 0.0, "accelerometer": 0.0}, {"torque": 1.0, "accelerometer": 5.0}],
+              "benchmark": {"robots": []}, "video": {"enabled": False}}
 
 
 def families(program):
@@ -25,24 +28,44 @@ def families(program):
     return [line.split()[0] for line in lines]
 
 
-def run(options, name, fitted, tested):
-    """Runs the experiment with these families, unless it has finished, and returns rows of its benchmark."""
-    folder = options.runs / name
-    draws = [("fit", FIT_SEED, options.fitted, fitted), ("test", options.seed, options.tested, tested)]
-    sets = [f"{part}.scenarios=" + json.dumps({"generate": {"seed": seed, "count": each * len(of), "families": of}})
-            for part, seed, each, of in draws]
-    sets += ["estimators=" + json.dumps(options.estimators), "simulators=" + json.dumps(options.simulators),
-             "benchmark.robots=[]", f"seed={options.seed}"]
-    words = [word for one in sets for word in ("--set", one)]
-    subprocess.run([options.program, "run", EXPERIMENT, "--no-pictures", "--out", folder, *words], check=True,
-                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    return rows_of(folder)
+def drawn(seed, each, of):
+    return {"generate": {"seed": seed, "count": each * len(of), "families": of}}
 
 
-def by_scene(rows, estimator):
-    """Mean over engines, by scene and noise. Scenes in which the robot fell are left out."""
-    own = [row for row in rows if row["estimator"] == estimator and row["balanced_accuracy"] != "nan"]
-    groups = by(own, lambda row: (row["scene"], *(row[name] for name in NOISE)))
+def fit(options, name, of):
+    """Fits the estimators to drawn scenes of these families, and returns the folder of their models."""
+    result = touchdown.run({**EXPERIMENT, "name": "left_out_" + name, "estimators": options.estimators,
+                            "simulators": options.simulators, "seed": options.seed,
+                            "fit": {"scenarios": drawn(FIT_SEED, options.fitted, of), "runs": 1, "servo_load": True},
+                            "test": {"scenarios": ["scenarios/flat.yaml"], "runs": 1}})
+    return result.path / "models"
+
+
+def decider(name, file):
+    """A class of an experiment that decides as this model does; the experiment finds it in this module."""
+    model = touchdown.Model.load(str(file))
+
+    def run(self, signals):
+        return touchdown.Estimator(model=model, sample_rate=signals["sample_rate"]).run(signals)["contact"]
+
+    globals()[name] = type(name, (), {"__doc__": name, "__module__": __name__, "run": run})
+    return globals()[name]
+
+
+def accuracies(options, family, models):
+    """The balanced accuracy by estimator, models and (scene, noise), as means over engines."""
+    rows = []
+    fits = "_".join(folder.parent.name for folder in models.values())  # so that other fits give another run
+    for engine in options.simulators:
+        classes = [decider(f"{estimator}_{which}", folder / f"{engine}_{estimator}.npz")
+                   for estimator in options.estimators for which, folder in models.items()]
+        result = touchdown.run({**EXPERIMENT, "name": f"left_out_{engine}_{fits}", "estimators": classes,
+                                "simulators": [engine], "seed": options.seed,
+                                "fit": {"scenarios": ["scenarios/flat.yaml"], "runs": 1},
+                                "test": {"scenarios": drawn(options.seed, options.tested, [family]), "runs": 1}})
+        rows += rows_of(result.path)
+    scored = [row for row in rows if row["balanced_accuracy"] != "nan"]  # without runs that fell
+    groups = by(scored, lambda row: (row["estimator"].rpartition(".")[2], row["scene"], *(row[name] for name in NOISE)))
     return {key: statistics.mean(float(row["balanced_accuracy"]) for row in rows) for key, rows in groups.items()}
 
 
@@ -56,10 +79,9 @@ def signed(number):
     return ("−" if number < -0.0005 else "") + short(abs(number), 3)
 
 
-def cell(complete, without, noise):
-    pairs = [(complete[key], without[key]) for key in without if key[1:] == noise and key in complete]
-    low, high = interval([after - before for before, after in pairs])
-    before, after = (statistics.mean(values) for values in zip(*pairs))
+def cell(complete, without):
+    low, high = interval([after - before for before, after in zip(complete, without)])
+    before, after = statistics.mean(complete), statistics.mean(without)
     return f"{short(before, 3)} → {short(after, 3)} [{signed(low)}, {signed(high)}]"
 
 
@@ -70,21 +92,24 @@ def main():
     parser.add_argument("--tested", type=int, default=6, help="scenes of each tested family")
     parser.add_argument("--seed", type=int, default=102, help="of the tested scenes")
     parser.add_argument("--estimators", nargs="+", default=["evidence_curves", "decision_network"])
-    parser.add_argument("--simulators", nargs="+", default=["mujoco"])
-    parser.add_argument("--runs", type=pathlib.Path, default=pathlib.Path("runs/left_out_families"))
+    parser.add_argument("--simulators", nargs="+", default=["mujoco", "bullet"])
+    parser.add_argument("--only", nargs="+", help="these families")
     options = parser.parse_args()
     names = families(options.program)
-    rows = run(options, "none", names, names)
-    complete = {estimator: by_scene(rows, estimator) for estimator in options.estimators}
-    settings = sorted({key[1:] for key in complete[options.estimators[0]]})
-    lines = []
-    for family in names:
-        rows = run(options, family, [name for name in names if name != family], [family])
-        without = {estimator: by_scene(rows, estimator) for estimator in options.estimators}
-        assert all(family_of(key[0]) == family for key in without[options.estimators[0]])
-        lines.append([family.replace("_", " ")] + [cell(complete[estimator], without[estimator], noise)
-                                                   for estimator in options.estimators for noise in settings])
-    head = [f"`{estimator}`, ({', '.join(noise)})" for estimator in options.estimators for noise in settings]
+    complete = fit(options, "none", names)
+    lines, head = [], []
+    for family in options.only or names:
+        models = {"all": complete, "others": fit(options, family, [name for name in names if name != family])}
+        found = accuracies(options, family, models)
+        noises = sorted({key[2:] for key in found})
+        settings = [(estimator, noise) for estimator in options.estimators for noise in noises]
+        head = [f"`{estimator}`, ({', '.join(noise)})" for estimator, noise in settings]
+        cells = []
+        for estimator, noise in settings:
+            of = {which: [found[key] for key in sorted(found) if key[0] == f"{estimator}_{which}" and key[2:] == noise]
+                  for which in models}
+            cells.append(cell(of["all"], of["others"]))
+        lines.append([family.replace("_", " ")] + cells)
     table(["family left out"] + head, lines)
 
 
