@@ -11,6 +11,7 @@ A comment above a table names the command and where its columns are in tables/re
 `columns: NAME` names such lines that are below. Column 2 is then compared; behind " / " stands what differs for the second part of a cell "a / b". A row's
 estimator is the first name in code in its first cell; `row: KEY` takes the first name in code, else the
 first cell's text, for another key.
+Columns of other commands have comments of their own, one below the other.
 A cell's numbers are the estimate, or the estimate with its interval, rounded to the cell's decimals; `%` counts in
 percent. Comments that begin with `results quick:` are those of --quick. Runs stay in runs/results and resume.
 """
@@ -29,13 +30,15 @@ UNSEEN = 'study=benchmark_unseen; robot=upkie; sensors=upkie; metric='
 COLUMNS = {'unseen': [f'2: {UNSEEN}mean_balanced_accuracy; noise=0 N·m, 0 m/s²',  # tables/benchmark_unseen.md
                       f'3: {UNSEEN}mean_balanced_accuracy; noise=1 N·m, 5 m/s²',
                       f'4: {UNSEEN}extra_switches_per_minute; noise=0 N·m, 0 m/s² / noise=1 N·m, 5 m/s²']}
-CHECK = re.compile(r'<!-- results( quick)?: (touchdown run [^\n]*)\n(.*?)-->\n+((?:\|[^\n]*\n)+)', re.S)
+COMMENT = re.compile(r'<!-- results( quick)?: (touchdown run [^\n]*)\n(.*?)-->\n+', re.S)
+TABLE = re.compile(r'((?:<!-- results(?: quick)?: (?:(?!-->).)*-->\n+)+)((?:\|[^\n]*\n)+)', re.S)
 NUMBER = re.compile(r'[-−]?\d*\.?\d+')
 
 
 def checks(page):
     """Yields (quick, command, {column: [filters of its parts]}, key of the rows, rows of cells)."""
-    for quick, command, places, table in CHECK.findall(page):
+    found = [(*comment, table) for comments, table in TABLE.findall(page) for comment in COMMENT.findall(comments)]
+    for quick, command, places, table in found:
         columns, key = {}, 'estimator'
         lines = places.strip().splitlines()
         for line in lines:

@@ -52,6 +52,12 @@ class Results(unittest.TestCase):
         faults = [fault for _, _, fault in results.faults_of_table(columns, key, rows, RESULTS)]
         self.assertTrue(all(fault.startswith('0 numbers in results.csv') for fault in faults) and len(faults) == 3)
 
+    def test_of_several_commands_have_columns_of_their_own(self):
+        comment = '<!-- results: touchdown run b.yaml\n3: study=other; metric=success\n-->\n'
+        page = PAGE.format('.98', '.5').replace('-->\n\n', '-->\n' + comment + '\n')
+        found = [(command, sorted(columns), len(rows)) for _, command, columns, _, rows in results.checks(page)]
+        self.assertEqual(found, [('touchdown run a.yaml', [2, 3], 2), ('touchdown run b.yaml', [3], 2)])
+
     def test_of_the_benchmarks_table_agree_with_its_markdown(self):
         printed = """| estimator | no added noise | 1 N·m, 5 m/s² | extra switches a minute |
 |---|---|---|---|
