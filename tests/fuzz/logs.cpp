@@ -2,6 +2,7 @@
 #include <array>
 #include <fstream>
 #include <functional>
+#include <memory>
 #include <sstream>
 #include <string>
 
@@ -45,6 +46,7 @@ TOUCHDOWN_FUZZ(cdr) {
     logs::SignalTopic topic;
     topic.type = type;
     topic.joints = {"a", "b"};
+    topic.definition = std::make_shared<const logs::MessageType>(type, "");
     logs::TopicRows rows(topic, topic.columns(), {});
     for (const std::int64_t time : {std::int64_t{0}, std::int64_t{1'000'000}}) {
       const bool is_row = rows.update({0, time, input});
