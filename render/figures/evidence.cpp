@@ -19,8 +19,7 @@
 namespace touchdown::render {
 namespace {
 
-constexpr double evidence_width = 232.0, evidence_height = 168.0, evidence_left = 76.0,
-                 evidence_top = 62.0;
+constexpr double evidence_width = 232.0, evidence_height = 168.0, evidence_left = 76.0;
 constexpr double evidence_gap_x = 26.0, evidence_gap_y = 82.0;
 
 /// One panel: a range of inputs, and the axis that they share.
@@ -213,6 +212,8 @@ Figure draw_evidence_figure(const EvidenceFigure& figure, const FigureFile& targ
       columns_in(target.room(), evidence_left + 22.0, {4, evidence_width, evidence_gap_x});
   const std::size_t row_count = (all.size() + across.count - 1) / across.count;
   const auto rows = static_cast<double>(row_count);
+  const bool is_narrow = across.count < 4;
+  const double evidence_top = is_narrow ? 112.0 : 66.0;  // px; the key is above
   const FigureFrame frame(
       target, {figure.title, figure.caption, evidence_described(figure, all)},
       evidence_left + across.left(across.count - 1) + across.width + 22.0,
@@ -236,11 +237,10 @@ Figure draw_evidence_figure(const EvidenceFigure& figure, const FigureFile& targ
     const double left = evidence_left + across.left(column);
     const double top = evidence_top + static_cast<double>(row) * (evidence_height + evidence_gap_y);
     commands += frame.panel(left, top, across.width, evidence_height);
-    commands +=
-        p > 0 ? "unset key\n"
-              : frame.key(evidence_left, 0.0) +
-                    fmt::format("set key horizontal maxcols {} title 'time scale' samplen 1\n",
-                                across.count < 4 ? 4 : decision_scales);
+    commands += p > 0 ? "unset key\n"
+                      : frame.key(evidence_left, 0.0) +
+                            fmt::format("set key maxrows {} title 'time scale' samplen 1\n",
+                                        is_narrow ? 2 : 1);
     commands += fmt::format(
         "set title {} offset 0,-0.6\nset xlabel {} offset 0,0.5\nset xrange [{:.5g}:{:.5g}]\n"
         "set xtics ({})\nset ylabel '{}' offset 0,0\nset format y '{}'\n",

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "render/figures/figures.hpp"
+#include "tests/render/figures/placed_texts.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {
@@ -113,38 +114,6 @@ std::vector<std::vector<double>> numbers_in(const fs::path& path) {
   return rows;
 }
 
-/// A text that is not rotated, with the place that letters of half their height take.
-struct PlacedText {
-  std::string text;
-  double left, right, base, size;
-};
-
-std::vector<PlacedText> texts_in(const fs::path& drawing) {
-  std::vector<PlacedText> texts;
-  PlacedText next;
-  std::istringstream lines(read_file(drawing));
-  for (std::string line, anchor; std::getline(lines, line);) {
-    const std::string head = "<g transform=\"translate(";
-    if (const auto at = line.find(head); at != std::string::npos) {
-      char comma = ',';
-      std::istringstream(line.substr(at + head.size())) >> next.left >> comma >> next.base;
-      next.size = std::strtod(line.c_str() + line.find("font-size=\"") + 11, nullptr);
-      anchor = line.substr(line.find("text-anchor=\"") + 13, 1);
-      if (line.find("rotate") != std::string::npos) next.size = 0.0;
-    } else if (const auto from = line.find("<text>"); from != std::string::npos) {
-      PlacedText placed = next;
-      placed.text = line.substr(from + 6, line.find("</text>") - from - 6);
-      const auto letters = std::ranges::count_if(
-          placed.text, [](unsigned char byte) { return (byte & 0xC0U) != 0x80U; });
-      const double width = 0.5 * placed.size * static_cast<double>(letters);
-      placed.left -= anchor == "m" ? 0.5 * width : anchor == "e" ? width : 0.0;
-      placed.right = placed.left + width;
-      if (placed.size > 0.0 && letters > 0) texts.push_back(placed);
-    }
-  }
-  return texts;
-}
-
 class DropFigures : public ::testing::Test {
  protected:
   const ScratchFolder scratch_;
@@ -245,21 +214,7 @@ TEST_F(DropFigures, PrintedInAColumnHaveTextsInsideThatDoNotTouch) {
        {draw_drop_detail(drops, {"reference", "robust", "phase"}, text, detail),
         draw_phase_posterior({staged_posterior("mujoco"), staged_posterior("bullet")}, text,
                              posterior)}) {
-    const std::string svg = read_file(figure.svg);
-    std::istringstream box(svg.substr(svg.find("viewBox=\"0 0 ") + 13));
-    double width = 0.0, height = 0.0;
-    box >> width >> height;
-    const std::vector<PlacedText> texts = texts_in(figure.svg);
-    EXPECT_GT(texts.size(), 20U) << figure.svg;
-    for (const PlacedText& one : texts) {
-      EXPECT_GE(one.left, 0.0) << one.text;
-      EXPECT_LE(one.right, width) << one.text;
-      EXPECT_LE(one.base, height - 0.2 * one.size) << one.text;
-      for (const PlacedText& other : texts) {
-        if (&one == &other || std::abs(one.base - other.base) > 0.5 * one.size) continue;
-        EXPECT_TRUE(one.right < other.left || other.right < one.left) << one.text << other.text;
-      }
-    }
+    expect_texts_inside_and_apart(figure.svg);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/files.hpp"
 #include "render/figures/figures.hpp"
+#include "tests/render/figures/placed_texts.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {
@@ -43,6 +44,18 @@ TEST(CompressedTicks, AreRoundValuesAtTheirPositionsAndStayApart) {
     EXPECT_NEAR(std::exp(tick.place), tick.value, 1e-9);
   }
   EXPECT_EQ(compressed_ticks(std::log(0.05), std::log(5.0), 0.0).size(), 4U);  // .1, .3, 1, 3
+}
+
+TEST(EvidenceFigure, HasItsTextsInsideAndApartOnScreensAndInPrint) {
+  const ScratchFolder folder;
+  EvidenceModel model = of_one_curve();
+  model.seen.fill({-2.0F, 3.0F});
+  for (auto& curve : model.curve) curve = model.curve[3];
+  for (const FigureFile& file :
+       {FigureFile{folder / "screen", {}}, FigureFile{folder / "page", {180.0, false}},
+        FigureFile{folder / "column", {88.0, false}}}) {
+    expect_texts_inside_and_apart(draw_evidence_figure({"Evidence", model, "Made up."}, file).svg);
+  }
 }
 
 TEST(EvidenceFigure, DrawsCurvesInTheUnitsOfTheirInputs) {
