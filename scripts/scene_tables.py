@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Print the tables of docs/results.md about drawn scenes: means over scenes and engines, and by family.
+"""Print the numbers of docs/results.md about drawn scenes: means over scenes and engines, and by family.
 
 Run it on the folders of finished experiments: scripts/scene_tables.py RUN [RUN ...] [--estimators A,B]
 """
