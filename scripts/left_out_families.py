@@ -79,10 +79,10 @@ def signed(number):
     return ("−" if number < -0.0005 else "") + short(abs(number), 3)
 
 
-def cell(complete, without):
-    low, high = interval([after - before for before, after in zip(complete, without)])
-    before, after = statistics.mean(complete), statistics.mean(without)
-    return f"{short(before, 3)} → {short(after, 3)} [{signed(low)}, {signed(high)}]"
+def change(complete, without):
+    differences = [after - before for before, after in zip(complete, without)]
+    low, high = interval(differences)
+    return f"{signed(statistics.mean(differences))} [{signed(low)}, {signed(high)}]"
 
 
 def main():
@@ -97,20 +97,20 @@ def main():
     options = parser.parse_args()
     names = families(options.program)
     complete = fit(options, "none", names)
-    lines, head = [], []
+    lines = []
     for family in options.only or names:
         models = {"all": complete, "others": fit(options, family, [name for name in names if name != family])}
         found = accuracies(options, family, models)
-        noises = sorted({key[2:] for key in found})
-        settings = [(estimator, noise) for estimator in options.estimators for noise in noises]
-        head = [f"`{estimator}`, ({', '.join(noise)})" for estimator, noise in settings]
-        cells = []
-        for estimator, noise in settings:
-            of = {which: [found[key] for key in sorted(found) if key[0] == f"{estimator}_{which}" and key[2:] == noise]
-                  for which in models}
-            cells.append(cell(of["all"], of["others"]))
-        lines.append([family.replace("_", " ")] + cells)
-    table(["family left out"] + head, lines)
+        line = [family.replace("_", " ")]
+        for estimator in options.estimators:
+            cells = []
+            for noise in sorted({key[2:] for key in found}):
+                cells.append([[found[key] for key in sorted(found) if key[0] == f"{estimator}_{which}" and key[2:] == noise]
+                              for which in models])
+            line += [" / ".join(short(statistics.mean(without), 3) for _, without in cells),
+                     " / ".join(change(*cell) for cell in cells)]
+        lines.append(line)
+    table(["family left out", *(title for name in options.estimators for title in (f"`{name}`", "change"))], lines)
 
 
 if __name__ == "__main__":

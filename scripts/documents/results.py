@@ -8,10 +8,12 @@ A comment above a table names the command and where its columns are in tables/re
     2: study=success; simulator=mujoco; noise=1 N·m, 5 m/s²; metric=success / simulator=bullet
     -->
 
-`columns: NAME` names such lines that are below. Column 2 is then compared; behind " / " stands what differs for the second part of a cell "a / b". A row's
-estimator is the first name in code in its first cell; `row: KEY` takes the first name in code, else the
-first cell's text, for another key.
-Columns of other commands have comments of their own, one below the other.
+Column 2 is then compared. Behind " / " or " ± " stands what differs for the second part of a cell "a / b" or "a ± b".
+A setting stands last, because it may contain semicolons. `columns: NAME` names such lines that are below.
+A row's estimator is the first name in code in its first cell. `row: KEY` takes the first name in code, else the
+first cell's text, for another key; with `row: *` it replaces each * of the lines.
+Columns of other commands have comments of their own, one below the other. A comment without lines belongs to a
+command that prints the table's rows.
 A cell's numbers are the estimate, or the estimate with its interval, rounded to the cell's decimals; `%` counts in
 percent. Comments that begin with `results quick:` are those of --quick. Runs stay in runs/results and resume.
 """
@@ -30,9 +32,15 @@ UNSEEN = 'study=benchmark_unseen; robot=upkie; sensors=upkie; metric='
 COLUMNS = {'unseen': [f'2: {UNSEEN}mean_balanced_accuracy; noise=0 N·m, 0 m/s²',  # tables/benchmark_unseen.md
                       f'3: {UNSEEN}mean_balanced_accuracy; noise=1 N·m, 5 m/s²',
                       f'4: {UNSEEN}extra_switches_per_minute; noise=0 N·m, 0 m/s² / noise=1 N·m, 5 m/s²']}
-COMMENT = re.compile(r'<!-- results( quick)?: (touchdown run [^\n]*)\n(.*?)-->\n+', re.S)
+COMMENT = re.compile(r'<!-- results( quick)?: ([^\n]*)\n(.*?)-->\n+', re.S)
 TABLE = re.compile(r'((?:<!-- results(?: quick)?: (?:(?!-->).)*-->\n+)+)((?:\|[^\n]*\n)+)', re.S)
+PARTS = re.compile(r' / | ± ')
 NUMBER = re.compile(r'[-−]?\d*\.?\d+')
+
+
+def filters_of(part):
+    items, _, setting = ('; ' + part.strip()).partition('; setting=')
+    return dict(item.split('=', 1) for item in items.split('; ')[1:]) | ({'setting': setting} if setting else {})
 
 
 def checks(page):
@@ -49,10 +57,13 @@ def checks(page):
             if name == 'row':
                 key = text.strip()
                 continue
-            parts = [dict(item.split('=', 1) for item in part.strip().split('; ')) for part in text.split(' / ')]
+            parts = [filters_of(part) for part in PARTS.split(text)]
             columns[int(name)] = [{**parts[0], **part} for part in parts]
-        rows = [[cell.strip() for cell in re.split(r'(?<!\\)\|', line)[1:-1]] for line in table.splitlines()[2:]]
-        yield bool(quick), command, columns, key, rows
+        yield bool(quick), command, columns, key, [cells_of(line) for line in table.splitlines()[2:]]
+
+
+def cells_of(line):
+    return [cell.strip() for cell in re.split(r'(?<!\\)\|', line)[1:-1]]
 
 
 def name_of(cell, key):
@@ -89,15 +100,24 @@ def faults_of_table(columns, key, rows, results):
         if name is None:
             continue
         for column, places in columns.items():
-            parts = row[column - 1].split(' / ') if len(places) > 1 else [row[column - 1]]
+            parts = PARTS.split(row[column - 1]) if len(places) > 1 else [row[column - 1]]
             if parts in ([''], ['–']):
                 continue
             if len(parts) != len(places):
                 yield name, column, f'expected {len(places)} parts, found "{row[column - 1]}"'
                 continue
             for part, where in zip(parts, places):
-                for fault in faults_of_part(part, {key: name, **where}, results):
+                if part == '–':
+                    continue
+                where = {field: value.replace('*', name) for field, value in where.items()}
+                for fault in faults_of_part(part, where if key == '*' else {key: name, **where}, results):
                     yield name, column, fault
+
+
+def printed_by(command):
+    """The rows of all tables that a command prints."""
+    done = subprocess.run(command, shell=True, cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True)
+    return [cells_of(line) for line in done.stdout.splitlines()]
 
 
 def results_of(program, command, runs):
@@ -127,8 +147,10 @@ def main():
         if flags.quick and not quick:
             continue
         if command not in known:
-            known[command] = results_of(flags.program.resolve(), command, flags.runs.resolve())
-        faults = list(faults_of_table(columns, key, rows, known[command]))
+            known[command] = results_of(flags.program.resolve(), command, flags.runs.resolve()) if columns \
+                else printed_by(command)
+        faults = list(faults_of_table(columns, key, rows, known[command])) if columns else \
+            [(row[0], 1, 'the command does not print this row') for row in rows if row not in known[command]]
         print(f'{command}: {len(rows)} rows, {len(faults)} differences')
         for name, column, fault in faults:
             print(f'  {name}, column {column}: {fault}')
