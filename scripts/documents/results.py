@@ -8,7 +8,7 @@ A comment above a table names the command and where its columns are in tables/re
     2: study=success; simulator=mujoco; noise=1 N·m, 5 m/s²; metric=success / simulator=bullet
     -->
 
-Column 2 is then compared. Behind " / " or " ± " stands what differs for the second part of a cell "a / b" or "a ± b".
+Without a command it is the first one of the block of code above. Column 2 is then compared. Behind " / " or " ± " stands what differs for the second part of a cell "a / b" or "a ± b".
 A setting stands last, because it may contain semicolons. `columns: NAME` names such lines that are below.
 A row's estimator is the first name in code in its first cell. `row: KEY` takes the first name in code, else the
 first cell's text, for another key; with `row: *` it replaces each * of the lines.
@@ -27,13 +27,15 @@ import shlex
 import subprocess
 import sys
 
+from pages import blocks
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 UNSEEN = 'study=benchmark_unseen; robot=upkie; sensors=upkie; metric='
 COLUMNS = {'unseen': [f'2: {UNSEEN}mean_balanced_accuracy; noise=0 N·m, 0 m/s²',  # tables/benchmark_unseen.md
                       f'3: {UNSEEN}mean_balanced_accuracy; noise=1 N·m, 5 m/s²',
                       f'4: {UNSEEN}extra_switches_per_minute; noise=0 N·m, 0 m/s² / noise=1 N·m, 5 m/s²']}
-COMMENT = re.compile(r'<!-- results( quick)?: ([^\n]*)\n(.*?)-->\n+', re.S)
-TABLE = re.compile(r'((?:<!-- results(?: quick)?: (?:(?!-->).)*-->\n+)+)((?:\|[^\n]*\n)+)', re.S)
+COMMENT = re.compile(r'<!-- results( quick)?:([^\n]*)\n(.*?)-->\n+', re.S)
+TABLE = re.compile(r'((?:<!-- results(?: quick)?:(?:(?!-->).)*-->\n+)+)((?:\|[^\n]*\n)+)', re.S)
 PARTS = re.compile(r' / | ± ')
 NUMBER = re.compile(r'[-−]?\d*\.?\d+')
 
@@ -43,10 +45,16 @@ def filters_of(part):
     return dict(item.split('=', 1) for item in items.split('; ')[1:]) | ({'setting': setting} if setting else {})
 
 
+def command_above(page):
+    _, _, code = list(blocks(page))[-1]
+    return re.split(r' +#|\n', code)[0]
+
+
 def checks(page):
     """Yields (quick, command, {column: [filters of its parts]}, key of the rows, rows of cells)."""
-    found = [(*comment, table) for comments, table in TABLE.findall(page) for comment in COMMENT.findall(comments)]
-    for quick, command, places, table in found:
+    found = [(match, *comment) for match in TABLE.finditer(page) for comment in COMMENT.findall(match[1])]
+    for match, quick, command, places in found:
+        command = command.strip() or command_above(page[:match.start()])
         columns, key = {}, 'estimator'
         lines = places.strip().splitlines()
         for line in lines:
@@ -59,7 +67,7 @@ def checks(page):
                 continue
             parts = [filters_of(part) for part in PARTS.split(text)]
             columns[int(name)] = [{**parts[0], **part} for part in parts]
-        yield bool(quick), command, columns, key, [cells_of(line) for line in table.splitlines()[2:]]
+        yield bool(quick), command, columns, key, [cells_of(line) for line in match[2].splitlines()[2:]]
 
 
 def cells_of(line):
