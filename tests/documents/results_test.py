@@ -13,6 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / 'scripts' / 'documents'))
 import results  # noqa: E402
 
+SCRIPT = ROOT / 'scripts' / 'documents' / 'results.py'
 PROGRAM = sys.argv.pop(1)
 PAGE = """
 <!-- results: touchdown run a.yaml
@@ -58,6 +59,42 @@ class Results(unittest.TestCase):
         found = [(command, sorted(columns), len(rows)) for _, command, columns, _, rows in results.checks(page)]
         self.assertEqual(found, [('touchdown run a.yaml', [2, 3], 2), ('touchdown run b.yaml', [3], 2)])
 
+    def test_of_any_key_may_have_deviations_and_settings_with_semicolons(self):
+        page = """```sh
+touchdown run c.yaml   # a minute
+touchdown run d.yaml
+```
+<!-- results:
+row: *
+2: study=latency; metric=*_ms; setting=view=wheels; speed=1 ± metric=*_deviation_ms
+-->
+
+| event | delay |
+|---|---|
+| `takeoff` | 5 ± 13 |
+| landing | – ± 2 |
+"""
+        [(_, command, columns, key, cells)] = results.checks(page)
+        self.assertEqual(command, 'touchdown run c.yaml')
+        rows = [{'study': 'latency', 'metric': metric, 'setting': setting, 'estimate': estimate, 'low': '', 'high': ''}
+                for metric, estimate in (('takeoff_ms', '5.4'), ('takeoff_deviation_ms', '12.6'),
+                                         ('landing_ms', '7'), ('landing_deviation_ms', '2.1'))
+                for setting in ('view=wheels; speed=1',)]
+        self.assertEqual(list(results.faults_of_table(columns, key, cells, rows)), [])
+        for row, wrong in ((0, '6'), (1, '14'), (3, '3')):
+            worse = [{**one, 'estimate': wrong} if i == row else one for i, one in enumerate(rows)]
+            self.assertEqual(len(list(results.faults_of_table(columns, key, cells, worse))), 1, rows[row])
+
+    def test_of_a_command_that_prints_rows_are_those_rows(self):
+        for printed, code in (('| `a` | 1 |', 0), ('| `a` | 2 |', 1)):
+            with tempfile.TemporaryDirectory() as folder:
+                page = pathlib.Path(folder) / 'page.md'
+                page.write_text(f"<!-- results: echo '{printed}'\n-->\n\n| x | y |\n|---|---|\n| `a` | 1 |\n",
+                                encoding='utf-8')
+                done = subprocess.run([sys.executable, SCRIPT, PROGRAM, '--page', page], capture_output=True, text=True,
+                                      check=False)
+            self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+
     def test_of_the_benchmarks_table_agree_with_its_markdown(self):
         printed = """| estimator | no added noise | 1 N·m, 5 m/s² | extra switches a minute |
 |---|---|---|---|
@@ -87,8 +124,8 @@ class Results(unittest.TestCase):
 
     def test_of_the_quick_commands_are_those_of_the_page(self):
         with tempfile.TemporaryDirectory() as runs:
-            done = subprocess.run([sys.executable, ROOT / 'scripts' / 'documents' / 'results.py', PROGRAM, '--quick',
-                                   '--runs', runs], capture_output=True, text=True, check=False)
+            done = subprocess.run([sys.executable, SCRIPT, PROGRAM, '--quick', '--runs', runs], capture_output=True,
+                                  text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
 
