@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -279,6 +280,27 @@ void set_start(ClosedLeg& leg, std::size_t side, const Contract& contract) {
   }
 }
 
+/// Warns of loops that meet elsewhere in the left leg than in the right, with hinges in one place.
+void compare_loops(RobotModel& robot, const Contract& contract) {
+  const ClosedLeg& left = *robot.closed_leg[0];
+  const ClosedLeg& right = *robot.closed_leg[1];
+  const auto is_apart = [](const auto& a, const auto& b) {
+    return (a.place - b.place).norm() > 2e-3;
+  };
+  if (!std::ranges::equal(left.linkage.hinges, right.linkage.hinges, std::not_fn(is_apart))) return;
+  for (std::size_t i = 0; i < std::min(left.equality.size(), right.equality.size()); ++i) {
+    const Linkage::Loop& loop = left.linkage.loops[i];
+    const Linkage::Loop& other = right.linkage.loops[i];
+    if (!is_apart(loop.first, other.first) && !is_apart(loop.second, other.second)) continue;
+    robot.warnings.push_back(
+        fmt::format("{}: the loop of the left leg meets {:.1f} mm from where that of the mirrored "
+                    "leg does: is one anchor wrong?",
+                    contract.place_in_section("equality", left.equality[i]),
+                    1e3 * std::max((loop.first.place - other.first.place).norm(),
+                                   (loop.second.place - other.second.place).norm())));
+  }
+}
+
 }  // namespace
 
 void find_closed_legs(RobotModel& robot, const RobotDescription& description,
@@ -308,7 +330,8 @@ void find_closed_legs(RobotModel& robot, const RobotDescription& description,
         std::find(robot.linked.begin(), robot.linked.end(), joint) != robot.linked.end() ||
         std::find(robot.joint.begin(), robot.joint.end(), joint) != robot.joint.end();
     if (!hinges.is_hinge(joint) || is_known) continue;
-    contract.fail_at_hinge(joint, "expected it in a loop of one leg, or under `held`");
+    contract.fail_at_hinge(
+        joint, "expected it in a loop of one leg (`loops`), or, if it is no rod, under `held`");
   }
 }
 
@@ -336,6 +359,7 @@ void measure_closed_legs(RobotModel& robot, std::span<const LoopSites> sites,
     }
     set_start(leg, i, contract);
   }
+  compare_loops(robot, contract);
 }
 
 }  // namespace touchdown::models

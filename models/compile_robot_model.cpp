@@ -9,6 +9,7 @@
 #include "models/mjcf/compiler.hpp"
 #include "models/resizing.hpp"
 #include "models/robot_description.hpp"
+#include "models/robot_draft.hpp"
 #include "models/robot_model.hpp"
 #include "models/robot_source.hpp"
 #include "models/scene_mjcf.hpp"
@@ -20,9 +21,11 @@ namespace {
 void require_mjcf(const MjcfDocument& document) {
   const tinyxml2::XMLElement& root = document.root();
   if (std::strcmp(root.Name(), "mujoco") == 0 && root.FirstChildElement() != nullptr) return;
-  document.fail(root, fmt::format("{}: expected a robot in <mujoco>...</mujoco>, or the <robot> of "
-                                  "a URDF",
-                                  root.Name()));
+  const bool is_sdf = std::strcmp(root.Name(), "sdf") == 0;
+  document.fail(root,
+                fmt::format("{}: expected a robot in <mujoco>...</mujoco>, or the <robot> of "
+                            "a URDF{}",
+                            root.Name(), is_sdf ? ": SDF is not read, convert it first" : ""));
 }
 
 }  // namespace
@@ -37,6 +40,7 @@ RobotFile robot_file(const RobotDescription& description, const RobotKeys& keys)
   keep_robot_only(robot.document, findings);
   robot.loops = complete_loops(robot.document, description.parts, findings, keys);
   translate_later_versions(robot.document, findings);
+  note_computed_masses(robot.document, findings);
   drop_missing_assets(robot.document, findings);
   return robot;
 }
@@ -91,7 +95,7 @@ void set_size(RobotModel& robot, const RobotDescription& description, const Robo
   if (changed) recompute(*robot.mj);
 }
 
-/// Checks that engines can take the places of the robot's bodies, geoms and sites.
+/// Checks that engines can take the inertias and places of the robot's bodies, geoms and sites.
 void check_places(const mjModel& model, const Contract& contract) {
   const auto message = [](const mjtNum* position, const mjtNum* orientation, int i) -> std::string {
     const double distance = vector_at(position, i).norm();
@@ -105,6 +109,14 @@ void check_places(const mjModel& model, const Contract& contract) {
   for (int i = 1; i < model.nbody; ++i) {
     const std::string text = message(model.body_pos, model.body_quat, i);
     if (!text.empty()) contract.fail_at_body(i, "body: " + text);
+    const double inertia = vector_at(model.body_inertia, i).maxCoeff();
+    constexpr double widest = 2.0;  // m, radius of gyration
+    if (inertia <= widest * widest * model.body_mass[i]) continue;
+    contract.fail_at_body(
+        i, fmt::format("body '{}': its inertia, {:.3g} kg·m² with a mass of {:.3g} kg, is that of "
+                       "a ring of {:.3g} m radius: expected kg·m² and kg",
+                       name_of(model, mjOBJ_BODY, i), inertia, model.body_mass[i],
+                       std::sqrt(inertia / model.body_mass[i])));
   }
   for (int i = 0; i < model.ngeom; ++i) {
     const bool is_robots = model.geom_bodyid[i] > 0;
@@ -181,6 +193,7 @@ RobotModel compile_robot_model(const std::filesystem::path& file, const Terrain&
   }
   robot.ignored.insert(robot.ignored.begin(), source.findings.ignored.begin(),
                        source.findings.ignored.end());
+  robot.warnings = source.findings.warnings;
   apply_conventions(robot, final_contract);
   find_closed_legs(robot, description, source.findings.effort, final_contract);
   set_actuators(robot, description, keys);

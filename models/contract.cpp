@@ -82,8 +82,8 @@ const tinyxml2::XMLElement* Contract::section_element(const char* tag, int numbe
                                                        : nullptr;
 }
 
-std::string Contract::place_of_actuator(int actuator) const {
-  const tinyxml2::XMLElement* const found = section_element("actuator", actuator);
+std::string Contract::place_in_section(const char* tag, int number) const {
+  const tinyxml2::XMLElement* const found = section_element(tag, number);
   return document_.place_of(found == nullptr ? document_.root() : *found);
 }
 

@@ -44,8 +44,8 @@ class Contract {
   /// held".
   void check_hinge(int joint, std::string_view as_it_is) const;
 
-  /// "file:line:1" of an actuator.
-  std::string place_of_actuator(int actuator) const;
+  /// "file:line:column" of an actuator, or of another child of a top-level section.
+  std::string place_in_section(const char* tag, int number) const;
   /// The name of a joint or geom in messages, as in the file; its body's name if it has none.
   std::string name_of(mjtObj type, int id) const;
 

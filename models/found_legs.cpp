@@ -229,7 +229,50 @@ class LegSearch {
   FoundLegs legs_;
 };
 
+/// Whether a point is near a link of a leg, seen from the side, and abreast of one of its joints.
+bool is_beside(const mjData& data, const std::vector<int>& leg, const Vector3d& point) {
+  const Vector3d along = vector_at(data.xaxis, leg.back());
+  double length = 0.0;
+  double nearest = HUGE_VAL;
+  double abreast = std::abs(along.dot(point - vector_at(data.xanchor, leg.back())));
+  for (std::size_t i = 0; i + 1 < leg.size(); ++i) {
+    const Vector3d from = vector_at(data.xanchor, leg[i]);
+    const Vector3d link = along.cross(vector_at(data.xanchor, leg[i + 1]) - from);
+    const Vector3d off = along.cross(point - from);
+    const double share = std::clamp(off.dot(link) / link.squaredNorm(), 0.0, 1.0);
+    nearest = std::min(nearest, (off - share * link).norm());
+    abreast = std::min(abreast, std::abs(along.dot(point - from)));
+    length += link.norm();
+  }
+  constexpr double near = 0.2;  // of the leg's length
+  return std::max(nearest, abreast) < near * length;
+}
+
 }  // namespace
+
+bool is_rod(const mjModel& model, const mjData& data, const JointsOfLegs& legs, int joint) {
+  const auto moves = [&](int one, int other) {
+    return is_below(model, model.jnt_bodyid[other], model.jnt_bodyid[one]);
+  };
+  const auto moves_wheel = [&](int one) {
+    return moves(one, legs[0].back()) || moves(one, legs[1].back());
+  };
+  if (moves_wheel(joint)) return false;
+  for (const std::vector<int>& leg : legs) {
+    const Vector3d along = vector_at(data.xaxis, leg.back());
+    if (std::abs(along.dot(vector_at(data.xaxis, joint))) <= parallel) continue;
+    if (moves(leg.front(), joint)) return true;
+    for (int other = 0; other < model.njnt; ++other) {
+      const bool is_in_chain = moves(joint, other) || moves(other, joint);
+      if (!is_in_chain || moves_wheel(other)) continue;
+      // A link ends as far beyond its centre of mass as its hinge is before it.
+      const Vector3d end =
+          2.0 * vector_at(data.xipos, model.jnt_bodyid[other]) - vector_at(data.xanchor, other);
+      if (is_beside(data, leg, end)) return true;
+    }
+  }
+  return false;
+}
 
 bool has_part(std::string_view text, std::string_view part) {
   return lower_case(std::string(text)).find(part) != std::string::npos;

@@ -1,6 +1,7 @@
 #include "models/robot_description.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <system_error>
 #include <vector>
 
@@ -70,6 +71,9 @@ static void describe(Fields& fields, LoopKeys& loop) {
   const auto point = [&](const char* key, std::vector<double>& numbers) {
     const KeyNotes notes = fields.in_line(key, numbers);
     fields.check(numbers.size() == 3, key, "expected three numbers: x, y, z");
+    constexpr double farthest = 2.0;  // m
+    fields.check(std::ranges::all_of(numbers, [](double x) { return std::abs(x) <= farthest; }),
+                 key, "expected a point within 2 m of the body's origin: is it in mm?");
     return notes.type("list of x, y, z");
   };
   fields.require("anchor");

@@ -39,6 +39,7 @@ class Draft {
   }
 
   std::vector<DraftLine> lines() {
+    for (const std::string& warning : source_.findings.warnings) add("", "", warning);
     add_base();
     add_joints();
     add_held();
@@ -55,12 +56,7 @@ class Draft {
   }
 
   std::string name(mjtObj type, int id) const { return name_of(*model_, type, id); }
-  /// Whether a joint moves what another one moves.
-  bool moves(int joint, int other) const {
-    return is_below(*model_, model_->jnt_bodyid[other], model_->jnt_bodyid[joint]);
-  }
   std::string joint_name(int joint) const { return name(mjOBJ_JOINT, joint); }
-  Vector3d axis(int joint) const { return vector_at(data_->xaxis, joint); }
   Vector3d anchor(int joint) const { return vector_at(data_->xanchor, joint); }
 
   void add_base() {
@@ -73,17 +69,6 @@ class Draft {
     } else if (!legs_.has_sides) {
       add("", "", "Names do not distinguish left from right: left is taken as the larger y.");
     }
-  }
-
-  bool is_servo(int joint) const {
-    for (std::size_t side = 0; side < wheel_count; ++side) {
-      const std::vector<int>& pitch = legs_.pitch[side];
-      if (joint == legs_.axle[side].joint ||
-          std::find(pitch.begin(), pitch.end(), joint) != pitch.end()) {
-        return true;
-      }
-    }
-    return false;
   }
 
   void add_joints() {
@@ -116,19 +101,6 @@ class Draft {
     return joints;
   }
 
-  /// Whether a joint ends a leg's branch, as a rod of a cut loop does.
-  bool is_rod(int joint) const {
-    for (std::size_t side = 0; side < wheel_count; ++side) {
-      if (moves(joint, legs_.axle[side].joint)) return false;
-    }
-    for (std::size_t side = 0; side < wheel_count; ++side) {
-      const bool is_on_leg = moves(legs_.pitch[side].front(), joint);
-      const bool is_parallel = std::abs(axis(joint).dot(axis(legs_.axle[side].joint))) > parallel;
-      if (is_on_leg && is_parallel) return true;
-    }
-    return false;
-  }
-
   std::vector<std::string> names_of(const std::vector<int>& joints) const {
     std::vector<std::string> names;
     for (const int joint : joints) names.push_back(as_yaml(joint_name(joint)));
@@ -137,30 +109,28 @@ class Draft {
 
   void add_held() {
     const std::set<int> in_loops = linked();
-    std::vector<int> held;
-    std::vector<int> rods;
+    JointsOfLegs legs = legs_.pitch;
+    for (std::size_t i = 0; i < wheel_count; ++i) legs[i].push_back(legs_.axle[i].joint);
+    std::vector<int> held, rods;
     for (int joint = 0; joint < model_->njnt; ++joint) {
-      if (model_->jnt_type[joint] == mjJNT_FREE || is_servo(joint) || in_loops.count(joint) > 0) {
-        continue;
-      }
-      (is_rod(joint) ? rods : held).push_back(joint);
+      const bool is_servo =
+          std::ranges::count(legs[0], joint) + std::ranges::count(legs[1], joint) > 0;
+      if (model_->jnt_type[joint] == mjJNT_FREE || is_servo || in_loops.contains(joint)) continue;
+      (is_rod(*model_, *data_, legs, joint) ? rods : held).push_back(joint);
     }
-    const bool may_be_cranks = std::any_of(held.begin(), held.end(), [&](int joint) {
-      return std::abs(axis(joint).dot(axis(legs_.axle[0].joint))) > parallel;
-    });
     if (!held.empty()) {
       add("held", fmt::format("[{}]", fmt::join(names_of(held), ", ")),
-          may_be_cranks ? "all that no wheel needs to balance, or cranks of cut loops"
-                        : "all that no wheel needs to balance");
+          "all that no wheel needs to balance");
     }
-    if (!rods.empty()) {
-      add("", "", fmt::format("{}: ends of a cut loop?", fmt::join(names_of(rods), ", ")));
-    }
-    if (!rods.empty() || may_be_cranks) {
-      add("", "", "Where loops meet, and which joints have motors, is for you to give:");
-      add("", "",
-          "loops: [{bodies: [a, b], anchor: [x, y, z]}, …], motors: {left: […], right: […]}");
-    }
+    if (rods.empty()) return;
+    add("", "",
+        fmt::format("{}: rods or cranks of loops that the file cuts open? Where loops meet, and "
+                    "which joints have motors, is for you to give:",
+                    fmt::join(names_of(rods), ", ")));
+    add("", "",
+        fmt::format("loops: [{{bodies: [{}, …], anchor: [x, y, z]}}, …], motors: {{left: […], "
+                    "right: […]}}",
+                    as_yaml(name(mjOBJ_BODY, model_->jnt_bodyid[rods.front()]))));
   }
 
   void add_tyres() {

@@ -45,6 +45,13 @@ struct FoundLegs {
 /// Errors: `InputError` where no two wheels, or no knees, are found.
 FoundLegs find_legs(const mjModel& model, const mjData& data, int base);
 
+/// The joints of both legs, from the first one down to the wheel's.
+using JointsOfLegs = std::array<std::vector<int>, wheel_count>;
+
+/// Whether a joint is one of a loop that the file cuts open. It moves no wheel and turns about an
+/// axis parallel to the axles. It is on a leg, or its chain on the base ends beside a link of one.
+bool is_rod(const mjModel& model, const mjData& data, const JointsOfLegs& legs, int joint);
+
 /// The name of an element; empty without one.
 std::string name_of(const mjModel& model, mjtObj type, int id);
 

@@ -74,6 +74,7 @@ struct RobotModel {
   std::array<std::string, servo_count> joint_name;  ///< in the file
   std::vector<HeldJoint> held;                      ///< in the order of the robot's file
   std::vector<std::string> ignored;                 ///< what of the file is not simulated
+  std::vector<std::string> warnings;                ///< what of the file may be a mistake
 
   /// Left and right leg, if they have closed loops.
   std::array<std::optional<ClosedLeg>, wheel_count> closed_leg;

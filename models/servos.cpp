@@ -8,6 +8,7 @@
 #include "models/contract.hpp"
 #include "models/mjcf/parts.hpp"
 #include "models/mjcf/robot_file.hpp"
+#include "models/robot_draft.hpp"
 
 namespace touchdown::models {
 
@@ -136,24 +137,18 @@ int find_joint(const mjModel& model, const Contract& contract, std::size_t servo
 }
 
 constexpr std::string_view rod_text =
-    "a chain that ends without a tyre: a rod of a closed chain, cut open in this file? Held, it "
-    "carries no load, and torques of the leg are not the robot's";
+    "a rod of a closed chain, cut open in this file? `loops` and `motors` in the YAML file close "
+    "it. Held, it carries no load, and torques of the leg are not the robot's";
 
-/// Whether a joint that moves no wheel is a rod's: it is on a leg, or moves another joint.
-bool is_rod(const RobotModel& robot, int joint) {
-  const mjModel& model = *robot.mj;
-  const int body = model.jnt_bodyid[joint];
-  bool is_on_leg = false;
+/// Whether a joint is a rod's in the pose of the file.
+bool is_rod_of(const RobotModel& robot, int joint) {
+  const MjDataPtr data = make_data(*robot.mj);
+  mj_kinematics(robot.mj.get(), data.get());
+  JointsOfLegs legs;
   for (std::size_t i = 0; i < servo_count; ++i) {
-    if (!robot.has(i)) continue;
-    const int moved = model.jnt_bodyid[robot.joint[i]];
-    if (is_below(model, moved, body)) return false;
-    is_on_leg = is_on_leg || is_below(model, body, moved);
+    if (robot.has(i)) legs.at(i / 3).push_back(robot.joint[i]);
   }
-  for (int other = 0; other < model.njnt && !is_on_leg; ++other) {
-    is_on_leg = other != joint && is_below(model, model.jnt_bodyid[other], body);
-  }
-  return is_on_leg;
+  return is_rod(*robot.mj, *data, legs, joint);
 }
 
 void refuse_other_joints(const RobotModel& robot, const Contract& contract) {
@@ -168,7 +163,7 @@ void refuse_other_joints(const RobotModel& robot, const Contract& contract) {
         std::find(robot.joint.begin(), robot.joint.end(), joint) != robot.joint.end();
     if (is_known) continue;
     if (first < 0) first = joint;
-    (is_rod(robot, joint) ? rods : others).push_back(contract.name_of(mjOBJ_JOINT, joint));
+    (is_rod_of(robot, joint) ? rods : others).push_back(contract.name_of(mjOBJ_JOINT, joint));
   }
   if (first < 0) return;
   std::string message;
@@ -330,7 +325,8 @@ void find_servos(RobotModel& robot, const RobotDescription& description, const E
     // The servos' law is touchdown's: MuJoCo must not add that of the file.
     if (remove_law(model, i)) {
       robot.ignored.push_back(fmt::format("{}: actuator '{}': its own law; its forcerange counts",
-                                          contract.place_of_actuator(i), name ? name : ""));
+                                          contract.place_in_section("actuator", i),
+                                          name ? name : ""));
     }
   }
   robot.motor_joint = robot.joint;
@@ -344,8 +340,8 @@ void find_held(RobotModel& robot, const RobotDescription& description, const Eff
   std::vector<HeldJoint> held;
   for (std::size_t i = 0; i < contract.parts().held.size(); ++i) {
     held.push_back(Held(robot, contract, i).held(description.held_servo, robots, efforts));
-    if (!is_rod(robot, held.back().joint)) continue;
-    robot.ignored.push_back(
+    if (!is_rod_of(robot, held.back().joint)) continue;
+    robot.warnings.push_back(
         fmt::format("{}: joint '{}': {}", description.mjcf.string(), held.back().name, rod_text));
   }
   robot.held = std::move(held);

@@ -20,16 +20,21 @@ Stance zeros_of(const RobotModel& robot) {
 /// The sign of a joint's angle in a stance: hips forward, knees backward.
 double stance_sign(std::size_t servo) { return (servo < 3) == (servo % 3 == 0) ? 1.0 : -1.0; }
 
+/// The range of a servo's joint, which has one, in the signs of a stance.
+std::pair<double, double> range_of(const RobotModel& robot, std::size_t servo) {
+  const mjtNum* const range = &robot.mj->jnt_range[2 * robot.joint[servo]];
+  const double sign = stance_sign(servo);
+  return std::minmax(sign * range[0] + 0.0, sign * range[1] + 0.0);  // no −0
+}
+
 /// The range of both hips, or of both knees, in the signs of a stance.
 std::pair<double, double> common_range(const RobotModel& robot, bool is_hip) {
   std::pair<double, double> common = {-std::numbers::pi, std::numbers::pi};
   for (const std::size_t servo : {is_hip ? 0U : 1U, is_hip ? 3U : 4U}) {
     const int joint = robot.joint[servo];
     if (joint < 0 || robot.mj->jnt_limited[joint] == 0) continue;
-    const double sign = stance_sign(servo);
-    const mjtNum* const range = &robot.mj->jnt_range[2 * joint];
-    common.first = std::max(common.first, std::min(sign * range[0], sign * range[1]));
-    common.second = std::min(common.second, std::max(sign * range[0], sign * range[1]));
+    const auto [low, high] = range_of(robot, servo);
+    common = {std::max(common.first, low), std::min(common.second, high)};
   }
   return common;
 }
@@ -112,6 +117,51 @@ Stance usual_stance(const RobotModel& robot) {
   return {robot.has(hip) ? robot.reference(hip) : 0.0, -robot.reference(hip + 1)};
 }
 
+std::vector<std::string> range_complaints(const RobotModel& robot) {
+  constexpr double narrow = 0.11;  // rad: a turn, 6.28, in degrees
+  std::vector<std::string> complaints;
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    if (i % 3 == 2 || !robot.has(i) || robot.mj->jnt_limited[robot.joint[i]] == 0) continue;
+    const auto [low, high] = range_of(robot, i);
+    if (high - low >= narrow) continue;
+    complaints.push_back(fmt::format(
+        "joint '{}': its range is {:.3g} rad wide, {:.2g}°: is it in radians where the file has "
+        "degrees (<compiler angle=\"radian\"/>)?",
+        robot.joint_name[i], high - low, (high - low) * 180.0 / std::numbers::pi));
+  }
+  for (const std::size_t left : {0U, 1U}) {
+    const auto [low, high] = common_range(robot, left == 0);
+    if (high - low >= narrow || !complaints.empty()) continue;
+    complaints.push_back(fmt::format(
+        "joints '{}' and '{}': no angle from a straight leg is within both ranges: the legs cannot "
+        "bend alike: has one axis or range a wrong sign?",
+        robot.joint_name[left], robot.joint_name[left + 3]));
+  }
+  return complaints;
+}
+
+std::string reason_to_fall(const RobotModel& robot, const mjData& file, const mjData& standing) {
+  const auto reach = [&](const mjData& pose, std::size_t servo) -> Eigen::Vector3d {
+    return vector_at(pose.xanchor, robot.joint[servo / 3 * 3 + 2]) -
+           vector_at(pose.xanchor, robot.joint[servo]);
+  };
+  if (reach(file, robot.has(0) ? 0 : 1).z() > 0.0) {
+    return "its wheels are above its legs in the pose of the file: does the base's z axis point "
+           "down?";
+  }
+  const double mass = mj_getTotalmass(robot.mj.get());
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    if (i % 3 == 2 || !robot.has(i) || robot.closed_leg[i / 3]) continue;
+    const double needed = 0.5 * 9.81 * mass * std::abs(reach(standing, i).x());
+    if (robot.effort[i] >= needed) continue;
+    return fmt::format(
+        "to stand, joint '{}' needs {:.3g} N·m, and its torque limit is {:.3g} N·m: is the limit "
+        "wrong, or the mass of {:.4g} kg?",
+        robot.joint_name[i], needed, robot.effort[i], mass);
+  }
+  return {};
+}
+
 std::optional<StanceError> stance_error(const RobotModel& robot, const Stance& stance,
                                         bool in_zeros_of_file) {
   const std::array<double, servo_count> angle = {stance.hip,  -stance.knee, 0.0,
@@ -122,15 +172,12 @@ std::optional<StanceError> stance_error(const RobotModel& robot, const Stance& s
     const bool is_hip = i % 3 == 0;
     const double sign = stance_sign(i);
     const double zero = is_hip ? zeros.hip : zeros.knee;
-    const mjtNum* const range = &robot.mj->jnt_range[2 * robot.joint[i]];
-    double low = sign * range[0];
-    double high = sign * range[1];
-    if (low > high) std::swap(low, high);
+    const std::pair<double, double> range = range_of(robot, i);
     const auto shown = [&](double x) { return std::round(1e4 * (x - zero)) / 1e4 + 0.0; };
     return StanceError{
         is_hip ? "hip" : "knee",
-        fmt::format("expected {:g} to {:g}, the range of joint '{}'{}, found {:g}", shown(low),
-                    shown(high), robot.joint_name[i],
+        fmt::format("expected {:g} to {:g}, the range of joint '{}'{}, found {:g}",
+                    shown(range.first), shown(range.second), robot.joint_name[i],
                     in_zeros_of_file ? "" : " from a straight leg", shown(sign * angle[i]))};
   }
   return loop_error(robot, angle);

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "models/robot_description.hpp"
 #include "models/robot_model.hpp"
@@ -20,6 +21,14 @@ Stance in_zeros_of_file(const RobotModel& robot, const Stance& stance);
 /// mirror image, with knees that bend forward; if they can have neither, the nearest to these
 /// within their ranges; or else the pose of the file.
 Stance usual_stance(const RobotModel& robot);
+
+/// What is wrong with the ranges of hips and knees: too narrow to move, as radians taken for
+/// degrees are, or no angle in common for mirrored legs.
+std::vector<std::string> range_complaints(const RobotModel& robot);
+
+/// Why a robot cannot stand, whatever its gains and colliders, in the pose of its file and in that
+/// in which it would balance; empty if it may.
+std::string reason_to_fall(const RobotModel& robot, const mjData& file, const mjData& standing);
 
 /// An angle that a joint cannot have.
 struct StanceError {

@@ -118,14 +118,15 @@ logs::Recording played(const Scenario& scenario, const std::string& engine,
   return recording;
 }
 
-CheckedStand stand(const Scenario& scenario, const std::string& engine, RobotCheck& check,
-                   const std::function<bool()>& should_continue) {
+/// `is_explained`: whether it is known why it cannot stand.
+CheckedStand stand(const Scenario& scenario, const std::string& engine, bool is_explained,
+                   RobotCheck& check, const std::function<bool()>& should_continue) {
   logs::Recording recording = played(scenario, engine, should_continue);
-  CheckedStand stand{
-      .engine = engine,
-      .ending = ending_text(recording, scenario.end) + part_on_terrain(scenario, recording)};
+  CheckedStand stand{.engine = engine,
+                     .ending = ending_text(recording, scenario.end),
+                     .stands = recording.info.outcome == logs::Outcome::finished};
   stand.given_way = given_way(recording, check.held);
-  stand.stands = recording.info.outcome == logs::Outcome::finished;
+  if (!is_explained) stand.ending += part_on_terrain(scenario, recording);
   stand.moved = (recording.truth.back().base_position - recording.truth.front().base_position)
                     .head<2>()
                     .norm();
@@ -171,21 +172,26 @@ void check_loads(const CheckedStand& stand, double weight, std::vector<std::stri
   }
 }
 
-/// How a drop from 10 cm ended. Limit cycles of the servos are complaints.
-std::string drop(Scenario scenario, const std::string& engine,
+/// How a drop from 10 cm ended. Limit cycles of the servos are complaints, and falls of a robot
+/// that stands.
+std::string drop(Scenario scenario, const CheckedStand& stand,
                  const std::function<bool()>& should_continue,
                  std::vector<std::string>& complaints) {
   scenario.start.clearance = 0.1;  // m
   scenario.end.duration = 1.0;     // s
-  const logs::Recording recording = played(scenario, engine, should_continue);
+  const logs::Recording recording = played(scenario, stand.engine, should_continue);
   logs::ChatterCheck chatter;
   for (const models::Observation& record : recording.observation) chatter.add(record);
   logs::Findings findings;
   chatter.report(findings);
   for (const std::string& line : findings.lines()) {
-    complaints.push_back(fmt::format("{}: dropped from 10 cm: {}", engine, line));
+    complaints.push_back(fmt::format("{}: dropped from 10 cm: {}", stand.engine, line));
   }
-  return ending_text(recording, scenario.end);
+  std::string ending = ending_text(recording, scenario.end);
+  if (stand.stands && recording.info.outcome != logs::Outcome::finished) {
+    complaints.push_back(fmt::format("{}: dropped from 10 cm: {}", stand.engine, ending));
+  }
+  return ending;
 }
 
 /// The way out for a robot that falls: its file does not choose gains, so they are Upkie's.
@@ -197,7 +203,8 @@ std::string hint_about_gains(const std::filesystem::path& file) {
                      "{gains: lqr}')";
 }
 
-void read_robot(const Scenario& scenario, RobotCheck& check) {
+/// Reads the robot. Returns why it cannot stand, if this is known.
+std::string read_robot(const Scenario& scenario, RobotCheck& check) {
   const models::RobotModel robot = models::compile_robot_model(scenario.robot, {});
   const models::MjDataPtr data = models::at_reference(robot);
   check.name = robot.name;
@@ -227,8 +234,18 @@ void read_robot(const Scenario& scenario, RobotCheck& check) {
                     "lower the gains (balancer, held_servo)",
                     least));
   }
+  const Eigen::Vector3d centre = models::vector_at(data->subtree_com, robot.base_body);
+  const Eigen::Vector3d axle = models::vector_at(data->xanchor, robot.joint[2]);
+  constexpr double farthest = 3.0;  // times the distance of an axle
+  if (const double away = (check.imu - centre).norm(); away > farthest * (axle - centre).norm()) {
+    check.complaints.push_back(fmt::format(
+        "IMU: expected it on the base, found it {:.3g} m from the robot's centre of mass", away));
+  }
   check.ignored = robot.ignored;
+  check.warnings = robot.warnings;
   check.differences = differences(robot);
+  const models::MjDataPtr standing = models::at_pose(robot, pose.orientation, pose.joint_position);
+  return models::reason_to_fall(robot, *data, *standing);
 }
 
 /// The parts beside the tyres within a centimetre of the terrain, and how far they are (m).
@@ -301,7 +318,9 @@ std::vector<std::string> draft_robot(const std::filesystem::path& robot,
   std::vector<std::string> guesses;
   for (const models::DraftLine& line : draft) {
     if (line.comment.find("guess") == std::string::npos) continue;
-    guesses.push_back(fmt::format("{}: {}: {}", yaml.string(), line.key, line.comment));
+    const bool is_block = line.value.empty() || line.value.front() == '\n';
+    guesses.push_back(fmt::format("{}: {}: {}{}", yaml.string(), line.key,
+                                  is_block ? "" : line.value + "  # ", line.comment));
   }
   return guesses;
 }
@@ -332,22 +351,25 @@ RobotCheck check_robot(const std::filesystem::path& file,
                        const std::function<bool()>& should_continue) {
   RobotCheck check;
   try {
+    // First, as there may be no stance within the ranges.
+    check.complaints = models::range_complaints(models::compile_robot_model(file, {}));
     const YamlDocument stand_scene =
         YamlDocument::parse("name: stand\nend: {duration: 2}\n", "stand");
     YAML::Node(stand_scene.root())["robot"] = file.string();  // it need not be UTF-8
     const Scenario scenario = complete_scenario(stand_scene);
-    read_robot(scenario, check);
+    const std::string reason = read_robot(scenario, check);
     constexpr double gravity = 9.81;
     for (const std::string& engine : simulators::simulator_names()) {
-      check.stands.push_back(stand(scenario, engine, check, should_continue));
-      const CheckedStand& last = check.stands.back();
+      check.stands.push_back(stand(scenario, engine, !reason.empty(), check, should_continue));
+      CheckedStand& last = check.stands.back();
       if (!last.stands) {
-        check.complaints.push_back(fmt::format("{}: standing: {}{}", engine, last.ending,
-                                               hint_about_gains(scenario.robot)));
+        check.complaints.push_back(
+            fmt::format("{}: standing: {}{}", engine, last.ending,
+                        reason.empty() ? hint_about_gains(scenario.robot) : ": " + reason));
       } else {
         check_loads(last, gravity * check.mass, check.complaints);
       }
-      check.stands.back().drop = drop(scenario, engine, should_continue, check.complaints);
+      last.drop = drop(scenario, last, should_continue, check.complaints);
     }
   } catch (const models::RobotRefusal& refused) {
     check.complaints = refused.complaints;

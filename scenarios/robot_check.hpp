@@ -57,6 +57,7 @@ struct RobotCheck {
   double knee = 0.0;                     ///< likewise
   double lever = 0.0;                    ///< knee torque per newton of load in the stance (m)
   std::vector<std::string> ignored;      ///< in the file, but not simulated
+  std::vector<std::string> warnings;     ///< what of the file may be a mistake
   std::vector<std::string> differences;  ///< between the engines
   /// Factor on all gains at which the servos become unstable, in flight and standing.
   policies::ServoMargins margins;

@@ -94,6 +94,7 @@ std::string text_of(const std::string& path, const RobotCheck& check) {
   }
   for (const models::HeldJoint& held : check.held) text += text_of(held);
   for (const std::string& ignored : check.ignored) text += "ignored: " + ignored + "\n";
+  for (const std::string& warning : check.warnings) text += "warning: " + warning + "\n";
   for (const std::string& difference : check.differences) {
     text += "engines differ: " + difference + "\n";
   }
@@ -149,6 +150,7 @@ Json json_of(const std::string& path, const RobotCheck& check) {
                {"joints", Json::array()},
                {"held", Json::array()},
                {"ignored", check.ignored},
+               {"warnings", check.warnings},
                {"differences", check.differences},
                {"stands", Json::array()}};
   json["servo_gain_margin"] = {{"flight", rounded(check.margins.flight)},
@@ -169,7 +171,7 @@ Json json_of(const std::string& path, const RobotCheck& check) {
 
 /// Whether a file describes a robot, by its extension.
 bool is_robot_file(const std::string& path) {
-  constexpr std::array extensions = {".xml", ".urdf", ".xacro", ".yaml", ".yml"};
+  constexpr std::array extensions = {".xml", ".urdf", ".xacro", ".sdf", ".yaml", ".yml"};
   const std::string extension = std::filesystem::path(path).extension().string();
   return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
 }

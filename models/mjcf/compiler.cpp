@@ -49,9 +49,9 @@ std::mutex& last_model() {
 std::string located(const std::filesystem::path& file, const MjcfDocument::Text& xml,
                     std::string message) {
   std::smatch match;
-  std::smatch object;
-  const bool names_object = std::regex_search(message, object, std::regex("[Nn]ame = ([^,\\n]+)"));
-  std::string where = xml.place_of_name(names_object ? object[1].str() : "");
+  std::string name;
+  if (std::regex_search(message, match, std::regex("[Nn]ame = ([^,\\n]+)"))) name = match[1].str();
+  std::string where = xml.place_of_name(name);
   if (where.empty()) where = file.string();
   if (std::regex_search(message, match, std::regex("line[ =]+(\\d+)"))) {
     const std::string digits = match[1].str();
@@ -62,6 +62,15 @@ std::string located(const std::filesystem::path& file, const MjcfDocument::Text&
     }
     // The message's own line is that of the composed text.
     message = std::regex_replace(message, std::regex(",? *line[ =]+\\d+(, *column +-?\\d+)?"), "");
+  }
+  if (!name.empty()) {
+    message = std::regex_replace(message, std::regex("^Error: *|\\s*Object name = [\\s\\S]*"), "");
+    if (message.find("larger than mjMINVAL") != std::string::npos) {
+      message = "expected a mass and an inertia above 0, of an <inertial> or a shape";
+    } else if (message.starts_with("repeated name")) {
+      message = "expected each name once: " + message;
+    }
+    message = fmt::format("'{}': {}", name, message);
   }
   std::replace(message.begin(), message.end(), '\n', ' ');
   while (!message.empty() && message.back() == ' ') message.pop_back();

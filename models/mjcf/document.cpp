@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -45,6 +46,29 @@ const XMLElement* default_of(const MjcfDocument& document, std::string_view name
   });
   return found;
 }
+
+/// The columns of a file's elements, in its order: the parser counts lines alone.
+class Columns {
+ public:
+  explicit Columns(std::string text) : text_(std::move(text)) {}
+
+  const std::string& text() const { return text_; }
+  int of(const XMLElement& element) {
+    for (; line_ < element.GetLineNum(); ++line_) {
+      at_ = begin_ = std::min(text_.find('\n', begin_), text_.size() - 1) + 1;
+    }
+    const std::size_t found = text_.find(std::string("<") + element.Name(), at_);
+    if (found >= std::min(text_.find('\n', at_), text_.size())) return 1;
+    at_ = found + 1;
+    return static_cast<int>(at_ - begin_);
+  }
+
+ private:
+  std::string text_;
+  int line_ = 1;
+  std::size_t begin_ = 0;  ///< of the line
+  std::size_t at_ = 0;     ///< behind the last element's
+};
 
 std::unique_ptr<tinyxml2::XMLDocument> parsed(const std::string& text,
                                               const std::filesystem::path& file) {
@@ -129,8 +153,11 @@ bool is_visual(const MjcfDocument& document, const XMLElement& geom) {
 MjcfDocument MjcfDocument::load(const std::filesystem::path& file) {
   MjcfDocument document;
   document.file_ = file;
-  document.document_ = parsed(read_file(file), file);
-  document.add_places(document.root(), file);
+  Columns columns(read_file(file));
+  document.document_ = parsed(columns.text(), file);
+  for_each_element(document.root(), [&](XMLElement& element) {
+    document.place_[&element] = {file, element.GetLineNum(), columns.of(element)};
+  });
   document.files_ = {file.lexically_normal()};
   document.expand(document.root(), file.parent_path());
   return document;
@@ -158,13 +185,6 @@ void MjcfDocument::inherit_places(const XMLElement& element, const MjcfDocument&
   }
 }
 
-void MjcfDocument::add_places(const XMLElement& element, const std::filesystem::path& file) {
-  place_[&element] = {file, element.GetLineNum()};
-  for (auto* child : children(element)) {
-    add_places(*child, file);
-  }
-}
-
 void MjcfDocument::expand(XMLElement& element, const std::filesystem::path& folder) {
   for (XMLElement* child = element.FirstChildElement(); child != nullptr;) {
     XMLElement* const next = child->NextSiblingElement();
@@ -183,11 +203,12 @@ void MjcfDocument::expand(XMLElement& element, const std::filesystem::path& fold
       fail(*child, fmt::format("include: {} is included already", file.string()));
     }
     files_.push_back(file);
-    const auto other = parsed(read_file(file), file);
+    Columns columns(read_file(file));
+    const auto other = parsed(columns.text(), file);
     // Clones have no line numbers, so those of the original are kept for them.
     const std::function<void(const XMLElement&, const XMLElement&)> keep_places =
         [&](const XMLElement& clone, const XMLElement& original) {
-          place_[&clone] = {file, original.GetLineNum()};
+          place_[&clone] = {file, original.GetLineNum(), columns.of(original)};
           const XMLElement* from = original.FirstChildElement();
           for (const auto* to = clone.FirstChildElement(); to != nullptr;
                to = to->NextSiblingElement(), from = from->NextSiblingElement()) {
@@ -210,7 +231,8 @@ void MjcfDocument::expand(XMLElement& element, const std::filesystem::path& fold
 std::string MjcfDocument::place_of(const XMLElement& element) const {
   const auto place = place_.find(&element);
   if (place == place_.end()) return file_.string();
-  return fmt::format("{}:{}:1", place->second.file.string(), place->second.line);
+  const auto& [file, line, column] = place->second;
+  return fmt::format("{}:{}:{}", file.string(), line, column);
 }
 
 void MjcfDocument::visit(const std::function<void(const XMLElement&)>& visit) const {

@@ -16,8 +16,8 @@ namespace touchdown::models {
 class MjcfDocument {
  public:
   /// Reads a file and the files that it includes. As in MuJoCo, these are relative to the folder of
-  /// the first one. Errors: `InputError` with file:line:1 for anything that is not XML, a missing
-  /// file or one that is included twice.
+  /// the first one. Errors: `InputError` with file:line:column for anything that is not XML, a
+  /// missing file or one that is included twice.
   static MjcfDocument load(const std::filesystem::path& file);
   /// Reads the MJCF that a URDF was converted to. Bodies, joints and geoms have the places of the
   /// links and joints of their names.
@@ -29,7 +29,7 @@ class MjcfDocument {
   /// This file, then those that it includes, in the order of reading.
   const std::vector<std::filesystem::path>& files() const { return files_; }
 
-  /// "file:line:1" of an element.
+  /// "file:line:column" of an element.
   std::string place_of(const tinyxml2::XMLElement& element) const;
 
   /// Calls `visit` for every element, in the order of the file.
@@ -60,7 +60,7 @@ class MjcfDocument {
   /// The tree as text, one element per line. `more` is inserted before the end of the root.
   struct Text {
     std::string text;
-    std::vector<std::string> place_of_line;  ///< file:line:1 by line; empty where unknown
+    std::vector<std::string> place_of_line;  ///< file:line:column by line; empty where unknown
     /// The place of the line with a name in quotes, else of the robot's root.
     std::string place_of_name(const std::string& name) const;
   };
@@ -70,10 +70,10 @@ class MjcfDocument {
   struct Place {
     std::filesystem::path file;
     int line = 0;
+    int column = 0;
   };
 
   void inherit_places(const tinyxml2::XMLElement& element, const MjcfDocument& urdf, Place place);
-  void add_places(const tinyxml2::XMLElement& element, const std::filesystem::path& file);
   void expand(tinyxml2::XMLElement& element, const std::filesystem::path& folder);
 
   std::filesystem::path file_;

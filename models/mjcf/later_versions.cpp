@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
+#include "core/yaml.hpp"
 #include "models/mjcf/robot_file.hpp"
 
 namespace touchdown::models {
@@ -48,13 +49,13 @@ const std::set<std::string_view> overridden = {
 const std::set<std::string_view> drawn = {"texture", "material", "camera", "light",
                                           "site",    "skin",     "layer"};
 
-std::string version_text(std::string_view name) {
+std::string version_text(std::string_view name, const std::vector<std::string>& known) {
   if (const auto found = additions.find(name); found != additions.end()) {
     return fmt::format("`{}` came with MuJoCo {}; this is MuJoCo {}: {}", name,
                        found->second.version, mj_versionString(), found->second.instead);
   }
-  return fmt::format("unrecognized: this is MuJoCo {}, `{}` may be of a later version",
-                     mj_versionString(), name);
+  return fmt::format("unrecognized: this is MuJoCo {}, `{}` may be of a later version{}",
+                     mj_versionString(), name, did_you_mean(name, known));
 }
 
 /// The attributes that this version of MuJoCo reads, by tag.
@@ -92,19 +93,23 @@ class Translation {
       a = a->Next();
       if (known->second.contains(name)) continue;
       const bool is_ignored = is_without_effect(element, name);
-      if (!name.starts_with("actuatorf")) note(element, name, is_ignored);
+      if (!name.starts_with("actuatorf")) {
+        note(element, name, is_ignored, {known->second.begin(), known->second.end()});
+      }
       if (is_ignored) element.DeleteAttribute(name.c_str());
     }
     for (XMLElement* const child : children(element)) translate(*child);
   }
 
  private:
-  void note(const XMLElement& element, std::string_view name, bool is_ignored) {
+  /// `known`: the names among which it may have been meant.
+  void note(const XMLElement& element, std::string_view name, bool is_ignored,
+            const std::vector<std::string>& known) {
     (is_ignored ? findings_.ignored : findings_.complaints)
         .push_back(fmt::format(
             "{}: {}: {}", document_.place_of(element), title_of(element),
             is_ignored ? fmt::format("{}: of a later MuJoCo, and without effect here", name)
-                       : version_text(name)));
+                       : version_text(name, known)));
   }
 
   void translate_unknown(XMLElement& element) {
@@ -118,7 +123,9 @@ class Translation {
         translate(*child);
       }
     } else {
-      note(element, tag, drawn.contains(tag));
+      std::vector<std::string> tags;
+      for (const auto& [known, attributes] : schema_) tags.push_back(known);
+      note(element, tag, drawn.contains(tag), tags);
       if (!drawn.contains(tag)) return;
     }
     document_.remove(element);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <map>
 
 #include <Eigen/Core>
 #include <fmt/format.h>
@@ -80,11 +81,33 @@ void rename(XMLElement& joint, XMLElement* motor, const std::string& name) {
   motor->DeleteAttribute("jointinparent");  // the same for hinges
 }
 
+/// The joint with a name that the YAML file gives under `key`.
+XMLElement& named_joint(const MjcfDocument& document, const FileFindings& findings,
+                        const std::string& name, const std::string& key, const RobotKeys& keys) {
+  const bool is_fixed = std::ranges::count(findings.fixed, name) > 0;
+  if (is_fixed) keys.fail(key, fmt::format("joint '{}' is fixed, expected a hinge", name));
+  return named(document, {"joint"}, name, key, keys);
+}
+
+/// Refuses a joint with two names, which would be renamed twice.
+void require_once(const PartNames& parts, const RobotKeys& keys) {
+  std::map<std::string, std::string> key_of;
+  const auto add = [&](const std::string& joint, const std::string& key) {
+    const auto [other, is_new] = key_of.emplace(joint, key);
+    if (!is_new) keys.fail(key, fmt::format("'{}' is the joint of {}, too", joint, other->second));
+  };
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    if (i % 3 == 0 && parts.joint[i].empty() && !parts.has_hips) continue;
+    add(own_name(parts, i), fmt::format("joints.{}", servo_names[i]));
+  }
+  for (std::size_t i = 0; i < parts.held.size(); ++i) add(parts.held[i], fmt::format("held.{}", i));
+}
+
 void name_held(MjcfDocument& document, const std::vector<std::string>& held, FileFindings& findings,
                const RobotKeys& keys) {
   for (std::size_t i = 0; i < held.size(); ++i) {
     collect(findings.complaints, [&] {
-      XMLElement& joint = named(document, {"joint"}, held[i], fmt::format("held.{}", i), keys);
+      XMLElement& joint = named_joint(document, findings, held[i], fmt::format("held.{}", i), keys);
       XMLElement* const motor = only_motor_of(document, held[i]);
       rename(joint, motor != nullptr ? motor : &add_motor(document, joint), held_name(i));
     });
@@ -119,7 +142,7 @@ void name_servos(MjcfDocument& document, const PartNames& parts, FileFindings& f
         joints[i] = document.find("joint", servo_names[i]);
       } else {
         joints[i] =
-            &named(document, {"joint"}, own, fmt::format("joints.{}", servo_names[i]), keys);
+            &named_joint(document, findings, own, fmt::format("joints.{}", servo_names[i]), keys);
         require_free_name(document, parts, i);
       }
     });
@@ -314,6 +337,7 @@ void RobotKeys::fail(std::string_view key, const std::string& message) const {
 
 void name_parts(MjcfDocument& document, const PartNames& parts, FileFindings& findings,
                 const RobotKeys& keys) {
+  require_once(parts, keys);
   leave_untouched(document, parts.no_collision, findings, keys);
   name_held(document, parts.held, findings, keys);
   name_servos(document, parts, findings, keys);

@@ -203,6 +203,28 @@ void require_none(const std::vector<std::string>& complaints) {
   if (!complaints.empty()) throw RobotRefusal(complaints);
 }
 
+void note_computed_masses(const MjcfDocument& document, FileFindings& findings) {
+  std::vector<std::string> names;
+  const XMLElement* first = nullptr;
+  document.visit([&](const XMLElement& body) {
+    const bool is_body = std::string_view(body.Name()) == "body";
+    if (!is_body || body.FirstChildElement("inertial") != nullptr) return;
+    const bool is_computed =
+        std::ranges::any_of(children(body, "geom"), [&](const XMLElement* geom) {
+          return attribute_or_default(document, *geom, "mass").empty() &&
+                 attribute_or_default(document, *geom, "density").empty();
+        });
+    if (!is_computed) return;
+    if (names.empty()) first = &body;
+    names.push_back(fmt::format("'{}'", attribute(body, "name")));
+  });
+  if (names.empty()) return;
+  note(findings.warnings, document, *first,
+       fmt::format("mass of {} link{} computed from colliders, as if of water: {} (expected "
+                   "<inertial>, or a mass or density of the shapes)",
+                   names.size(), names.size() == 1 ? "" : "s", fmt::join(names, ", ")));
+}
+
 void keep_robot_only(MjcfDocument& document, FileFindings& findings) {
   limit_by_ranges(document);
   XMLElement& root = document.root();

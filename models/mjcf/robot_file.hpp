@@ -35,8 +35,10 @@ void require_none(const std::vector<std::string>& complaints);
 
 /// What is found in a robot's file.
 struct FileFindings {
-  std::vector<std::string> ignored;  ///< what is not simulated, one sentence each, with its place
+  std::vector<std::string> ignored;   ///< what is not simulated, one sentence each, with its place
+  std::vector<std::string> warnings;  ///< what may be a mistake, likewise
   std::vector<std::string> complaints;   ///< what cannot be simulated, likewise
+  std::vector<std::string> fixed;        ///< fixed joints of a URDF, which are none here
   std::map<std::string, double> effort;  ///< torque limits by joint (N·m), beside those of motors
 };
 
@@ -47,6 +49,9 @@ struct FileFindings {
 /// joints, moving bodies beside the robot, composite bodies, height fields, or more than 5,000
 /// geoms.
 void keep_robot_only(MjcfDocument& document, FileFindings& findings);
+
+/// Warns of bodies with masses that MuJoCo computes from their shapes at its own density.
+void note_computed_masses(const MjcfDocument& document, FileFindings& findings);
 
 /// Writes what later versions of MuJoCo added in the words of this one: the torque limits of
 /// joints (in the findings), the damping of position servos, frames without a pose. What touchdown

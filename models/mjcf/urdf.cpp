@@ -122,7 +122,8 @@ void reduce_mujoco_section(MjcfDocument& urdf, FileFindings& findings) {
 /// without mass above it, such as `world` and `base_footprint`.
 std::string floating_link(const MjcfDocument& urdf) {
   const XMLElement& robot = urdf.root();
-  std::string link = root_link(urdf);
+  const std::string root = root_link(urdf);
+  std::string link = root;
   const auto has_mass = [&](const std::string& name) {
     const XMLElement* const element = urdf.find("link", name);
     return element != nullptr && element->FirstChildElement("inertial") != nullptr;
@@ -135,7 +136,7 @@ std::string floating_link(const MjcfDocument& urdf) {
       if (link_of(*joint, "parent") != link || (type != "fixed" && type != "floating")) continue;
       if (below.empty() || has_mass(child)) below = child;
     }
-    if (below.empty()) return link;
+    if (below.empty()) return root;
     link = below;
   }
   return link;
@@ -181,6 +182,8 @@ MjcfDocument converted_urdf(const std::filesystem::path& file, const std::string
       urdf.fail(*joint, fmt::format("{}: expected no <mimic>: coupled joints are not supported",
                                     title_of(*joint)));
     }
+    if (attribute(*joint, "type") == "fixed")
+      findings.fixed.emplace_back(attribute(*joint, "name"));
     const XMLElement* const limit = joint->FirstChildElement("limit");
     const double effort = limit == nullptr ? 0.0 : limit->DoubleAttribute("effort");
     if (effort > 0.0) findings.effort[std::string(attribute(*joint, "name"))] = effort;

@@ -250,10 +250,25 @@ TEST_F(InFolder, CheckWritesTheFileOfARobotAndDrawsIt) {
        {"check log.mpack --legs legs.npz", {"--legs: expected one robot"}}});
 }
 
+TEST_F(CheckOfARobot, PrintsWarningsAndReadsNoSdf) {
+  const std::string models = TOUCHDOWN_SOURCE_DIR "/models/";
+  folder_.write("robot.urdf",
+                edited(read_file(models + "legs/ros_style.urdf"),
+                       {{"(<link name=\"left_shank\">)[\\s\\S]*?</inertial>", "$1"}}));
+  folder_.write("robot.yaml",
+                edited(read_file(models + "ros_style.yaml"), {{"legs/ros_style", "robot"}}));
+  EXPECT_THAT(folder_.output_of("check robot.yaml"),
+              HasSubstr("\nwarning: robot.urdf:35:3: mass of 1 link computed"));
+  const auto json = nlohmann::json::parse(folder_.output_of("check robot.yaml --json"));
+  EXPECT_EQ(json["warnings"].size(), 1U);
+  folder_.write("robot.sdf", "<sdf version=\"1.9\"><model name=\"m\"/></sdf>");
+  EXPECT_THAT(folder_.run("check robot.sdf").output, HasSubstr("robot.sdf:1:1: sdf: "));
+}
+
 TEST_F(InFolder, CheckNamesItsGuessesAndAllReasonsAgainstARobot) {
   folder_.write("bare.xml", edited_upkie({{"<site name=\"imu\"[^>]*/>", ""}}));
   const Ended guessed = folder_.run("check bare.xml --write bare.yaml");
-  EXPECT_THAT(guessed.errors, HasSubstr("bare.yaml: imu: a guess"));
+  EXPECT_THAT(guessed.errors, HasSubstr("bare.yaml: imu: torso  # a guess"));
   folder_.write("bad.xml", edited_upkie({{"<body name=\"torso\"", "$& gravcomp=\"1\""},
                                          added("<tendon><fixed name=\"rope\"/></tendon>")}));
   const Ended bad = folder_.run("check bad.xml --write bad.yaml");

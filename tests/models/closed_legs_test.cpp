@@ -10,7 +10,9 @@ namespace touchdown::models {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Not;
 
 /// A leg with a motor at the hip that drives the knee: thigh, crank, rod and shank are a
@@ -167,6 +169,33 @@ TEST_F(ClosedRobot, IsRefusedAtTheKeyOfItsYamlFile) {
                  "motors: {left: [left_pull], right: [right_pull]}\n");
   expect_refusal({}, "expected three numbers",
                  "loops: [{bodies: [left_rod, left_shank], anchor: [0, 0]}]\n");
+}
+
+/// The shipped four-bar robot with edits of its YAML file.
+RobotModel four_bar(const ScratchFolder& folder, const Edit& edit) {
+  const std::string folder_of_models = TOUCHDOWN_SOURCE_DIR "/models/";
+  return compile_robot_model(
+      folder.write("four.yaml", edited(read_file(folder_of_models + "four_bar.yaml"),
+                                       {{"legs/", folder_of_models + "legs/"}, edit})),
+      Terrain{});
+}
+
+TEST_F(ClosedRobot, HasAnchorsInMetresThatAreAlikeInBothLegs) {
+  const std::string left = "(left_shank\\], anchor: )\\[0.0889219, 0, -0.133015\\]";
+  for (const char* anchor : {"[88.9, 0, -133.0]", "[0, 3, 0]", "[-5, 0, -2]"}) {
+    EXPECT_THAT(complaint_of([&] {
+                  four_bar(folder_, {left, std::string("$1") + anchor});
+                }),
+                AllOf(HasSubstr("four.yaml:11:49: loops.0.anchor: "), HasSubstr("is it in mm?")));
+  }
+  for (const auto& [anchor, gap] :
+       std::vector<std::pair<const char*, const char*>>{{"[0.1389219, 0, -0.133015]", "50.0"},
+                                                        {"[0.0889219, 0, -0.113015]", "20.0"},
+                                                        {"[0.0919219, 0, -0.137015]", "5.0"}}) {
+    EXPECT_THAT(four_bar(folder_, {left, std::string("$1") + anchor}).warnings,
+                ElementsAre(HasSubstr(fmt::format("left leg meets {} mm from where", gap))));
+  }
+  EXPECT_THAT(four_bar(folder_, {"lqr", "lqr"}).warnings, IsEmpty());
 }
 
 }  // namespace

@@ -17,7 +17,9 @@ namespace touchdown::models {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Not;
 
 /// A node of YAML in one style.
@@ -171,19 +173,88 @@ TEST_F(RobotDraft, MeasuresWheelsWithoutRoundColliders) {
               HasSubstr("# tyres: {radius: …}"));
 }
 
-TEST_F(RobotDraft, NamesRodsOfACutLoopInsteadOfHoldingThem) {
-  const std::string text =
-      draft_of(read_file(TOUCHDOWN_SOURCE_DIR "/models/legs/four_bar.urdf"), "theirs.urdf");
-  EXPECT_THAT(text, AllOf(HasSubstr("held: [left_rocker_pivot, right_rocker_pivot]"),
-                          HasSubstr("or cranks of cut loops"), HasSubstr("loops: [{bodies: [a, b]"),
-                          Not(HasSubstr("maximum_torque"))));
-  EXPECT_THAT(complaint_of([&] { drafted(); }),
-              HasSubstr("motor 'left_knee': expected a ctrlrange"));
-  const std::string rod =
-      "<body pos=\"0 0 -.05\" name=\"rod\"><joint name=\"rod_pivot\" axis=\"0 1 0\"/><inertial "
-      "pos=\"0 0 0\" mass=\".1\" diaginertia=\"1e-4 1e-4 1e-4\"/></body>";
-  EXPECT_THAT(draft_of(edited_upkie({{"<body name=\"left_lower_leg\"", rod + "$&"}})),
-              AllOf(HasSubstr("# rod_pivot: ends of a cut loop?"), Not(HasSubstr("held:"))));
+/// The five-bar robot without its loops.
+std::string cut_five_bar() {
+  return edited(read_file(TOUCHDOWN_SOURCE_DIR "/models/legs/five_bar.xml"),
+                {{"<connect[^>]*/>", ""}});
+}
+
+/// A link with a hinge on the base, half of `length` long down to its centre of mass.
+std::string link_at(const std::string& name, const std::string& place, double length,
+                    const std::string& inside = "") {
+  return fmt::format(
+      "<body name=\"{0}\" pos=\"{1}\"><joint name=\"{0}\" axis=\"0 1 0\"/><inertial "
+      "pos=\"0 0 {2}\" mass=\".1\" diaginertia=\"1e-4 1e-4 1e-4\"/>{3}</body>",
+      name, place, -0.5 * length, inside);
+}
+
+TEST_F(RobotDraft, AsksForTheLoopsOfRodsWhateverHasAMotor) {
+  const std::string four = read_file(TOUCHDOWN_SOURCE_DIR "/models/legs/four_bar.urdf");
+  const Edit efforts = {"(<axis xyz=\"0 1 0\"/>)\\s*</joint>",
+                        "$1<limit effort=\"30\" velocity=\"20\"/></joint>"};
+  const std::string imu = "<site name=\"imu\"";
+  const auto upkie_with = [&](const std::string& links) {
+    return edited_upkie({{imu, links + imu}});
+  };
+  const std::string wheel = "<body name=\"left_wheel\"";
+  for (const auto& [robot, file, rod] : std::vector<std::array<std::string, 3>>{
+           {four, "theirs.urdf", "left_rocker_pivot"},
+           {edited(four, {efforts}), "theirs.urdf", "left_rocker_pivot"},
+           {cut_five_bar(), "theirs.xml", "left_rear_motor"},
+           {edited_upkie({{wheel, link_at("lever", "0 0 0", 0.1) + wheel}}), "theirs.xml", "lever"},
+           // Along the thigh, from beside the hip to beside the knee.
+           {upkie_with(link_at("coupler", "-.04 .12 -.164", 0.16)), "theirs.xml", "coupler"},
+           {upkie_with(link_at("crank", ".02 .1 -.15", 0.03, link_at("push", "0 0 -.03", 0.15))),
+            "theirs.xml", "crank, push"}}) {
+    EXPECT_THAT(
+        draft_of(robot, file),
+        AllOf(HasSubstr("# " + rod), HasSubstr("# loops: [{bodies: ["), Not(HasSubstr("held:"))));
+    EXPECT_THAT(
+        complaint_of([&] { drafted(); }),
+        AllOf(HasSubstr("rod of a closed chain"), HasSubstr("`loops`"), Not(HasSubstr("`held`"))))
+        << rod;
+  }
+  // Held all the same, they are simulated with a warning.
+  folder_.write("theirs.xml",
+                edited_upkie({{wheel, link_at("lever", "0 0 0", 0.1) + wheel},
+                              {"</actuator>", "<motor joint=\"lever\" ctrlrange=\"-1 1\"/>$&"}}));
+  yaml_ = folder_.write("theirs.yaml", "mjcf: theirs.xml\nheld: [lever]\n");
+  EXPECT_THAT(drafted().warnings, ElementsAre(HasSubstr("joint 'lever': a rod of a closed chain")));
+}
+
+TEST_F(RobotDraft, HoldsArmsAndHeads) {
+  const Edit motor = {
+      "</actuator>",
+      "<motor joint=\"arm\" ctrlrange=\"-9 9\"/><motor joint=\"hand\" ctrlrange=\"-9 9\"/>$&"};
+  for (const char* place : {"0 0 .1", ".1 0 0", "0 0 -.1", ".2 .1 .2"}) {
+    const std::string arm = link_at("arm", place, -0.2, link_at("hand", "0 0 .2", -0.2));
+    EXPECT_THAT(draft_of(edited_upkie({{"<site name=\"imu\"", arm + "$&"}, motor})),
+                HasSubstr("held: [arm, hand]"));
+    EXPECT_EQ(drafted().held.size(), 2U);
+    EXPECT_THAT(drafted().warnings, IsEmpty()) << place;
+  }
+}
+
+TEST_F(RobotDraft, NamesLinksWithComputedMasses) {
+  const std::string urdf = read_file(TOUCHDOWN_SOURCE_DIR "/models/legs/ros_style.urdf");
+  const std::string inertial = "\\s*<inertial>[\\s\\S]*?</inertial>";
+  for (const auto& [where, words] : std::vector<std::pair<std::string, std::string>>{
+           {"(<link name=\"left_shank\">)",
+            "mass of 1 link computed from colliders, as if of water: 'left_shank'"},
+           {"(<link name=\"\\w+_thigh\">)",
+            "mass of 2 links computed from colliders, as if of water: 'left_thigh', 'right_thigh'"},
+           {"()", "mass of 7 links computed"}}) {
+    EXPECT_THAT(draft_of(edited(urdf, {{where + inertial, "$1"}}), "theirs.urdf"),
+                AllOf(::testing::StartsWith("mjcf: theirs.urdf\n# "), HasSubstr(words)));
+    EXPECT_THAT(drafted().warnings, ElementsAre(HasSubstr(words)));
+  }
+  const auto warnings = [&](const std::string& geom) {
+    draft_of(biped({0.2, 0.2}, "0 1 0", {"l", "r"}, tyre_about("0 1 0") + geom));
+    return drafted().warnings;
+  };
+  EXPECT_THAT(warnings(""), IsEmpty());
+  EXPECT_THAT(warnings("<geom size=\".01\" density=\"700\"/>"), IsEmpty());
+  EXPECT_THAT(warnings("<geom size=\".01\"/>"), ElementsAre(HasSubstr("mass of 2 links")));
 }
 
 TEST_F(RobotDraft, RefusesWhatHasNoWheelsOrNoKnees) {

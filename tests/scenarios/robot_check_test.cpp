@@ -1,7 +1,9 @@
 #include "scenarios/robot_check.hpp"
 
 #include <algorithm>
+#include <array>
 #include <regex>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -107,6 +109,9 @@ TEST(ARobotCheck, ComplainsOfRobotsThatCannotBeUsed) {
   EXPECT_THAT(complaints({added("<tendon/><extension/>")}),
               ElementsAre(HasSubstr("tendon"), HasSubstr("extension")));
   EXPECT_THAT(complaints({{"-16 16\"", "-0.1 0.1\""}}),
+              ElementsAre(AllOf(HasSubstr("mujoco: standing: fell"), HasSubstr("torque limit")),
+                          AllOf(HasSubstr("bullet: standing: fell"), HasSubstr("torque limit"))));
+  EXPECT_THAT(complaints({{"-1.7 1.7\"", "-0.1 0.1\""}}),
               ElementsAre(AllOf(HasSubstr("mujoco: standing: fell"), HasSubstr("gains: lqr")),
                           AllOf(HasSubstr("bullet: standing: fell"), HasSubstr("gains: lqr"))));
   EXPECT_THAT(complaints({{"<inertial pos=\"-0.011451 0 -0.118768\"",
@@ -119,6 +124,70 @@ TEST(ARobotCheck, ComplainsOfRobotsThatCannotBeUsed) {
                              HasSubstr("a part other than a tyre touched the "
                                        "terrain: 'left_wheel'"),
                              HasSubstr("no_collision: [left_wheel]"))));
+}
+
+TEST(ARobotCheck, NamesTheCauseOfAFallBeforeItsRemedies) {
+  const ScratchFolder folder;
+  const std::string left = "(joint=\"left_knee\") ctrlrange=\"-16 16\"";
+  const std::string right = "(joint=\"right_knee\") ctrlrange=\"-16 16\"";
+  // Half the weight, 26.2 N, at the axle's distance from the knee, .0577 m.
+  const std::string needs = "_knee' needs 1.51 N·m, and its torque limit is ";
+  for (const auto& [edits, keys, words] :
+       std::vector<std::tuple<std::vector<Edit>, std::string, std::string>>{
+           {{{left, "$1 ctrlrange=\"-1 1\""}}, "", "'left" + needs + "1 N·m"},
+           {{{right, "$1 ctrlrange=\"-9 9\" forcerange=\"-.7 .7\""}},
+            "",
+            "'right" + needs + "0.7 N·m"},
+           {{{left, "$1 ctrlrange=\"-16 16\" gear=\".05\""}}, "", "'left" + needs + "0.8 N·m"},
+           {{}, "actuators: {knee: {maximum_torque: 0.9}}\n", "'left" + needs + "0.9 N·m"},
+           {{}, "mass: 100\n", "or the mass of 533.9 kg"},
+           {{{"pos=\"0 (-?)0.1142 -0.164\"", "pos=\"0 $010.1142 0\" quat=\"0 1 0 0\""}},
+            "",
+            "z axis point down?"}}) {
+    folder.write("robot.xml", edited_upkie(edits));
+    EXPECT_THAT(
+        check_robot(folder.write("robot.yaml", "mjcf: robot.xml\n" + keys)).complaints,
+        AllOf(SizeIs(2), Each(AllOf(HasSubstr("standing: fell"), HasSubstr(words),
+                                    Not(HasSubstr("no_collision")), Not(HasSubstr("gains"))))))
+        << words;
+  }
+  for (const char* limit : {"3", "2.5"}) {
+    const std::string both = std::string("$1 ctrlrange=\"-") + limit + " " + limit + "\"";
+    const RobotCheck check =
+        check_robot(folder.write("robot.xml", edited_upkie({{left, both}, {right, both}})));
+    EXPECT_THAT(check.complaints, ElementsAre(HasSubstr("mujoco: dropped from 10 cm: fell"),
+                                              HasSubstr("bullet: dropped from 10 cm: fell")));
+  }
+}
+
+TEST(ARobotCheck, NamesRangesThatLockTheLegsAndAnImuFarAway) {
+  const ScratchFolder folder;
+  const auto complaints = [&](const std::vector<Edit>& edits) {
+    return check_robot(folder.write("robot.xml", edited_upkie(edits))).complaints;
+  };
+  const auto ranges = [](const std::string& joint, const char* left, const char* right) {
+    return std::vector<Edit>{
+        {"(\"left_" + joint + "\" axis=\"0 -1 0\" range)=\"[^\"]*", std::string("$1=\"") + left},
+        {"(\"right_" + joint + "\" axis=\"0 1 0\" range)=\"[^\"]*", std::string("$1=\"") + right}};
+  };
+  EXPECT_THAT(complaints({{"angle=\"radian\"", "angle=\"degree\""}}),
+              AllOf(SizeIs(4), Each(HasSubstr("radians where the file has degrees")),
+                    Contains(HasSubstr("joint 'right_knee': its range is 0.0876 rad wide, 5°"))));
+  EXPECT_THAT(complaints(ranges("knee", "0 0.05", "-2.51 2.51")),
+              Contains(HasSubstr("joint 'left_knee': its range")));
+  for (const auto& [joint, left, right] :
+       std::vector<std::array<const char*, 3>>{{"knee", "-2.51 0", "-2.51 0"},
+                                               {"knee", "0.1 2", "0 2"},
+                                               {"hip", "0.2 1.26", "0.2 1.26"}}) {
+    EXPECT_THAT(complaints(ranges(joint, left, right)),
+                Contains(HasSubstr("the legs cannot bend alike")));
+  }
+  EXPECT_THAT(complaints(ranges("knee", "-2.51 0", "0 2.51")), IsEmpty());
+  for (const char* place : {"0 0 5", "-3 0 0", "0 57 0"}) {
+    const std::string site = std::string("name=\"imu\" pos=\"") + place + "\"";
+    EXPECT_THAT(complaints({{"name=\"imu\" pos=\"0 0 -0.1\"", site}}),
+                Contains(HasSubstr("IMU: expected it on the base")));
+  }
 }
 
 /// The check of a shipped robot with another base (kg), other rotors (kg·m²), and more keys.

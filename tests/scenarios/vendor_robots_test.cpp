@@ -186,8 +186,8 @@ TEST(AUrdfOfAVendor, IsComplainedAboutAtItsLines) {
     folder.write("vendor.urdf", std::regex_replace(vendor_urdf(), std::regex(what), by));
     const RobotCheck check = check_robot(folder.write("vendor.yaml", urdf_keys));
     EXPECT_THAT(check.complaints,
-                AllOf(Each(AllOf(MatchesRegex("[^:]*vendor.urdf:[0-9]+:1: .*"), HasSubstr(words),
-                                 Not(HasSubstr("vendor.urdf:1:1")))),
+                AllOf(Each(AllOf(MatchesRegex("[^:]*vendor.urdf:[0-9]+:[0-9]+: .*"),
+                                 HasSubstr(words), Not(HasSubstr("vendor.urdf:1:1")))),
                       Not(IsEmpty())))
         << by;
   }
@@ -323,7 +323,7 @@ TEST(AnMjcfOfAVendor, StandsWithoutItsMeshes) {
   EXPECT_THAT(check.complaints, IsEmpty());
   EXPECT_THAT(check.held, SizeIs(2));
   EXPECT_EQ(check.wheel_radius, 0.127);
-  EXPECT_THAT(check.ignored, Contains(AllOf(MatchesRegex("[^:]*vendor.xml:[0-9]+:1: .*"),
+  EXPECT_THAT(check.ignored, Contains(AllOf(MatchesRegex("[^:]*vendor.xml:[0-9]+:[0-9]+: .*"),
                                             HasSubstr("mesh 'wheel'"), HasSubstr("not drawn"))));
   EXPECT_THAT(check.ignored, Contains(HasSubstr("texture 'wood'")));
   EXPECT_THAT(check.ignored, Contains(HasSubstr("keyframe")));
