@@ -122,8 +122,7 @@ void reduce_mujoco_section(MjcfDocument& urdf, FileFindings& findings) {
 /// without mass above it, such as `world` and `base_footprint`.
 std::string floating_link(const MjcfDocument& urdf) {
   const XMLElement& robot = urdf.root();
-  const std::string root = root_link(urdf);
-  std::string link = root;
+  std::string link = root_link(urdf);
   const auto has_mass = [&](const std::string& name) {
     const XMLElement* const element = urdf.find("link", name);
     return element != nullptr && element->FirstChildElement("inertial") != nullptr;
@@ -136,7 +135,7 @@ std::string floating_link(const MjcfDocument& urdf) {
       if (link_of(*joint, "parent") != link || (type != "fixed" && type != "floating")) continue;
       if (below.empty() || has_mass(child)) below = child;
     }
-    if (below.empty()) return root;
+    if (below.empty()) return root_link(urdf);
     link = below;
   }
   return link;
