@@ -16,6 +16,7 @@
 #include "core/resources.hpp"
 #include "core/stop.hpp"
 #include "experiments/config/yaml_kind.hpp"
+#include "experiments/results/captions.hpp"
 #include "logs/log/reader.hpp"
 #include "logs/log/recording_file.hpp"
 #include "noise/reported_signals.hpp"
@@ -26,6 +27,7 @@
 #include "scenarios/scenario.hpp"
 #include "scenarios/scenario_file.hpp"
 #include "scoring/labels.hpp"
+#include "scoring/transitions.hpp"
 
 namespace touchdown::cli {
 
@@ -113,11 +115,16 @@ void simulate(SimulateFlags flags, const CliSession& session) {
   end_if(session.stop);
   if (sensors) report_through(*sensors, recording);
   logs::write_recording(recording, flags.output);
-  const auto all = scoring::flights(scoring::any_wheel(scoring::contact_labels(recording, {})));
-  print("{}: {} {}, {} flight{}\n", flags.output, recording.info.scenario,
+  const auto shortest = static_cast<std::size_t>(
+      std::llround(scoring::ScoringConfig{}.minimum_flight / recording.period()));
+  std::size_t flights = 0;
+  for (const scoring::ContactSequence& wheel : scoring::contact_labels(recording, {})) {
+    flights += scoring::flights(wheel, shortest).size();
+  }
+  print("{}: {} {}, {} of a wheel\n", flags.output, recording.info.scenario,
         scenarios::ending_text(recording, scenario.end) +
             scenarios::part_on_terrain(scenario, recording),
-        all.size(), all.size() == 1 ? "" : "s");
+        experiments::plural(flights, "flight"));
 }
 
 }  // namespace

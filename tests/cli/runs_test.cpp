@@ -214,6 +214,23 @@ TEST_F(Run, ThatIsFilmedNeedsRecordings) {
         {"recordings: expected all or pictured", "none goes with video.enabled: false"}}});
 }
 
+TEST_F(Simulate, CountsTheFlightsOfEachWheelThatEstimateScores) {
+  for (const std::string scenario : {"kerb", "hop", "flat", "push_off"}) {
+    const std::string line =
+        folder_.output_of("simulate scenarios/" + scenario + ".yaml -o run.mpack");
+    const auto number_after = [](const std::string& text, const std::string& before) {
+      return std::stoi(text.substr(text.find(before) + before.size()));
+    };
+    const std::string estimated = folder_.output_of("estimate run.mpack");
+    EXPECT_THAT(line, HasSubstr(" of a wheel\n"));
+    EXPECT_EQ(number_after(line, " s, "),
+              number_after(estimated.substr(estimated.find("takeoffs ", estimated.find("truth"))),
+                           " of "))
+        << scenario << '\n'
+        << line << estimated;
+  }
+}
+
 TEST_F(Simulate, RecordsTheSameRunTwice) {
   const std::string simulate = "simulate step.yaml --simulator bullet --seed 9 --run ";
   EXPECT_THAT(folder_.output_of(simulate + "1 -o a.mpack"), HasSubstr("step"));
