@@ -23,7 +23,7 @@ std::string percent(std::int64_t part, std::int64_t whole) {
 }
 
 /// The events of the truth: flights that last long enough. `listed` is the number of those in the
-/// list, so that the text accounts for each.
+/// list, which merges shorter states, so that the text accounts for each.
 std::string found(const scoring::TransitionCounts& counts, std::int64_t listed,
                   std::string_view name) {
   std::string text = fmt::format("{} {} of {} found", name, counts.detected, counts.events);
@@ -35,7 +35,25 @@ std::string found(const scoring::TransitionCounts& counts, std::int64_t listed,
   text += fmt::format(", {} false", counts.false_alarms);
   const std::int64_t others = listed - counts.detected - counts.false_alarms;
   if (others > 0) text += fmt::format(", {} in or beside a shorter or unscored flight", others);
+  if (others < 0) {
+    text += fmt::format(", {} of these before a state under {:g} ms and not listed", -others,
+                        1e3 * scoring::ScoringConfig{}.minimum_flight);
+  }
   return text;
+}
+
+/// Landings that are all found late by the same time: an impact shows at once.
+std::string shift_text(const scoring::TransitionCounts& landing) {
+  constexpr std::int64_t few = 3;
+  constexpr double least = 0.03;  // s
+  constexpr double alike = 0.005;
+  const bool is_shifted = landing.detected >= few && landing.latency_deviation() < alike &&
+                          landing.latency_mean() >= least;
+  if (!is_shifted) return {};
+  return fmt::format(
+      "{:<12} all landings are found {:.0f} ms late: is the clock of the truth, or that of the "
+      "signals, shifted?\n",
+      "", 1e3 * landing.latency_mean());
 }
 
 /// "none": of the steps that count, none has the class.
@@ -46,13 +64,14 @@ std::string share(double value) {
 std::string score_text(const scoring::Score& score, std::int64_t takeoffs, std::int64_t landings) {
   const scoring::Classification& points = score.points;
   return fmt::format(
-      "{:<12} accuracy {}, balanced {}, precision and recall of contact {} {}, of no contact {} "
-      "{}, Brier {}\n{:<12} {}; {}\n",
-      "truth", share(points.success()), share(points.balanced_accuracy()),
-      share(points.contact_precision()), share(points.contact_recall()),
-      share(points.no_contact_precision()), share(points.no_contact_recall()),
-      share(score.calibration.brier()), "", found(score.takeoff, takeoffs, "takeoffs"),
-      found(score.landing, landings, "landings"));
+             "{:<12} accuracy {}, balanced {}, precision and recall of contact {} {}, of no "
+             "contact {} {}, Brier {}\n{:<12} {}; {}\n",
+             "truth", share(points.success()), share(points.balanced_accuracy()),
+             share(points.contact_precision()), share(points.contact_recall()),
+             share(points.no_contact_precision()), share(points.no_contact_recall()),
+             share(score.calibration.brier()), "", found(score.takeoff, takeoffs, "takeoffs"),
+             found(score.landing, landings, "landings")) +
+         shift_text(score.landing);
 }
 
 /// The log's own clock (ns).
@@ -285,7 +304,8 @@ std::string LogSummary::contact_text() const {
                                  percent(contact_[0], counted_), percent(contact_[1], counted_),
                                  percent(contact_[2], counted_), percent(contact_[3], counted_));
   if (valid_steps() < steps_) text += fmt::format(" of {} valid steps", counted_);
-  return text;
+  return text +
+         fmt::format(", after the first {:g} s", static_cast<double>(skipped_) * clock_.period);
 }
 
 std::string LogSummary::events_text(std::size_t w) const {

@@ -1,12 +1,20 @@
 #include "experiments/logs/summary.hpp"
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <string>
+#include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace touchdown::experiments {
 namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// The line about signals of a log of 1000 steps with these statuses at the named steps.
 std::string signals_line(const std::map<int, SignalStatus>& statuses, SignalStatus others,
@@ -45,6 +53,60 @@ TEST(LogSummary, ReportsStepsWithoutTargetsBesideUnusableSignals) {
   EXPECT_EQ(signals_line({{3, invalid}, {7, gap}, {8, frozen}}, degraded, 1),
             "1 invalid, 1 gap, 1 frozen of 1000 steps; unusable: acceleration x; not plausible: 1 "
             "finding, printed above; no targets of joints at 997 of 1000 steps");
+}
+
+/// Summary and score of 10 s at 1 kHz, with flights of both wheels in the truth and in the
+/// decision: begin and end (ms).
+using Flights = std::vector<std::array<int, 2>>;
+std::string text_of(const Flights& truth, const Flights& decided) {
+  const auto is_in = [](const Flights& flights, int k) {
+    return std::ranges::any_of(flights, [&](const auto& f) { return k >= f[0] && k < f[1]; });
+  };
+  LogSummary summary(0.001, {});
+  LogScore score(1000, {}, {}, false);
+  for (int k = 0; k < 10'000; ++k) {
+    Belief belief;
+    belief.status = SignalStatus::good;
+    const bool contact = !is_in(decided, k);
+    for (auto& wheel : belief.wheel) {
+      wheel.contact = contact;
+      wheel.p_contact = contact ? 1.0 : 0.0;
+    }
+    const double force = is_in(truth, k) ? 0.0 : 26.0;
+    summary.add(0.001 * k, belief);
+    LogStep step;
+    step.normal_force = {force, force};
+    score.add(step, belief);
+  }
+  return summary.text(score.finish());
+}
+
+TEST(LogSummary, AccountsForTheDifferenceBetweenTheListOfTakeoffsAndTheirScore) {
+  const Flights truth = {{2000, 2200}, {5000, 5200}};
+  EXPECT_THAT(text_of(truth, truth), HasSubstr("takeoffs 4 of 4 found, latency 0.0 ± 0.0 ms, 0 "
+                                               "false; landings"));
+  EXPECT_THAT(text_of(truth, {{2000, 2200}, {5000, 5200}, {7000, 7020}}),
+              AllOf(HasSubstr("takeoffs at (s) 2.000, 5.000; landings"),
+                    HasSubstr("2 false, 2 of these before a state under 50 ms and not listed")));
+  EXPECT_THAT(text_of(truth, {{2000, 2200}, {5000, 5200}, {7000, 7100}}),
+              AllOf(HasSubstr("takeoffs at (s) 2.000, 5.000, 7.000; landings"),
+                    HasSubstr("2 false; landings")));
+  EXPECT_THAT(text_of(truth, truth), HasSubstr("both 95.9 %, after the first 0.3 s\n"));
+}
+
+TEST(LogSummary, NamesATruthThatIsShiftedByAConstantTime) {
+  const Flights truth = {{2000, 2200}, {4000, 4250}, {6000, 6150}};
+  const auto shifted = [&](int late, int jitter) {
+    Flights flights = truth;
+    for (std::size_t i = 0; i < flights.size(); ++i) {
+      for (int& edge : flights[i]) edge += late + jitter * static_cast<int>(i);
+    }
+    return text_of(truth, flights);
+  };
+  EXPECT_THAT(shifted(50, 0), HasSubstr("all landings are found 50 ms late: is the clock"));
+  EXPECT_THAT(shifted(100, 2), HasSubstr("all landings are found 102 ms late"));
+  EXPECT_THAT(shifted(10, 0), Not(HasSubstr("shifted?"))) << "an estimator's own delay";
+  EXPECT_THAT(shifted(50, 20), Not(HasSubstr("shifted?"))) << "not constant";
 }
 
 }  // namespace
