@@ -1,6 +1,7 @@
 #include "experiments/results/captions.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -104,8 +105,17 @@ std::string false_takeoffs_text(const std::vector<ScoreSummary>& scores,
   return std::isnan(per_minute) ? "–" : fmt::format("{:.1f}", per_minute);
 }
 
-std::string silence_note(const Experiment& experiment, const Summary& summary) {
-  std::vector<std::string> silent;
+bool is_fitted_to_test(const Experiment& experiment, const std::string& estimator) {
+  const EstimatorEntry* const entry = find_estimator(estimator, experiment.external_estimators);
+  const auto is_fitted_to = [&](const std::string& scene) {
+    return std::ranges::find(experiment.fit.scenarios, scene) != experiment.fit.scenarios.end();
+  };
+  return entry != nullptr && entry->fits() &&
+         std::ranges::any_of(experiment.test.scenarios, is_fitted_to);
+}
+
+std::string score_notes(const Experiment& experiment, const Summary& summary) {
+  std::vector<std::string> notes, silent, fitted;
   for (const std::string& name : experiment.estimators) {
     const bool is_silent = std::ranges::any_of(summary.cells, [&](const CellSummary& cell) {
       return cell.condition.estimator == name && cell.is_silent() &&
@@ -113,24 +123,37 @@ std::string silence_note(const Experiment& experiment, const Summary& summary) {
     });
     const EstimatorEntry& entry = estimator_entry(experiment, name);
     if (is_silent && entry.fits()) silent.push_back(entry.title);
+    if (is_fitted_to_test(experiment, name)) fitted.push_back(entry.title);
   }
-  if (silent.empty()) return {};
-  const auto flights_of_a_wheel = [&](RunRole role) {
-    int sum = 0;
-    for (const RunSummary& run : summary.runs) sum += run.role == role ? run.wheel_flights : 0;
-    return sum;
-  };
+  int scored = 0, flights = 0;
+  std::array<int, 2> of_one_wheel{};  // of the fit and of the test
+  for (const RunSummary& run : summary.runs) {
+    const bool is_test = run.role == RunRole::test;
+    of_one_wheel.at(is_test ? 1 : 0) += run.wheel_flights;
+    scored += is_test && !is_failure(run.outcome) ? 1 : 0;
+    flights += is_test ? run.flights : 0;
+  }
+  if (scored > 0 && flights + of_one_wheel[1] == 0) {
+    notes.emplace_back(
+        "The test has no flight of a wheel: no takeoff can be missed, and to answer “contact” "
+        "always is right.");
+  }
+  if (!fitted.empty()) {
+    notes.push_back(fmt::format("Fitted to scenes of the test: {}.", fmt::join(fitted, ", ")));
+  }
   const bool is_one = silent.size() == 1;
-  std::string text = fmt::format("{} hardly ever {} flight, so that {} as always contact does.",
-                                 fmt::join(silent, ", "), is_one ? "reports" : "report",
-                                 is_one ? "it decides" : "they decide");
-  if (flights_of_a_wheel(RunRole::fit) == 0 && flights_of_a_wheel(RunRole::test) > 0) {
-    text += fmt::format(
-        " {} has no flight of one wheel alone, as the test has: add scenarios/push_off.yaml to "
-        "fit.scenarios.",
-        is_one ? "Its fit" : "Their fit");
+  if (!silent.empty()) {
+    notes.push_back(fmt::format("{} hardly ever {} flight, so that {} as always contact does.",
+                                fmt::join(silent, ", "), is_one ? "reports" : "report",
+                                is_one ? "it decides" : "they decide"));
   }
-  return text;
+  if (!silent.empty() && of_one_wheel[0] == 0 && of_one_wheel[1] > 0) {
+    notes.push_back(fmt::format(
+        "{} has no flight of one wheel alone, as the test has: add scenarios/push_off.yaml to "
+        "fit.scenarios.",
+        is_one ? "Its fit" : "Their fit"));
+  }
+  return fmt::format("{}", fmt::join(notes, " "));
 }
 
 TestRuns test_runs(const ExperimentResult& result, const std::string& simulator) {

@@ -44,9 +44,12 @@ std::function<std::string(const std::string&)> titles_in(const Experiment& exper
 /// False takeoffs per minute for the summary's condition and cell: "0.6"; a dash if not counted.
 std::string false_takeoffs_text(const std::vector<ScoreSummary>& scores,
                                 const CellSummary& summary);
-/// The fitted estimators that report hardly any flight in a highlighted cell, with the likely
-/// cause; empty without any.
-std::string silence_note(const Experiment& experiment, const Summary& summary);
+/// Whether the estimator is fitted to a scene of the test, which is an advantage.
+bool is_fitted_to_test(const Experiment& experiment, const std::string& estimator);
+/// What a reader of the scores has to know: a test without a flight, estimators that are fitted to
+/// its scenes, fitted ones that report hardly any flight in a highlighted cell, with the likely
+/// cause. Empty without any.
+std::string score_notes(const Experiment& experiment, const Summary& summary);
 /// The test runs of one engine.
 struct TestRuns {
   std::size_t scored = 0;  ///< that did not fail

@@ -239,8 +239,8 @@ std::string summary_text(const ExperimentResult& result) {
     for (const CaptionedTable& table : paper_tables(result)) text += '\n' + to_text(table);
   }
   for (const std::string& study : result.studies) text += '\n' + study;
-  const std::string silence = silence_note(experiment, summary_of(result));
-  if (!silence.empty()) text += fmt::format("\n{}\n", silence);
+  const std::string notes = score_notes(experiment, summary_of(result));
+  if (!notes.empty()) text += fmt::format("\n{}\n", notes);
   text += fmt::format("\n{}\n", conditions_text(experiment));
   return text + unused_runs_text(result.runs);
 }

@@ -46,44 +46,37 @@ Cells ranked(const Cells& all, const std::string& simulator, const noise::NoiseC
   return cells;
 }
 
-/// An estimator that is fitted to the scenes of the test has an advantage, which is named.
-std::string best_title(const experiments::Experiment& experiment,
-                       const experiments::CellSummary& cell) {
-  const experiments::EstimatorEntry* const entry =
-      experiments::find_estimator(cell.condition.estimator, experiment.external_estimators);
-  const auto is_fitted_to = [&](const std::string& scene) {
-    return std::ranges::find(experiment.fit.scenarios, scene) != experiment.fit.scenarios.end();
-  };
-  const bool is_own = entry != nullptr && entry->fits() &&
-                      std::ranges::any_of(experiment.test.scenarios, is_fitted_to);
-  return experiments::estimator_title_in(experiment, cell.condition.estimator) +
-         (is_own ? ", fitted to these scenes," : "");
-}
-
 /// The success rate; a line cannot break before its percent sign.
 std::string percent_of(double success) { return success_text(error_percent(success)) + "\u00a0%"; }
 
 /// "Without noise, Phase filter has the highest success rate, 99.06 % [98.90, 99.20], ahead of Free
-/// fall (98.41 %) and NMN (97.13 %). …"
+/// fall (98.41 %) and NMN (97.13 %). …" Estimators with the same number share the place.
 std::string finding(const experiments::Experiment& experiment, const Cells& cells) {
   const experiments::CellSummary& best = cells.front();
+  const std::string success = percent_of(best.success.estimate);
   const bool is_noiseless = best.cell.torque == 0.0 && best.cell.accelerometer == 0.0;
-  std::vector<std::string> next, losers;
+  std::vector<std::string> leaders, next, losers;
   for (const experiments::CellSummary& cell : cells) {
-    if (&cell != &best && next.size() < 2) {
-      next.push_back(fmt::format(
-          "{} ({})", experiments::estimator_title_in(experiment, cell.condition.estimator),
-          percent_of(cell.success.estimate)));
+    const std::string& name = cell.condition.estimator;
+    const std::string title = experiments::estimator_title_in(experiment, name);
+    if (percent_of(cell.success.estimate) == success) {
+      const bool is_own = experiments::is_fitted_to_test(experiment, name);
+      leaders.push_back(title + (is_own ? ", fitted to these scenes," : ""));
+    } else if (next.size() < 2) {
+      next.push_back(fmt::format("{} ({})", title, percent_of(cell.success.estimate)));
     }
-    if (cell.loses())
-      losers.push_back(experiments::estimator_title_in(experiment, cell.condition.estimator));
+    if (cell.loses()) losers.push_back(title);
   }
-  std::string text = fmt::format(
-      "{}, {} has the highest success rate, {} [{}, {}]{}. ",
-      is_noiseless ? "Without noise" : "With " + experiments::noise_text(best.cell),
-      best_title(experiment, best), percent_of(best.success.estimate),
-      success_text(error_percent(best.success.low)), success_text(error_percent(best.success.high)),
-      next.empty() ? "" : ", ahead of " + in_words(next));
+  std::string interval;
+  if (leaders.size() == 1 && std::isfinite(best.success.low)) {
+    interval = fmt::format(" [{}, {}]", success_text(error_percent(best.success.low)),
+                           success_text(error_percent(best.success.high)));
+  }
+  std::string text =
+      fmt::format("{}, {} {} the highest success rate, {}{}{}. ",
+                  is_noiseless ? "Without noise" : "With " + experiments::noise_text(best.cell),
+                  in_words(leaders), leaders.size() == 1 ? "has" : "share", success, interval,
+                  next.empty() ? "" : ", ahead of " + in_words(next));
   if (!std::isfinite(best.always_contact)) return text;
   return text + fmt::format("Always contact has a success rate of {}{}. ",
                             percent_of(best.always_contact),
@@ -195,8 +188,8 @@ ReportSection results_section(const ReportSubject& subject) {
   const std::vector<experiments::CellSummary>& scores = subject.summary.cells;
   if (scores.empty()) return section;
   section.html = findings_html(subject);
-  const std::string silence = experiments::silence_note(subject.experiment, subject.summary);
-  if (!silence.empty()) section.html += fmt::format("<p>{}</p>\n", escaped(silence));
+  const std::string notes = experiments::score_notes(subject.experiment, subject.summary);
+  if (!notes.empty()) section.html += fmt::format("<p>{}</p>\n", escaped(notes));
   const experiments::Experiment& experiment = subject.experiment;
   std::vector<noise::NoiseCell> cells = experiment.highlights;
   if (cells.empty()) cells.push_back(scores.front().cell);

@@ -65,8 +65,9 @@ TEST(Summary, NamesEstimatorsThatNeverReportFlightAndTheFlightsThatTheirFitLacks
     runs[0].role = RunRole::fit;
     runs[0].flights = 3;
     runs[0].wheel_flights = of_fit;
+    runs[1].flights = 1;
     runs[1].wheel_flights = of_test;
-    return silence_note(experiment, {runs, std::move(cells), {}, {}});
+    return score_notes(experiment, {runs, std::move(cells), {}, {}});
   };
   EXPECT_EQ(note({cell("hmm", 0.6), cell("phase", NAN)}, 0, 2), "") << "found, or no flight at all";
   EXPECT_EQ(note({cell("support_force", 0.0)}, 0, 2), "") << "is not fitted";
@@ -79,6 +80,34 @@ TEST(Summary, NamesEstimatorsThatNeverReportFlightAndTheFlightsThatTheirFitLacks
       "contact does.";
   EXPECT_EQ(note({cell("phase", 0.0)}, 1, 2), one) << "the fit has them";
   EXPECT_EQ(note({cell("phase", 0.0)}, 0, 0), one) << "the test has none";
+}
+
+TEST(Summary, NamesATestWithoutAFlightAndEstimatorsThatAreFittedToItsScenes) {
+  Experiment experiment;
+  experiment.estimators = {"hmm", "support_force", "phase"};
+  experiment.fit.scenarios = {"a.yaml", "b.yaml"};
+  experiment.test.scenarios = {"c.yaml"};
+  const auto note = [&](int of_both, int of_one, logs::Outcome outcome) {
+    std::vector<RunSummary> runs(2);
+    runs[0].role = RunRole::fit;
+    runs[0].flights = 2;
+    runs[1].flights = of_both;
+    runs[1].wheel_flights = of_one;
+    runs[1].outcome = outcome;
+    return score_notes(experiment, {runs, {}, {}, {}});
+  };
+  using enum logs::Outcome;
+  const std::string none =
+      "The test has no flight of a wheel: no takeoff can be missed, and to answer “contact” always "
+      "is right.";
+  EXPECT_EQ(note(0, 0, finished), none);
+  EXPECT_EQ(note(1, 0, finished), "");
+  EXPECT_EQ(note(0, 1, finished), "");
+  EXPECT_EQ(note(0, 0, fell), "") << "no run is scored";
+  experiment.test.scenarios = {"c.yaml", "b.yaml"};
+  const std::string fitted = "Fitted to scenes of the test: Two-state HMM, Phase filter.";
+  EXPECT_EQ(note(1, 0, finished), fitted);
+  EXPECT_EQ(note(0, 0, finished), none + " " + fitted);
 }
 
 }  // namespace
