@@ -250,6 +250,8 @@ TEST(WatchSession, RefusesWhatCannotBeWatched) {
   folder.write("empty.mpack", "");
   const std::string log = quoted(robot_log(folder));
   const auto bad_labels = folder.write("labels.csv", "start,end,contact\n0,soon,1\n");
+  const auto milliseconds = folder.write("ms.csv", "start,end,contact\n0,1000,1\n1000,2000,0\n");
+  const auto frames = folder.write("frames.csv", "start,end,left,right\n0,30,1,1\n30,60,1,0\n");
   for (const Case& one :
        std::vector<Case>{{quoted(folder / "notes.txt"), "expected a scenario"},
                          {"scenarios/stairz.yaml", "stairs.yaml"},
@@ -267,6 +269,8 @@ TEST(WatchSession, RefusesWhatCannotBeWatched) {
                          {"scenarios/flat.yaml --film notes.mp4", "expected a log"},
                          {log + " --labels l.txt", ".csv"},
                          {log + " --labels " + quoted(bad_labels), "labels.csv:2:"},
+                         {log + " --labels " + quoted(milliseconds), "expected seconds"},
+                         {log + " --labels " + quoted(frames), "another unit, or another log's"},
                          {log + " --film " + quoted(folder / "notes.txt"), "expected a film"},
                          {log + " --film none.mp4", "there is no file 'none.mp4'"}}) {
     EXPECT_EQ(

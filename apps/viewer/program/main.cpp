@@ -134,6 +134,7 @@ void evaluate(const WatchRequest& request, const logs::ContactIntervals* labels,
       render::add_belief(run.beliefs[i], estimators[i].get(), estimators[i]->update(step->signals));
     }
   }
+  log.require_labels_within();
   if (labels != nullptr) {
     run.contact = labelled_contact(run.recording, *labels);
   } else if (!run.recording.truth.empty()) {
