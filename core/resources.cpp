@@ -115,8 +115,10 @@ std::filesystem::path find_resource(const std::filesystem::path& path) {
   }
   require_missing(path);
   std::vector<std::string> neighbours;  // as a request would name them
-  for (const auto& file : resources_in(path.parent_path(), path.extension().string())) {
-    neighbours.push_back(file.string());
+  for (const std::string& extension : {path.extension().string(), std::string(".yaml")}) {
+    for (const auto& file : resources_in(path.parent_path(), extension)) {
+      neighbours.push_back(file.string());
+    }
   }
   std::string near = did_you_mean(path.string(), neighbours);
   if (near.empty()) near = same_name_elsewhere(path);

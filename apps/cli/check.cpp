@@ -283,6 +283,7 @@ void require_outputs(const CheckFlags& flags) {
        {std::pair("--figure", &flags.figure), {"--legs", &flags.legs}}) {
     if (path->empty()) continue;
     require_robot(option);
+    if (path == &flags.figure) require_extension(*path, {".png"}, "a figure");
     require_writable(*path);
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -136,8 +137,24 @@ const RequestInput* first_missing(const std::vector<RequestInput>& inputs,
   return found == inputs.end() ? nullptr : &*found;
 }
 
+/// The first line that differs, behind its section: " (noise: seeds: 2)"; empty without any.
+std::string first_difference(const std::string& now, const std::string& then) {
+  std::istringstream lines(now), others(then);
+  std::string section, line, other;
+  while (std::getline(lines, line) && std::getline(others, other)) {
+    const std::size_t indent = line.find_first_not_of(' ');
+    if (indent == 0) section.clear();
+    if (line != other && indent <= line.size()) {
+      return fmt::format(" ({}{})", section, line.substr(indent));
+    }
+    if (indent == 0) section = line + ' ';
+  }
+  return {};
+}
+
 /// Names the first input in which a request differs from the one of a run directory.
-std::string difference_text(const fs::path& directory, const std::vector<RequestInput>& now) {
+std::string difference_text(const fs::path& directory, const RunRequest& request) {
+  const std::vector<RequestInput>& now = request.inputs;
   const std::vector<RequestInput> then = written_inputs(directory);
   if (then.empty()) return "its state/inputs.yaml is missing: an older program wrote it";
   const RequestInput* const input = first_missing(now, then);
@@ -149,7 +166,11 @@ std::string difference_text(const fs::path& directory, const std::vector<Request
   const bool was_read = std::any_of(then.begin(), then.end(), [&](const RequestInput& other) {
     return fs::path(other.file).filename() == fs::path(input->file).filename();
   });
-  return fmt::format("{} was {} since", input->file, was_read ? "changed" : "added");
+  const fs::path there = directory / input->file;
+  const bool is_experiment = input->file == "config.yaml" && is_there(there);
+  return fmt::format(
+      "{} was {} since{}", input->file, was_read ? "changed" : "added",
+      is_experiment ? first_difference(to_yaml(request.experiment), read_file(there)) : "");
 }
 
 /// Identifies the results of a directory: the request, and the build that computes it.
@@ -232,9 +253,8 @@ void require_place(const RunRequest& request, const fs::path& directory, bool ov
     owner = owner_of(directory);  // another process may own it now
   }
   if (!owner || owner->request == request.id || overwrite) return;
-  const std::string difference = owner->name == request.experiment.name
-                                     ? "; " + difference_text(directory, request.inputs)
-                                     : "";
+  const std::string difference =
+      owner->name == request.experiment.name ? "; " + difference_text(directory, request) : "";
   throw InputError(fmt::format(
       "{}: holds experiment '{}' (request {}), and this is '{}' (request {}){}: choose another "
       "--out or replace it with --overwrite",
@@ -292,8 +312,7 @@ RunRequest read_request(const fs::path& directory) {
     throw InputError(fmt::format(
         "{}: {}: its inputs make request {}, expected {}; undo the change, or run the changed "
         "experiment elsewhere",
-        directory.string(), difference_text(directory, request.inputs), request.id,
-        owner->request));
+        directory.string(), difference_text(directory, request), request.id, owner->request));
   }
   return request;
 }

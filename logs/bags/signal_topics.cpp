@@ -96,7 +96,8 @@ void look_at(const BagMessage& message, SignalTopic& topic, MessageNumbers& numb
   const std::vector<std::string> before = numbers.paths;
   try {
     topic.definition->decode(message.data, numbers);
-  } catch (const InputError&) {
+  } catch (const InputError& error) {
+    topic.fault = error.what();
     return;  // counted when the rows are read
   }
   count(numbers.stamp(), message.time, topic);
@@ -165,8 +166,8 @@ std::vector<SignalTopic> find_signal_topics(const std::filesystem::path& path,
   for (const SignalTopic& one : found) {
     if (one.messages > 0) continue;
     if (!one.type.empty()) {
-      throw InputError(
-          fmt::format("{}: no message of topic {} can be decoded", path.string(), one.name));
+      throw InputError(fmt::format("{}: no message of topic {} can be decoded: {}", path.string(),
+                                   one.name, one.fault));
     }
     const std::string all = all_topics(bag);
     std::vector<std::string> known;

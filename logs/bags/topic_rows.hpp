@@ -117,6 +117,7 @@ struct SignalTopic {
   bool has_stamps = false;           ///< whether a header has a stamp that is not zero
   double stamp_delay = 0.0;          ///< the least time of recording − stamp of such headers (s)
   std::uint64_t messages = 0;        ///< decoded so far
+  std::string fault;                 ///< of the last message that cannot be decoded
 
   /// Names of all numbers of a message: `stamp_column`, `log_time_column`; NAME/position,
   /// NAME/velocity, NAME/effort for each joint, and position[0], velocity[0], effort[0], …; or

@@ -176,7 +176,7 @@ TEST_F(OwnTypes, WithoutAReadableDefinitionAreRefusedWithTheReason) {
   // Each beginning of a message is refused, or is a message with shorter lists.
   bags::TestBag cut = bag;
   for (std::size_t k = 0; k < rows; ++k) cut.messages[k].data.resize(4 + k);
-  EXPECT_THAT(complaint(write_bag(cut), motors_mapping), HasSubstr("can be decoded"));
+  EXPECT_THAT(complaint(write_bag(cut), motors_mapping), HasSubstr("can be decoded: "));
 }
 
 /// Drivers that leave the list of names empty, and those that send a part of them.
