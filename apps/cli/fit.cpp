@@ -234,6 +234,7 @@ void show_accuracy(const experiments::EstimatorEntry& entry,
   if (!accuracy.shipped) return;
   print("{:<12} balanced accuracy {:.4f} of the shipped model on these logs\n", "",
         *accuracy.shipped);
+  print_warnings(accuracy.flights);
   const double own = accuracy.held_out.value_or(accuracy.fitted);
   if (own >= *accuracy.shipped) return;
   const std::string shipped = experiments::shipped_file("shipped");

@@ -105,7 +105,8 @@ class FitLogSteps {
   void require_truth() const;
 
   /// After the last step. Errors: `InputError` for a log with a ground truth that contradicts its
-  /// declared class most of the time, and for labels of which no step is used; `Stopped`.
+  /// declared class at more than 2 % of the steps, and for labels of which no step is used;
+  /// `Stopped`.
   void finish(std::int64_t used_steps);
 
   /// The log's description, with its period.
@@ -129,6 +130,7 @@ class FitLogSteps {
   double last_time_ = 0.0;
   std::int64_t compared_ = 0;  ///< steps, both wheels added
   std::int64_t contradicting_ = 0;
+  double first_contradiction_ = 0.0;  ///< s
 };
 
 /// Fits an estimator's model to logs, and adds the digests of their files to its provenance.
@@ -168,6 +170,9 @@ struct FitAccuracy {
   bool by_parts = false;
   /// Of the shipped model on the same steps; nothing at a rate that it does not serve.
   std::optional<double> shipped = {};
+  /// The flights of a wheel that the shipped model finds in logs declared in contact: one line per
+  /// log with some.
+  std::vector<std::string> flights = {};
 };
 
 /// Estimates the logs of a fit with its model, with models that are fitted again, and with the

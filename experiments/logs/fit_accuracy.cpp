@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include "core/error.hpp"
@@ -95,12 +96,13 @@ std::optional<double> held_out(const EstimatorEntry& entry, const std::vector<Fo
   return std::isnan(accuracy) ? std::nullopt : std::optional(accuracy);
 }
 
-double score_on(std::span<const FitLog> logs, const LogEstimator& estimator,
-                const LogFitConfig& config) {
+std::vector<scoring::RobotScore> scores_on(std::span<const FitLog> logs,
+                                           const LogEstimator& estimator,
+                                           const LogFitConfig& config) {
   std::vector<scoring::RobotScore> scores(logs.size());
   tbb::parallel_for(std::size_t{0}, logs.size(),
                     [&](std::size_t i) { add_score(estimator, logs[i], config, scores[i]); });
-  return balanced(scores);
+  return scores;
 }
 
 }  // namespace
@@ -113,10 +115,25 @@ FitAccuracy accuracy_of_fit(const EstimatorEntry& entry, std::span<const FitLog>
     accuracy.held_out = held_out(entry, folds_of_parts(logs), config);
     accuracy.by_parts = accuracy.held_out.has_value();
   }
-  accuracy.fitted = score_on(logs, log_estimator(entry, model, config.robot), config);
+  accuracy.fitted = balanced(scores_on(logs, log_estimator(entry, model, config.robot), config));
   try {
-    accuracy.shipped =
-        score_on(logs, log_estimator({.robot = config.robot, .transfer = true}), config);
+    const std::vector<scoring::RobotScore> scores =
+        scores_on(logs, log_estimator({.robot = config.robot, .transfer = true}), config);
+    accuracy.shipped = balanced(scores);
+    for (std::size_t i = 0; i < logs.size(); ++i) {
+      const scoring::Score score = scores[i].wheels();
+      const double air =
+          1e-6 * static_cast<double>(score.scored_us) * (1.0 - score.points.contact_recall());
+      const auto takeoffs = static_cast<double>(score.takeoff.false_alarms);
+      const bool flies =
+          takeoffs > 0.0 && air >= scoring::ScoringConfig{}.minimum_flight * takeoffs;
+      if (!flies || !logs[i].contact.value_or(false)) continue;
+      accuracy.flights.push_back(fmt::format(
+          "{0}: is declared --contact, and the shipped model finds {1} of a wheel in it, {2:.2f} s "
+          "in all: look at `touchdown estimate {0}`, or give its intervals with --labels",
+          logs[i].path.string(),
+          takeoffs == 1.0 ? "a flight" : fmt::format("{:g} flights", takeoffs), air));
+    }
   } catch (const InputError&) {  // a rate that it does not serve
   }
   return accuracy;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -334,6 +335,44 @@ TEST_F(Fit, RefusesLabelsThatTheLogsOwnTruthContradicts) {
            "swapped?"}}});
   }
   fit("--contact rolling.mpack --no-contact hanging.mpack -o m.npz");
+}
+
+TEST_F(Fit, RefusesADeclaredLogThatItsTruthContradictsAtMoreThanMoments) {
+  log("hanging.mpack", test::one_class_log(2.0, false));
+  const auto with_air = [&](double share, double first) {
+    logs::Recording recording = test::synthetic_log(4.0);
+    for (std::size_t k = 0; k < recording.steps(); ++k) {
+      const double time = 1e-3 * static_cast<double>(k);
+      const bool air = time >= first && time < first + share * (4.0 - 0.3);
+      for (double& force : recording.truth[k].wheel_normal_force) force = air ? 0.0 : 26.0;
+    }
+    log("rolling.mpack", recording);
+  };
+  for (const auto& [share, first, percent] :
+       {std::tuple{0.12, 1.0, "12.0 %"}, {0.03, 2.5, "3.0 %"}, {0.4, 0.5, "40.0 %"}}) {
+    with_air(share, first);
+    expect_refusals({{"--contact rolling.mpack --no-contact hanging.mpack -o m.npz",
+                      {fmt::format("contradicts this for {} of the steps, first at {:.3f} s: name "
+                                   "it without --contact",
+                                   percent, first)}}});
+  }
+  with_air(0.01, 1.0);
+  fit("--contact rolling.mpack --no-contact hanging.mpack -o m.npz");
+  with_air(0.05, 0.0);  // its beginning is not used
+  fit("--contact rolling.mpack --no-contact hanging.mpack --skip 1 -o m.npz");
+}
+
+TEST_F(Fit, NamesFlightsThatTheShippedModelFindsInALogDeclaredInContact) {
+  log("hanging.mpack", test::one_class_log(4.0, false));
+  log("rolling.mpack", test::one_class_log(4.0, true));
+  log("flying.mpack", test::robot_log(4.0));
+  const auto errors = [&](const std::string& contact) {
+    return folder_.run("fit --contact " + contact + " --no-contact hanging.mpack -o m.npz").errors;
+  };
+  EXPECT_THAT(errors("flying.mpack"),
+              AllOf(HasSubstr("flying.mpack: is declared --contact, and the shipped model finds "),
+                    HasSubstr(" flights of a wheel in it")));
+  EXPECT_THAT(errors("rolling.mpack"), Not(HasSubstr("is declared --contact")));
 }
 
 TEST_F(Fit, LeavesOutTorquesThatAreNotFinite) {

@@ -90,6 +90,8 @@ inline logs::Recording one_class_log(double seconds, bool contact) {
   logs::Recording log = robot_log(seconds);
   for (std::size_t k = 0; k < log.steps(); ++k) {
     const double jitter = std::sin(0.1 * static_cast<double>(k));
+    // A robot that rolls does not fall.
+    if (contact) log.observation[k].imu.linear_acceleration.z() = 0.2 * jitter;
     for (std::size_t side = 0; side < models::wheel_count; ++side) {
       const double sign = side == 0 ? 1.0 : -1.0;
       log.observation[k].servo[3 * side + 1].torque = sign * (contact ? 1.2 : -0.1) + 0.1 * jitter;
