@@ -107,8 +107,9 @@ std::unique_ptr<ContactEstimator> LogEstimator::make(double sample_rate,
                 {.sample_rate = sample_rate,
                  .robot = request.robot.name.empty() ? robot_of(log) : request.robot.name});
     } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: {} (--transfer uses it all the same)",
-                                   request.model.string(), error.what()));
+      throw InputError(
+          fmt::format("{}: {} (--transfer uses it all the same; in Python, transfer=True)",
+                      request.model.string(), error.what()));
     }
   }
   // Clocks jitter, and some estimators support only certain rates.
@@ -170,6 +171,9 @@ LogEstimator log_estimator(LogEstimatorRequest request) {
                                  text_of(request.hyperparameters.at(name))));
   }
   if (model.metadata) put_into(*model.metadata, request.hyperparameters);
+  // Which model it is, its file shows: an experiment's "own fit" is the one that it makes.
+  own.title = fmt::format("{} ({})", own.title.substr(0, own.title.find(", own fit")),
+                          request.model.string());
   return {with_hyperparameters(std::move(own), request.hyperparameters), std::move(model),
           std::move(request)};
 }

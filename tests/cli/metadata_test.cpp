@@ -76,7 +76,7 @@ TEST_F(Metadata, OfASimulatedLogNamesItsRobot) {
   run("estimate heavy.mpack --model heavy.npz");
   folder_.expect_refusals({{"estimate heavy.mpack --model m.npz",
                             {"m.npz: was fitted to the robot 'tall', not to 'upkie_heavy' "
-                             "(--transfer uses it all the same)"}}});
+                             "(--transfer uses it all the same; in Python, transfer=True)"}}});
 }
 
 TEST_F(Metadata, OfARobotsFileHasItsLegs) {

@@ -13,6 +13,9 @@
 namespace touchdown::experiments {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 TEST(LogEstimator, OfAShippedModelHasTheTitleOfItsEntryAndNamesItsFile) {
@@ -25,6 +28,15 @@ TEST(LogEstimator, OfAShippedModelHasTheTitleOfItsEntryAndNamesItsFile) {
   }
   EXPECT_EQ(titles.size(), 2U);
   EXPECT_EQ(log_estimator({}).entry.title, log_estimator({.name = "shipped"}).entry.title);
+}
+
+TEST(LogEstimator, OfAModelThatIsGivenAsAFileHasNoTitleOfAnExperimentsOwnFit) {
+  for (const std::string name : {"shipped", "shipped_quiet"}) {
+    const std::string file = shipped_file(name);
+    const std::string title = log_estimator({.model = file}).entry.title;
+    EXPECT_THAT(title, AllOf(StartsWith("Evidence curves"), HasSubstr(file)));
+    EXPECT_THAT(title, Not(HasSubstr("own fit")));
+  }
 }
 
 TEST(LogEstimator, RefusesAnUnknownShippedModel) {
