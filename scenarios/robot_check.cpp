@@ -352,7 +352,8 @@ RobotCheck check_robot(const std::filesystem::path& file,
   RobotCheck check;
   try {
     // First, as there may be no stance within the ranges.
-    check.complaints = models::range_complaints(models::compile_robot_model(file, {}));
+    check.complaints =
+        models::range_complaints(models::compile_robot_model(find_resource(file), {}));
     const YamlDocument stand_scene =
         YamlDocument::parse("name: stand\nend: {duration: 2}\n", "stand");
     YAML::Node(stand_scene.root())["robot"] = file.string();  // it need not be UTF-8
