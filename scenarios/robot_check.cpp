@@ -173,10 +173,9 @@ void check_loads(const CheckedStand& stand, double weight, std::vector<std::stri
 }
 
 /// How a drop from 10 cm ended. Limit cycles of the servos are complaints, and falls of a robot
-/// that stands.
+/// that stands; a part that touches the ground is a warning, since a lower step may suit the robot.
 std::string drop(Scenario scenario, const CheckedStand& stand,
-                 const std::function<bool()>& should_continue,
-                 std::vector<std::string>& complaints) {
+                 const std::function<bool()>& should_continue, RobotCheck& check) {
   scenario.start.clearance = 0.1;  // m
   scenario.end.duration = 1.0;     // s
   const logs::Recording recording = played(scenario, stand.engine, should_continue);
@@ -185,11 +184,13 @@ std::string drop(Scenario scenario, const CheckedStand& stand,
   logs::Findings findings;
   chatter.report(findings);
   for (const std::string& line : findings.lines()) {
-    complaints.push_back(fmt::format("{}: dropped from 10 cm: {}", stand.engine, line));
+    check.complaints.push_back(fmt::format("{}: dropped from 10 cm: {}", stand.engine, line));
   }
   std::string ending = ending_text(recording, scenario.end);
   if (stand.stands && recording.info.outcome != logs::Outcome::finished) {
-    complaints.push_back(fmt::format("{}: dropped from 10 cm: {}", stand.engine, ending));
+    const std::string part = part_on_terrain(scenario, recording);
+    (part.empty() ? check.complaints : check.warnings)
+        .push_back(fmt::format("{}: dropped from 10 cm: {}{}", stand.engine, ending, part));
   }
   return ending;
 }
@@ -370,7 +371,7 @@ RobotCheck check_robot(const std::filesystem::path& file,
       } else {
         check_loads(last, gravity * check.mass, check.complaints);
       }
-      last.drop = drop(scenario, last, should_continue, check.complaints);
+      last.drop = drop(scenario, last, should_continue, check);
     }
   } catch (const models::RobotRefusal& refused) {
     check.complaints = refused.complaints;

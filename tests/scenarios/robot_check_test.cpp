@@ -155,8 +155,9 @@ TEST(ARobotCheck, NamesTheCauseOfAFallBeforeItsRemedies) {
     const std::string both = std::string("$1 ctrlrange=\"-") + limit + " " + limit + "\"";
     const RobotCheck check =
         check_robot(folder.write("robot.xml", edited_upkie({{left, both}, {right, both}})));
-    EXPECT_THAT(check.complaints, ElementsAre(HasSubstr("mujoco: dropped from 10 cm: fell"),
-                                              HasSubstr("bullet: dropped from 10 cm: fell")));
+    EXPECT_THAT(check.warnings, ElementsAre(HasSubstr("mujoco: dropped from 10 cm: fell"),
+                                            HasSubstr("bullet: dropped from 10 cm: fell")));
+    EXPECT_THAT(check.warnings, Each(HasSubstr("touched the terrain: '")));
   }
 }
 
