@@ -10,6 +10,7 @@
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
+#include <libavutil/macros.h>
 #include <libavutil/opt.h>
 }
 
@@ -17,6 +18,7 @@ extern "C" {
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "render/film/shared_library.hpp"
 
 namespace touchdown::render {
 
@@ -74,14 +76,65 @@ class MemoryFile {
   int descriptor_;
 };
 
+/// FFmpeg's functions. Its libraries load a hundred others, so that films alone load them. The
+/// first one loads the two others.
+struct Ffmpeg {
+  SharedLibrary library{"libavformat.so." AV_STRINGIFY(LIBAVFORMAT_VERSION_MAJOR), RTLD_LOCAL};
+  decltype(::av_dict_free)* av_dict_free = library["av_dict_free"];
+  decltype(::av_dict_set)* av_dict_set = library["av_dict_set"];
+  decltype(::av_frame_alloc)* av_frame_alloc = library["av_frame_alloc"];
+  decltype(::av_frame_free)* av_frame_free = library["av_frame_free"];
+  decltype(::av_frame_get_buffer)* av_frame_get_buffer = library["av_frame_get_buffer"];
+  decltype(::av_frame_make_writable)* av_frame_make_writable = library["av_frame_make_writable"];
+  decltype(::av_interleaved_write_frame)* av_interleaved_write_frame =
+      library["av_interleaved_write_frame"];
+  decltype(::av_log_set_level)* av_log_set_level = library["av_log_set_level"];
+  decltype(::av_opt_set)* av_opt_set = library["av_opt_set"];
+  decltype(::av_packet_alloc)* av_packet_alloc = library["av_packet_alloc"];
+  decltype(::av_packet_free)* av_packet_free = library["av_packet_free"];
+  decltype(::av_packet_rescale_ts)* av_packet_rescale_ts = library["av_packet_rescale_ts"];
+  decltype(::av_rescale_q)* av_rescale_q = library["av_rescale_q"];
+  decltype(::av_strerror)* av_strerror = library["av_strerror"];
+  decltype(::av_write_trailer)* av_write_trailer = library["av_write_trailer"];
+  decltype(::avcodec_alloc_context3)* avcodec_alloc_context3 = library["avcodec_alloc_context3"];
+  decltype(::avcodec_find_encoder_by_name)* avcodec_find_encoder_by_name =
+      library["avcodec_find_encoder_by_name"];
+  decltype(::avcodec_free_context)* avcodec_free_context = library["avcodec_free_context"];
+  decltype(::avcodec_open2)* avcodec_open2 = library["avcodec_open2"];
+  decltype(::avcodec_parameters_from_context)* avcodec_parameters_from_context =
+      library["avcodec_parameters_from_context"];
+  decltype(::avcodec_receive_packet)* avcodec_receive_packet = library["avcodec_receive_packet"];
+  decltype(::avcodec_send_frame)* avcodec_send_frame = library["avcodec_send_frame"];
+  decltype(::avformat_alloc_output_context2)* avformat_alloc_output_context2 =
+      library["avformat_alloc_output_context2"];
+  decltype(::avformat_free_context)* avformat_free_context = library["avformat_free_context"];
+  decltype(::avformat_new_stream)* avformat_new_stream = library["avformat_new_stream"];
+  decltype(::avformat_write_header)* avformat_write_header = library["avformat_write_header"];
+  decltype(::avio_closep)* avio_closep = library["avio_closep"];
+  decltype(::avio_open)* avio_open = library["avio_open"];
+};
+
+/// Errors: `Error` if FFmpeg is not installed.
+const Ffmpeg& ffmpeg() {
+  static const Ffmpeg loaded = [] {
+    try {
+      return Ffmpeg();
+    } catch (const MissingLibrary& error) {
+      throw Error(fmt::format("video: FFmpeg is missing: {} (package libavformat{})", error.what(),
+                              LIBAVFORMAT_VERSION_MAJOR));
+    }
+  }();
+  return loaded;
+}
+
 struct FfmpegFree {
   void operator()(AVFormatContext* context) const {
-    if (context->pb) avio_closep(&context->pb);
-    avformat_free_context(context);
+    if (context->pb) ffmpeg().avio_closep(&context->pb);
+    ffmpeg().avformat_free_context(context);
   }
-  void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
-  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+  void operator()(AVCodecContext* context) const { ffmpeg().avcodec_free_context(&context); }
+  void operator()(AVFrame* frame) const { ffmpeg().av_frame_free(&frame); }
+  void operator()(AVPacket* packet) const { ffmpeg().av_packet_free(&packet); }
 };
 using FormatHandle = std::unique_ptr<AVFormatContext, FfmpegFree>;
 using CodecHandle = std::unique_ptr<AVCodecContext, FfmpegFree>;
@@ -90,7 +143,7 @@ using PacketHandle = std::unique_ptr<AVPacket, FfmpegFree>;
 
 std::string ffmpeg_reason(int result) {
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text = {};
-  av_strerror(result, text.data(), text.size());
+  ffmpeg().av_strerror(result, text.data(), text.size());
   return text.data();
 }
 
@@ -111,13 +164,13 @@ CodecHandle start_encoder(const VideoFormat& format, bool global_header) {
     throw InputError(
         fmt::format("a video of {}x{}: expected even numbers", format.width, format.height));
   }
-  av_log_set_level(AV_LOG_ERROR);
-  const AVCodec* encoder = avcodec_find_encoder_by_name(format.encoder.c_str());
+  ffmpeg().av_log_set_level(AV_LOG_ERROR);
+  const AVCodec* encoder = ffmpeg().avcodec_find_encoder_by_name(format.encoder.c_str());
   if (!encoder) {
     throw Error(
         fmt::format("video: FFmpeg's libraries here have no H.264 encoder ({})", format.encoder));
   }
-  CodecHandle handle(avcodec_alloc_context3(encoder));
+  CodecHandle handle(ffmpeg().avcodec_alloc_context3(encoder));
   if (!handle) throw Error("video: no memory for an encoder");
   AVCodecContext& codec = *handle;
   codec.width = format.width;
@@ -132,22 +185,22 @@ CodecHandle start_encoder(const VideoFormat& format, bool global_header) {
   codec.color_trc = AVCOL_TRC_SMPTE170M;
   codec.colorspace = AVCOL_SPC_SMPTE170M;
   if (global_header) codec.flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
-  check_ffmpeg(av_opt_set(codec.priv_data, "preset", "veryfast", 0), "preset");
-  check_ffmpeg(av_opt_set(codec.priv_data, "crf", std::to_string(format.crf).c_str(), 0),
+  check_ffmpeg(ffmpeg().av_opt_set(codec.priv_data, "preset", "veryfast", 0), "preset");
+  check_ffmpeg(ffmpeg().av_opt_set(codec.priv_data, "crf", std::to_string(format.crf).c_str(), 0),
                "quality");
   // x264's macroblock tree reads uninitialised memory, which makes the bytes differ between runs.
-  check_ffmpeg(av_opt_set(codec.priv_data, "x264-params", "mbtree=0", 0), "parameters");
-  check_ffmpeg(avcodec_open2(&codec, encoder, nullptr), "cannot start the encoder");
+  check_ffmpeg(ffmpeg().av_opt_set(codec.priv_data, "x264-params", "mbtree=0", 0), "parameters");
+  check_ffmpeg(ffmpeg().avcodec_open2(&codec, encoder, nullptr), "cannot start the encoder");
   return handle;
 }
 
 FrameHandle make_frame(const AVCodecContext& codec) {
-  FrameHandle frame(av_frame_alloc());
+  FrameHandle frame(ffmpeg().av_frame_alloc());
   if (!frame) throw Error("video: no memory for a frame");
   frame->format = codec.pix_fmt;
   frame->width = codec.width;
   frame->height = codec.height;
-  check_ffmpeg(av_frame_get_buffer(frame.get(), 0), "no memory for a frame");
+  check_ffmpeg(ffmpeg().av_frame_get_buffer(frame.get(), 0), "no memory for a frame");
   return frame;
 }
 
@@ -168,15 +221,15 @@ struct VideoWriter::Streams {
 
   /// Passes a frame to the encoder (null after the last one), and writes its finished packets.
   void encode(const AVFrame* next) {
-    check_ffmpeg(avcodec_send_frame(codec.get(), next), "the encoder refuses a frame");
+    check_ffmpeg(ffmpeg().avcodec_send_frame(codec.get(), next), "the encoder refuses a frame");
     while (true) {
-      const int result = avcodec_receive_packet(codec.get(), packet.get());
+      const int result = ffmpeg().avcodec_receive_packet(codec.get(), packet.get());
       if (result == AVERROR(EAGAIN) || result == AVERROR_EOF) return;
       check_ffmpeg(result, "the encoder failed");
-      av_packet_rescale_ts(packet.get(), codec->time_base, stream->time_base);
-      packet->duration = av_rescale_q(1, codec->time_base, stream->time_base);
+      ffmpeg().av_packet_rescale_ts(packet.get(), codec->time_base, stream->time_base);
+      packet->duration = ffmpeg().av_rescale_q(1, codec->time_base, stream->time_base);
       packet->stream_index = stream->index;
-      check_ffmpeg(av_interleaved_write_frame(format.get(), packet.get()), "cannot write");
+      check_ffmpeg(ffmpeg().av_interleaved_write_frame(format.get(), packet.get()), "cannot write");
     }
   }
 };
@@ -185,35 +238,36 @@ VideoWriter::VideoWriter(std::filesystem::path path, const VideoFormat& video)
     : path_(std::move(path)), streams_(std::make_unique<Streams>()) {
   require_writable(path_);
   AVFormatContext* format = nullptr;
-  check_ffmpeg(
-      avformat_alloc_output_context2(&format, nullptr, "mp4", streams_->file.path().c_str()),
-      "cannot make an mp4");
+  check_ffmpeg(ffmpeg().avformat_alloc_output_context2(&format, nullptr, "mp4",
+                                                       streams_->file.path().c_str()),
+               "cannot make an mp4");
   streams_->format.reset(format);
   format->flags |= AVFMT_FLAG_BITEXACT;
   streams_->codec = start_encoder(video, (format->oformat->flags & AVFMT_GLOBALHEADER) != 0);
   const AVCodecContext& codec = *streams_->codec;
 
-  streams_->stream = avformat_new_stream(format, nullptr);
+  streams_->stream = ffmpeg().avformat_new_stream(format, nullptr);
   if (!streams_->stream) throw Error("video: no memory for a stream");
   streams_->stream->time_base = codec.time_base;
   streams_->stream->avg_frame_rate = codec.framerate;
-  check_ffmpeg(avcodec_parameters_from_context(streams_->stream->codecpar, &codec), "parameters");
-  check_ffmpeg(avio_open(&format->pb, streams_->file.path().c_str(), AVIO_FLAG_WRITE),
+  check_ffmpeg(ffmpeg().avcodec_parameters_from_context(streams_->stream->codecpar, &codec),
+               "parameters");
+  check_ffmpeg(ffmpeg().avio_open(&format->pb, streams_->file.path().c_str(), AVIO_FLAG_WRITE),
                "cannot open");
   AVDictionary* options = nullptr;
-  av_dict_set(&options, "movflags", "+faststart", 0);
-  const int header = avformat_write_header(format, &options);
-  av_dict_free(&options);
+  ffmpeg().av_dict_set(&options, "movflags", "+faststart", 0);
+  const int header = ffmpeg().avformat_write_header(format, &options);
+  ffmpeg().av_dict_free(&options);
   check_ffmpeg(header, "cannot begin the file");
   streams_->frame = make_frame(codec);
-  streams_->packet.reset(av_packet_alloc());
+  streams_->packet.reset(ffmpeg().av_packet_alloc());
 }
 
 VideoWriter::~VideoWriter() = default;
 
 void VideoWriter::write(const std::uint8_t* i420) {
   AVFrame& frame = *streams_->frame;
-  check_ffmpeg(av_frame_make_writable(&frame), "no memory for a frame");
+  check_ffmpeg(ffmpeg().av_frame_make_writable(&frame), "no memory for a frame");
   for (int plane = 0; plane < 3; ++plane) {
     const int width = plane == 0 ? frame.width : frame.width / 2;
     const int height = plane == 0 ? frame.height : frame.height / 2;
@@ -228,10 +282,10 @@ void VideoWriter::write(const std::uint8_t* i420) {
 
 void VideoWriter::finish() {
   streams_->encode(nullptr);
-  check_written(av_write_trailer(streams_->format.get()), path_);
+  check_written(ffmpeg().av_write_trailer(streams_->format.get()), path_);
   // An earlier write error is recorded only here.
   check_written(streams_->format->pb->error, path_);
-  check_written(avio_closep(&streams_->format->pb), path_);
+  check_written(ffmpeg().avio_closep(&streams_->format->pb), path_);
   write_atomically(path_, read_file(streams_->file.path()));
   streams_.reset();
 }

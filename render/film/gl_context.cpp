@@ -4,7 +4,6 @@
 #include <EGL/eglext.h>
 #include <algorithm>
 #include <cstdlib>
-#include <dlfcn.h>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -13,47 +12,15 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "render/film/shared_library.hpp"
 
 namespace touchdown::render {
 
 namespace {
 
-class MissingLibrary : public Error {
- public:
-  using Error::Error;
-};
-
-/// A system library, loaded on demand until the process ends. Its symbols are global: MuJoCo draws
-/// with the first OpenGL library that it finds among them.
-class SharedLibrary {
- public:
-  /// The address of a function; converts to any function pointer.
-  struct Symbol {
-    void* address;
-    template <typename Function>
-    operator Function*() const {
-      return reinterpret_cast<Function*>(address);
-    }
-  };
-
-  /// Errors: `MissingLibrary` with the linker's reason.
-  explicit SharedLibrary(const char* name) : handle_(::dlopen(name, RTLD_NOW | RTLD_GLOBAL)) {
-    if (!handle_) throw MissingLibrary(::dlerror());
-  }
-
-  /// Errors: `Error` if the library has no symbol of that name.
-  Symbol operator[](const char* name) const {
-    void* const address = ::dlsym(handle_, name);
-    if (!address) throw Error(::dlerror());
-    return {address};
-  }
-
- private:
-  void* handle_;
-};
-
 struct Egl {
-  SharedLibrary library{"libEGL.so.1"};
+  // MuJoCo draws with the first OpenGL library that it finds among global symbols.
+  SharedLibrary library{"libEGL.so.1", RTLD_GLOBAL};
   decltype(eglGetPlatformDisplay)* get_platform_display = library["eglGetPlatformDisplay"];
   decltype(eglInitialize)* initialize = library["eglInitialize"];
   decltype(eglBindAPI)* bind_api = library["eglBindAPI"];
@@ -152,7 +119,7 @@ constexpr GLenum osmesa_bgra = 0x1;
 constexpr GLint osmesa_y_up = 0x11;
 
 struct Osmesa {
-  SharedLibrary library{"libOSMesa.so.8"};
+  SharedLibrary library{"libOSMesa.so.8", RTLD_GLOBAL};
   void* (*create)(GLenum format, GLint depth_bits, GLint stencil_bits, GLint accumulation_bits,
                   void* shared) = library["OSMesaCreateContextExt"];
   GLboolean (*make_current)(void* context, void* pixels, GLenum type, GLsizei width,
@@ -212,6 +179,8 @@ GlContext::GlContext(int width, int height)
   if (!asked.empty() && asked != "osmesa" && asked != "egl") {
     throw InputError(fmt::format("TOUCHDOWN_GL={}: expected osmesa or egl", asked));
   }
+  // Mesa's own threads would not survive the fork of a process that paints frames.
+  ::setenv("LP_NUM_THREADS", "0", 1);
   std::string missing;
   if (asked != "egl") {
     try {

@@ -3,7 +3,6 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <new>
@@ -122,10 +121,7 @@ class SharedFrames {
                        const std::function<PaintFrame()>& prepare) {
   Channel& channel = shared.channel(worker);
   try {
-    // One rasteriser thread per process, and no thread pool: a fork does not copy the parent's
-    // threads.
-    ::setenv("LP_NUM_THREADS", "0", 1);
-    cv::setNumThreads(1);
+    cv::setNumThreads(1);  // a fork does not copy the parent's threads
     const PaintFrame paint = prepare();
     std::size_t number = 0;
     for (std::size_t frame = worker; frame < static_cast<std::size_t>(frames);
