@@ -54,7 +54,7 @@ void add_report(CLI::App& program, const CliSession& session) {
       filmed = render::filmed_runs(subject);
     }
     if (!flags->no_video) {
-      render::film_for_report(filmed, flags->directory, subject.experiment.workers, session.stop);
+      render::film_for_report(filmed, subject.experiment, flags->directory, session.stop);
     }
     const std::filesystem::path path =
         render::make_report(subject, filmed, render::study_pictures(),

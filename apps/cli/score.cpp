@@ -48,7 +48,7 @@ void write_report_again(const std::filesystem::path& run, const CliSession& sess
   render::draw_standings_figures(run, subject.experiment.intervals.bootstrap.level);
   std::vector<render::FilmedRun> filmed;
   if (subject.experiment.video.enabled) filmed = render::filmed_runs(subject);
-  render::film_for_report(filmed, run, subject.experiment.workers, session.stop);
+  render::film_for_report(filmed, subject.experiment, run, session.stop);
   const std::filesystem::path report =
       render::make_report(subject, filmed, render::study_pictures(), {});
   print(fmt::format("report    {}\n", report.string()));

@@ -65,6 +65,7 @@ enum class KeptRecordings : int {
 struct VideoConfig {
   bool enabled = true;
   int run = 0;                          ///< index of the test run
+  int width = 1280;                     ///< of a run's film (px); other films are in proportion
   std::vector<std::string> estimators;  ///< with probabilities shown
   noise::NoiseCell noise;
 };

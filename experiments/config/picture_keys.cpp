@@ -93,6 +93,8 @@ void describe(Fields& fields, VideoConfig& video, const Experiment& experiment) 
   fields("run", video.run, 0, experiment.test.runs - 1)
       .range(test_run_index)
       .doc("Index of the test run.");
+  fields("width", video.width, 320, 7680)
+      .doc("px", "Width of a run's film. The report's film has three quarters of it.");
   if (fields.reading()) video.estimators = experiment.estimators;
   own_estimators(fields, "estimators", experiment, video.estimators)
       .fallback("all of them")

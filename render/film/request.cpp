@@ -47,6 +47,13 @@ std::string label_of(const VideoSource& source) {
   return name.empty() ? "robot log" : simulators::simulator_title(name);
 }
 
+VideoOptions film_of_width(double width, double ratio) {
+  VideoOptions options;
+  options.width = 2 * static_cast<int>(std::lround(width / 2.0));
+  options.height = 2 * static_cast<int>(std::lround(width * ratio / 2.0));
+  return options;
+}
+
 void require_drawable(const std::vector<VideoSource>& sources, const VideoOptions& options) {
   if (options.width < 160 || options.height < 120 || options.width > 7680 ||
       options.height > 4320 || options.width % 2 != 0 || options.height % 2 != 0) {

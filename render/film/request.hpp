@@ -75,6 +75,9 @@ struct VideoOptions : VideoFormat {
 /// The largest number of runs in a film.
 inline constexpr std::size_t most_sources = 4;
 
+/// A film of this width (px), rounded to an even one, with the given ratio of height to width.
+VideoOptions film_of_width(double width, double ratio = 9.0 / 16.0);
+
 /// Throws `InputError`, with the reason, if these runs cannot be drawn with these options.
 void require_drawable(const std::vector<VideoSource>& sources, const VideoOptions& options);
 

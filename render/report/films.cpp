@@ -32,12 +32,12 @@ void film(const std::vector<VideoSource>& sources, VideoOptions options, const F
 }
 
 /// Films each run in full size, into the run directory's `videos`.
-void film_runs(const std::vector<FilmedRun>& runs, const fs::path& run_directory, int workers,
-               const std::atomic<bool>* stop) {
+void film_runs(const std::vector<FilmedRun>& runs, const experiments::Experiment& experiment,
+               const fs::path& run_directory, const std::atomic<bool>* stop) {
   for (const FilmedRun& run : runs) {
     const logs::RecordingInfo& info = run.recording.info;
     const fs::path name = experiments::video_name(info.simulator, info.scenario);
-    film({run.source()}, {}, run, workers,
+    film({run.source()}, film_of_width(experiment.video.width), run, experiment.workers,
          experiments::record_file(run_directory, fs::path("videos") / name), stop);
   }
 }
@@ -65,8 +65,8 @@ ReportFilm report_film(const fs::path& run_directory) {
   return {run_directory / "videos" / "report.mp4", run_directory / "videos" / "report.jpg"};
 }
 
-void film_for_report(const std::vector<FilmedRun>& runs, const fs::path& run_directory, int workers,
-                     const std::atomic<bool>* stop) {
+void film_for_report(const std::vector<FilmedRun>& runs, const experiments::Experiment& experiment,
+                     const fs::path& run_directory, const std::atomic<bool>* stop) {
   const ReportFilm files = report_film(run_directory);
   if (runs.empty()) return;
   if (is_current(files.video, run_directory) && is_current(files.picture, run_directory)) return;
@@ -76,13 +76,11 @@ void film_for_report(const std::vector<FilmedRun>& runs, const fs::path& run_dir
     if (shown.size() < 2) shown.push_back(run.source());
     end = std::max(end, end_of(run));
   }
-  VideoOptions small;
-  small.width = 960;
-  small.height = 540;
+  VideoOptions small = film_of_width(0.75 * experiment.video.width);
   small.crf = 28;
   small.fps = 20;
   small.to = std::min(end, longest_report_film);
-  film(shown, small, runs.front(), workers, files.video, stop);
+  film(shown, small, runs.front(), experiment.workers, files.video, stop);
   small.labels = runs.front().labels;
   render_poster(shown, small, NAN, files.picture);
 }
@@ -117,10 +115,10 @@ void draw_pictures(experiments::ExperimentResult& result, const std::vector<Film
     if (study.film && study.is_requested(result.experiment)) study.film(result, stop);
   }
   if (with_films) {
-    film_runs(filmed, result.directory.path(), result.experiment.workers, stop);
+    film_runs(filmed, result.experiment, result.directory.path(), stop);
     std::error_code ignored;
     fs::remove(report_film(result.directory.path()).video, ignored);
-    film_for_report(filmed, result.directory.path(), result.experiment.workers, stop);
+    film_for_report(filmed, result.experiment, result.directory.path(), stop);
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   result.provenance.timings.emplace_back("draw", elapsed.count());

@@ -47,8 +47,8 @@ struct ReportFilm {
 ReportFilm report_film(const std::filesystem::path& run_directory);
 
 /// Writes the report's film and its picture, unless the run directory has them.
-void film_for_report(const std::vector<FilmedRun>& runs, const std::filesystem::path& run_directory,
-                     int workers, const std::atomic<bool>* stop);
+void film_for_report(const std::vector<FilmedRun>& runs, const experiments::Experiment& experiment,
+                     const std::filesystem::path& run_directory, const std::atomic<bool>* stop);
 
 /// What a report shows of runs and films.
 struct ReportParts {

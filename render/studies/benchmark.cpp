@@ -109,9 +109,7 @@ void film_worst_segment(const experiments::ExperimentResult& result, const Table
   const WorstSegment segment =
       worst_segment(wrong, static_cast<std::size_t>(std::llround(shown / period)));
   const FilmedRun& run = runs[segment.run];
-  VideoOptions options;
-  options.width = 640;
-  options.height = 360;
+  VideoOptions options = film_of_width(0.5 * experiment.video.width);
   options.crf = 28;
   options.from = period * static_cast<double>(segment.begin);
   options.to = options.from + shown;

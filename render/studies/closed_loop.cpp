@@ -91,8 +91,7 @@ void film_closed_loop(const experiments::ExperimentResult& result, const std::at
       sources.push_back(runs.back().source());
       sources.back().label = experiments::contact_title(contact);
     }
-    VideoOptions options;
-    options.height = options.width * 3 / 4;
+    VideoOptions options = film_of_width(experiment.video.width, 3.0 / 4.0);
     options.labels = experiment.labels;
     options.workers = experiment.workers;
     options.progress = film_progress(fmt::format("filming the closed loop in {}", simulator), stop);
