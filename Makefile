@@ -3,11 +3,11 @@ JOBS ?= $(shell nproc)
 BUILD := build/release
 
 .DEFAULT_GOAL := help
-.PHONY: help setup program-packages trainer-packages viewer-packages python-packages test-packages \
-	fuzz-packages build run trainer viewer python everything test nightly faults package lint lint-all format bench results figures asan tsan fuzz clean
+.PHONY: help setup program-packages trainer-packages viewer-packages python-packages test-packages nightly-packages lint-packages \
+	fuzz-packages build run trainer viewer python everything test configure-nightly nightly nightly-viewer nightly-training faults package lint format bench results figures asan tsan fuzz clean
 
 help: ## Show this list
-	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 16
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 24
 
 setup: ## Install every Debian package that is missing
 	@scripts/install_packages.sh
@@ -20,27 +20,27 @@ viewer-packages:
 	@scripts/install_packages.sh program viewer
 python-packages:
 	@scripts/install_packages.sh program python
+lint-packages:
+	@scripts/install_packages.sh program trainer viewer python tests nightly lint
 fuzz-packages:
 	@scripts/install_packages.sh lint
 test-packages:
-	@scripts/install_packages.sh program trainer viewer python tests $(if $(wildcard /run/systemd/system),,servers)
+	@scripts/install_packages.sh program python tests
+nightly-packages:
+	@scripts/install_packages.sh program trainer viewer python tests nightly $(if $(wildcard /run/systemd/system),,servers)
 
 # Configured once; afterwards ninja itself notices changes of a CMakeLists.txt. Each target is a file
-# that only a successful configuration writes: of the program, of a part of its own with the parts that
-# are there already, of the tests with all parts.
+# that only a successful configuration writes: of the program, of a part of its own, of the tests.
 configured = $(BUILD)/$(1)/cmake_install.cmake
-with = $(if $(or $(filter $(1),$(3)),$(wildcard $(call configured,$(1)))),-D$(2)=ON)
-parts = $(call with,training,TOUCHDOWN_TRAINER,$(1)) $(call with,viewer,TOUCHDOWN_VIEWER,$(1)) \
-	$(call with,python,TOUCHDOWN_PYTHON,$(1))
 
 $(BUILD)/build.ninja: | program-packages
 	cmake --preset program
-$(call configured,training): | trainer-packages
-	cmake --preset program $(call parts,training)
-$(call configured,viewer): | viewer-packages
-	cmake --preset program $(call parts,viewer)
-$(call configured,python): | python-packages
-	cmake --preset program $(call parts,python)
+$(call configured,training): | trainer-packages $(BUILD)/build.ninja
+	cmake $(BUILD) -DTOUCHDOWN_TRAINER=ON
+$(call configured,viewer): | viewer-packages $(BUILD)/build.ninja
+	cmake $(BUILD) -DTOUCHDOWN_VIEWER=ON
+$(call configured,python): | python-packages $(BUILD)/build.ninja
+	cmake $(BUILD) -DTOUCHDOWN_PYTHON=ON
 $(BUILD)/CTestTestfile.cmake: CMakePresets.json | test-packages
 	cmake --preset release
 	@touch $@
@@ -49,11 +49,11 @@ build/package/build.ninja: CMakePresets.json
 	cmake --preset package
 	@touch $@
 
-build/asan/build.ninja: CMakePresets.json | test-packages
+build/asan/build.ninja: CMakePresets.json | nightly-packages
 	cmake --preset asan
 	@touch $@
 
-build/tsan/build.ninja: CMakePresets.json | test-packages
+build/tsan/build.ninja: CMakePresets.json | nightly-packages
 	cmake --preset tsan
 	@touch $@
 
@@ -78,37 +78,42 @@ viewer: $(call configured,viewer) ## Build the program and the window of `touchd
 python: $(call configured,python) ## Build the Python package: build/release/python
 	cmake --build --preset program --parallel $(JOBS) --target touchdown_python
 
-everything: $(BUILD)/CTestTestfile.cmake ## Build the program, the trainer, the Python package, the tests and the benchmarks
+everything: $(BUILD)/CTestTestfile.cmake ## Build the program, the Python package and the tests
 	cmake --build --preset release --parallel $(JOBS)
 
 test: everything ## Build everything and run every test but the nightly ones
 	ctest --preset release --parallel $(JOBS)
 
-nightly: $(BUILD)/CTestTestfile.cmake ## Run the rest: faults, kills, ssh, Slurm, aarch64, fuzz replays, installations
-	cmake --preset release -DTOUCHDOWN_NIGHTLY=ON
-	cmake --build --preset release --parallel $(JOBS)
+configure-nightly: | nightly-packages
+	cmake --preset nightly
+
+nightly: configure-nightly ## Run the rest: trainer, window, browser, faults, clusters, aarch64, installations, long draws
+	cmake --build --preset nightly --parallel $(JOBS)
 	ctest --preset nightly --parallel $(JOBS)
 
-faults: $(BUILD)/CTestTestfile.cmake ## Let each system call fail, fill the disk, kill the program in every stage
-	cmake --preset release -DTOUCHDOWN_NIGHTLY=ON
-	cmake --build --preset release --parallel $(JOBS) --target test_faults
+nightly-training: configure-nightly ## Run the nightly tests of the trainer
+nightly-viewer: configure-nightly ## Run the nightly tests of the window
+nightly-training nightly-viewer:
+	cmake --build --preset nightly --parallel $(JOBS) --target test_$(@:nightly-%=%)
+	ctest --preset nightly --tests-regex '^$(@:nightly-%=%)\.'
+
+faults: configure-nightly ## Let each system call fail, fill the disk, kill the program in every stage
+	cmake --build --preset nightly --parallel $(JOBS) --target test_faults
 	@scripts/faults.sh $(BUILD)/test_faults $(JOBS)
 
 package: build/package/build.ninja ## Build a Debian package that needs no compiler: build/package/touchdown_*.deb
 	cmake --build --preset package --parallel $(JOBS) --target package
 
-lint: setup $(BUILD)/CTestTestfile.cmake ## Check formatting, shell scripts, and what changed with clang-tidy
-	@cmake --preset release -DTOUCHDOWN_NIGHTLY=ON >/dev/null # brings compile_commands.json up to date, with every test
-	@JOBS=$(JOBS) scripts/lint.sh $(BUILD)
-
-lint-all: ## Lint everything, also what clang-tidy found clean before
-	@TIDY_CACHE= $(MAKE) lint
+lint: lint-packages ## Check formatting, shell scripts, and every source with clang-tidy
+	@cmake --preset lint >/dev/null
+	@JOBS=$(JOBS) scripts/lint.sh build/lint
 
 format: ## Format every source file
 	@scripts/install_packages.sh lint
 	git ls-files -z '*.cpp' '*.hpp' | xargs -0 clang-format -i
 
-bench: everything ## Run every benchmark
+bench: configure-nightly ## Build and run every benchmark
+	cmake --build --preset nightly --parallel $(JOBS) --target benchmarks
 	@for program in $(BUILD)/bench_*; do echo "$$program"; "$$program" || exit 1; done
 
 results: build ## Run the commands of docs/results.md and compare its numbers: hours

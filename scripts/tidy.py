@@ -7,15 +7,9 @@ not compile after the others of their unit (they define the same private name) f
 the first pass found in the others counts. Generated sources are skipped.
 Tests are units of their own: the speed of a test's code does not matter, so that they are not checked
 for it, which is a quarter of the time.
-A unit without warnings is remembered, by a digest of everything that can change its warnings: the files of
-the project that it includes, its options, the configuration and the versions of the compiler and of
-clang-tidy. The same unit is not checked again, in this checkout or in another. TIDY_CACHE is the folder
-(~/.cache/touchdown-tidy unless it is set); an empty TIDY_CACHE checks everything.
 Prints the warnings of clang-tidy; the exit code is 1 if there are any.
 """
 import concurrent.futures
-import functools
-import hashlib
 import json
 import os
 import pathlib
@@ -109,55 +103,15 @@ def without(files, text):
     return first + "".join(block for block in blocks if block.split(":", 1)[0] not in files)
 
 
-@functools.cache
-def versions():
-    """The versions of the checker and of the packages with headers, and the configuration of the checks."""
-    texts = [subprocess.run(command, capture_output=True, check=False).stdout
-             for command in (["clang-tidy", "--version"], ["clang++", "--version"],
-                             ["dpkg-query", "-W", "-f", "${Package} ${Version}\n", "lib*-dev", "python3*-dev"])]
-    return b"".join([*texts, pathlib.Path(".clang-tidy").read_bytes(), pathlib.Path(__file__).read_bytes()])
-
-
-def digest_of(flags, unit, folder):
-    """A digest of what decides the warnings of a unit; None if a header is missing.
-
-    Paths count relative to this checkout, so that two checkouts of the same sources share it."""
-    here = os.getcwd()
-    done = subprocess.run(["clang++", *flags, "-w", "-MM", "-MT", "unit", unit],
-                          capture_output=True, text=True, check=False)
-    if done.returncode:
-        return None
-    included = shlex.split(done.stdout.replace("\\\n", " "))[1:]
-    digest = hashlib.sha256(versions())
-    digest.update(" ".join(flags).replace(here, "").encode())
-    for path in sorted(os.path.abspath(path) for path in included if not path.startswith(folder)):
-        digest.update(f"\n{path.removeprefix(here)}\n".encode())
-        digest.update(pathlib.Path(path).read_bytes())
-    return digest.hexdigest()
-
-
-def cache_folder():
-    """The folder of remembered units; None if none is to be remembered."""
-    name = os.environ.get("TIDY_CACHE", os.path.expanduser("~/.cache/touchdown-tidy"))
-    return pathlib.Path(name) if name else None
-
-
 def check(flags, files, folder):
     """The warnings of clang-tidy about the files, as text; empty if there are none."""
     unit = together(flags, files, folder)
-    cache = cache_folder()
-    digest = cache and digest_of(flags, unit, folder)
-    if digest and (cache / digest).exists():
-        return ""
     warnings = warnings_of(flags, files, unit)
     apart, is_complete = misfits(files, warnings)
     if len(files) > 1 and apart:
         rest = [file for file in files if file not in apart]
         warnings = without(apart, warnings) if is_complete else check(flags, rest, folder)
         warnings += check(flags, apart, folder)
-    if digest and not warnings:
-        cache.mkdir(parents=True, exist_ok=True)
-        (cache / digest).touch()
     return warnings
 
 

@@ -43,7 +43,9 @@ endif()
 # up to a tenth less time for a sixth more memory.
 add_library(touchdown_flags INTERFACE)
 target_compile_options(touchdown_flags INTERFACE
-  -Wall -Wextra -Wpedantic -Wconversion -Wshadow -fno-math-errno
+  -Wall -Wextra -Wpedantic -Wconversion
+  # In sources that are compiled together, a private name of another file is no outer name.
+  $<$<NOT:$<BOOL:$<TARGET_PROPERTY:TOUCHDOWN_IS_TEST>>>:-Wshadow> -fno-math-errno
   $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>
   $<$<AND:$<BOOL:${TOUCHDOWN_NATIVE}>,$<BOOL:${TOUCHDOWN_HOST_IS_X86_64_V3}>>:-march=x86-64-v3>)
 target_include_directories(touchdown_flags INTERFACE ${PROJECT_SOURCE_DIR})
@@ -100,16 +102,12 @@ if(NOT TOUCHDOWN_ESTIMATOR_ONLY)
   touchdown_optimize_less(touchdown_precompiled)
 endif()
 
-# Sources of one folder mostly compile the same headers and templates. Up to nine of them are therefore
-# compiled together, as one source that includes them. A change to one recompiles all nine;
-# -DTOUCHDOWN_UNITY=OFF avoids that.
-# touchdown_unity(<target> <source>...)
+# Reading headers and starting the compiler take most of a source's compile time. Sources are therefore
+# compiled together, as one source that includes them: those of a folder up to nine at a time, those of
+# tests up to 80 kB (2,000 lines) at a time. A change to one recompiles all; -DTOUCHDOWN_UNITY=OFF avoids that.
 option(TOUCHDOWN_UNITY "Compile the sources of a folder a few at a time" ON)
+# touchdown_unity(<target> <source>...)
 function(touchdown_unity target)
-  if(NOT TOUCHDOWN_UNITY OR TOUCHDOWN_ESTIMATOR_ONLY)
-    return()
-  endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   set(folders "")
   foreach(source ${ARGN})
     cmake_path(GET source PARENT_PATH folder)
@@ -129,10 +127,31 @@ function(touchdown_unity target)
       math(EXPR part "${i} * ${parts} / ${count}")
       math(EXPR i "${i} + 1")
       if(count GREATER 1)
-        set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${name}_${part})
+        touchdown_unity_group(${target} ${name}_${part} ${source})
       endif()
     endforeach()
   endforeach()
+endfunction()
+# touchdown_unity_of_tests(<target> <source>...)
+function(touchdown_unity_of_tests target)
+  set_target_properties(${target} PROPERTIES TOUCHDOWN_IS_TEST ON)
+  set(group 0)
+  set(bytes 0)
+  foreach(source ${ARGN})
+    file(SIZE ${source} size)
+    math(EXPR bytes "${bytes} + ${size}")
+    if(bytes GREATER 80000)
+      math(EXPR group "${group} + 1")
+      set(bytes ${size})
+    endif()
+    touchdown_unity_group(${target} ${target}_${group} ${source})
+  endforeach()
+endfunction()
+function(touchdown_unity_group target group source)
+  if(TOUCHDOWN_UNITY AND NOT TOUCHDOWN_ESTIMATOR_ONLY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+  endif()
 endfunction()
 
 # touchdown_library(<name> FOLDERS <folder>... DEPENDS <target>...)
@@ -209,19 +228,16 @@ function(touchdown_optimize_tests_less target)
 endfunction()
 
 # touchdown_test(<folder> DEPENDS <target>...)
-# makes the program test_<folder> of every .cpp below this folder. Every TEST in it is one CTest test.
-# ONE_BY_ONE: as for a library. NIGHTLY: the tests run in `make nightly` alone. A test's time limit is ten
-# times what it needs on a quiet machine: it ends what hangs, and checks nothing.
+# makes the program test_<folder> of every .cpp below this folder, and the CTest tests of its suites.
+# NIGHTLY: they run in `make nightly` alone.
 function(touchdown_test folder)
-  cmake_parse_arguments(ARG "ONE_BY_ONE;NIGHTLY" "" "DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "NIGHTLY" "" "DEPENDS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)
   add_executable(test_${folder} ${sources})
   target_link_libraries(test_${folder} PRIVATE touchdown_flags ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
   touchdown_precompile(test_${folder} touchdown_tests_precompiled)
   touchdown_optimize_tests_less(test_${folder})
-  if(NOT ARG_ONE_BY_ONE)
-    touchdown_unity(test_${folder} ${sources})
-  endif()
+  touchdown_unity_of_tests(test_${folder} ${sources})
   target_compile_definitions(test_${folder} PRIVATE
     TOUCHDOWN_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     TOUCHDOWN_REFERENCE_DATA="${TOUCHDOWN_REFERENCE_DATA}")
@@ -229,11 +245,38 @@ function(touchdown_test folder)
   if(ARG_NIGHTLY)
     set(labels LABELS nightly)
   endif()
-  gtest_discover_tests(test_${folder} TEST_PREFIX ${folder}. DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT 600 ${labels}
-                       # For the sanitizers of the asan preset only.
-                       ENVIRONMENT "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/scripts/cmake/lsan.supp:print_suppressions=0"
-                       ENVIRONMENT_MODIFICATION "UBSAN_OPTIONS=set:print_stacktrace=1")
+  touchdown_add_suites(test_${folder} ${folder} ${labels})
+endfunction()
+
+# touchdown_add_suites(<program> <prefix> [<property> <value>]...)
+# makes one CTest test `prefix.Suite` of every suite of a test program. The tests of a suite share a
+# process, with all values of their parameters, so that what they share is made once. `make nightly` runs
+# the whole program in one process, in random order, so that no test depends on another. A test's time
+# limit is ten times what it needs on a quiet machine: it ends what hangs, and checks nothing.
+function(touchdown_add_suites program prefix)
+  set(properties TIMEOUT 600 ${ARGN}
+    # For the sanitizers of the asan preset only.
+    ENVIRONMENT "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/scripts/cmake/lsan.supp:print_suppressions=0"
+    ENVIRONMENT_MODIFICATION "UBSAN_OPTIONS=set:print_stacktrace=1")
+  set(suites ${CMAKE_CURRENT_BINARY_DIR}/${program}_suites.cmake)
+  add_custom_command(TARGET ${program} POST_BUILD BYPRODUCTS ${suites}
+    COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:${program}> -DFILE=${suites}
+            -P ${PROJECT_SOURCE_DIR}/scripts/cmake/ListSuites.cmake)
+  # CTest runs this before it lists its tests.
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${program}_tests.cmake @ONLY CONTENT [[
+set(properties [=[@properties@]=])
+set(suites IsNotBuilt)
+include("@suites@" OPTIONAL)
+foreach(suite IN LISTS suites)
+  add_test("@prefix@.${suite}" "@CMAKE_RUNTIME_OUTPUT_DIRECTORY@/@program@" "--gtest_filter=${suite}.*:*/${suite}.*")
+  set_tests_properties("@prefix@.${suite}" PROPERTIES ${properties})
+endforeach()
+]])
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/${program}_tests.cmake)
+  if(TOUCHDOWN_NIGHTLY AND NOT ARGN MATCHES nightly)
+    add_test(NAME ${prefix}.InAnyOrder COMMAND ${program} --gtest_shuffle)
+    set_tests_properties(${prefix}.InAnyOrder PROPERTIES ${properties} TIMEOUT 3600 LABELS nightly)
+  endif()
 endfunction()
 
 # touchdown_install_data(<folder> <argument of install>...)

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <regex>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,29 +23,16 @@ std::vector<std::string> written_order() {
   return folder_order_in(read_file(source / "docs/reference/architecture.md"));
 }
 
-constexpr std::size_t most_lines = 400;
-
 bool is_of_product(const std::string& file) {
   return !file.starts_with("examples/") && !file.starts_with("tests/");
 }
 
-/// All sources of the product. Tests and examples may be as long as they like.
+/// All sources of the product.
 SourceTree product() {
   SourceTree tree = source_tree_in(source, written_order());
-  std::erase_if(tree.files, [](const SourceFile& file) { return !is_of_product(file.name); });
+  std::erase_if(tree.files, [](const std::string& file) { return !is_of_product(file); });
   std::erase_if(tree.includes, [](const Include& include) { return !is_of_product(include.from); });
   return tree;
-}
-
-/// The headers that the estimator library installs, as its install.cmake lists them.
-std::set<std::string> installed_headers() {
-  const std::string text = read_file(source / "estimator/install.cmake");
-  std::set<std::string> headers;
-  static const std::regex name(R"([a-z0-9_]+(/[a-z0-9_]+)*)");
-  for (std::sregex_iterator one(text.begin(), text.end(), name), end; one != end; ++one) {
-    headers.insert("estimator/" + one->str() + ".hpp");
-  }
-  return headers;
 }
 
 TEST(Folders, AreThoseOfTheArchitecture) {
@@ -79,18 +66,6 @@ TEST(Includes, OfTheEstimatorNeedNothingOfThisProjectButErrorsAndFingerprints) {
               IsSupersetOf(outside));
 }
 
-TEST(Files, HoldFourHundredLinesAtMost) {
-  EXPECT_THAT(long_files(product(), most_lines), IsEmpty());
-}
-
-TEST(Headers, HaveTwoReadersOrAreInstalled) {
-  SourceTree tree = product();  // with the tests and examples as readers
-  tree.includes = source_tree_in(source, written_order()).includes;
-  std::set<std::string> exempt = installed_headers();
-  exempt.insert("experiments/results/estimates.hpp");  // users' studies print their tables by it
-  EXPECT_THAT(headers_with_one_reader(tree, most_lines, exempt), IsEmpty());
-}
-
 // The checks themselves, on a small source tree that breaks the rules.
 
 TEST(FolderOrder, IsReadFromTheFirstColumnOfItsTable) {
@@ -118,7 +93,6 @@ class SmallSourceTree : public ::testing::Test {
 TEST_F(SmallSourceTree, BreaksNoRuleAtFirst) {
   EXPECT_THAT(includes_against(order_, tree()), IsEmpty());
   EXPECT_THAT(cyclic_includes(tree()), IsEmpty());
-  EXPECT_THAT(long_files(tree(), 2), IsEmpty());
 }
 
 TEST_F(SmallSourceTree, ReportsEachIncludeOfAFolderBelow) {
@@ -139,24 +113,6 @@ TEST_F(SmallSourceTree, ReportsBothIncludesOfACycle) {
       cyclic_includes(tree()),
       ElementsAre("cellar/coal.hpp:1: includes \"cellar/wine.hpp\", which includes it in turn",
                   "cellar/wine.cpp:1: includes \"cellar/coal.hpp\", which includes it in turn"));
-}
-
-TEST_F(SmallSourceTree, ReportsLongFiles) {
-  EXPECT_THAT(long_files(tree(), 1), ElementsAre("roof/tiles.cpp: 2 lines"));
-}
-
-TEST_F(SmallSourceTree, ReportsHeadersWithOneReader) {
-  folder_.write("roof/gutter.cpp", "#include \"cellar/wine.hpp\"\n");
-  EXPECT_THAT(headers_with_one_reader(tree(), 10, {}),
-              ElementsAre("cellar/coal.hpp: only kitchen/stove includes it",
-                          "kitchen/stove.hpp: no module includes it"));
-  EXPECT_THAT(headers_with_one_reader(tree(), 10, {"cellar/coal.hpp", "kitchen/stove.hpp"}),
-              IsEmpty());
-  folder_.write("cellar/coal.cpp", "#include \"cellar/coal.hpp\"\n\n\n\n\n\n");
-  folder_.write("kitchen/stove.cpp", "#include \"kitchen/stove.hpp\"\n\n\n\n\n\n");
-  EXPECT_THAT(headers_with_one_reader(tree(), 10, {}),
-              ElementsAre("kitchen/stove.hpp: no module includes it"))
-      << "both together are too long";
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <regex>
+#include <set>
 #include <sstream>
 
 namespace touchdown::tests {
@@ -29,20 +30,18 @@ SourceTree source_tree_in(const fs::path& source, const std::vector<std::string>
     for (const auto& entry : fs::recursive_directory_iterator(source / folder)) {
       const std::string ending = entry.path().extension().string();
       if (ending != ".cpp" && ending != ".hpp") continue;
-      tree.files.push_back({fs::relative(entry.path(), source).string()});
+      tree.files.push_back(fs::relative(entry.path(), source).string());
     }
   }
-  const auto by_name = [](const SourceFile& a, const SourceFile& b) { return a.name < b.name; };
-  std::sort(tree.files.begin(), tree.files.end(), by_name);
+  std::sort(tree.files.begin(), tree.files.end());
   static const std::regex pattern(R"re(^#include "([^"]+)".*)re");
-  for (SourceFile& file : tree.files) {
-    std::ifstream text(source / file.name);
+  for (const std::string& file : tree.files) {
+    std::ifstream text(source / file);
     std::smatch match;
+    int number = 0;
     for (std::string line; std::getline(text, line);) {
-      ++file.lines;
-      if (std::regex_match(line, match, pattern)) {
-        tree.includes.push_back({file.name, static_cast<int>(file.lines), match[1]});
-      }
+      ++number;
+      if (std::regex_match(line, match, pattern)) tree.includes.push_back({file, number, match[1]});
     }
   }
   return tree;
@@ -68,8 +67,8 @@ std::vector<std::string> includes_against(const std::vector<std::string>& order,
   };
   const auto unknown = static_cast<std::ptrdiff_t>(order.size());
   std::vector<std::string> lines;
-  for (const SourceFile& file : tree.files) {
-    if (rank(file.name) == unknown) lines.push_back(file.name + ": its folder has no row");
+  for (const std::string& file : tree.files) {
+    if (rank(file) == unknown) lines.push_back(file + ": its folder has no row");
   }
   for (const Include& include : tree.includes) {
     if (rank(include.to) <= rank(include.from) || rank(include.to) == unknown) continue;
@@ -102,40 +101,6 @@ std::vector<std::string> cyclic_includes(const SourceTree& tree) {
     if (reaches(module_of(include.to), module_of(include.from))) {
       lines.push_back(place(include) + ", which includes it in turn");
     }
-  }
-  return lines;
-}
-
-std::vector<std::string> long_files(const SourceTree& tree, std::size_t most) {
-  std::vector<std::string> lines;
-  for (const SourceFile& file : tree.files) {
-    if (file.lines > most)
-      lines.push_back(file.name + ": " + std::to_string(file.lines) + " lines");
-  }
-  return lines;
-}
-
-std::vector<std::string> headers_with_one_reader(const SourceTree& tree, std::size_t most,
-                                                 const std::set<std::string>& exempt) {
-  std::map<std::string, std::size_t> size;
-  for (const SourceFile& file : tree.files) size[file.name] = file.lines;
-  std::map<std::string, std::set<std::string>> readers;
-  for (const Include& include : tree.includes) {
-    if (module_of(include.from) != module_of(include.to)) {
-      readers[include.to].insert(module_of(include.from));
-    }
-  }
-  std::vector<std::string> lines;
-  for (const SourceFile& file : tree.files) {
-    if (!file.name.ends_with(".hpp") || exempt.contains(file.name)) continue;
-    const std::set<std::string>& found = readers[file.name];
-    if (found.size() > 1) continue;
-    if (!found.empty() &&
-        size[module_of(file.name) + ".cpp"] + size[*found.begin() + ".cpp"] > most) {
-      continue;
-    }
-    lines.push_back(file.name + (found.empty() ? ": no module includes it"
-                                               : ": only " + *found.begin() + " includes it"));
   }
   return lines;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -14,15 +13,9 @@ struct Include {
   std::string to;    ///< included file: "core/error.hpp"
 };
 
-/// A source of the project.
-struct SourceFile {
-  std::string name;  ///< relative to the source folder
-  std::size_t lines = 0;
-};
-
 /// Every .cpp and .hpp below some top-level folders, sorted, and all their includes.
 struct SourceTree {
-  std::vector<SourceFile> files;
+  std::vector<std::string> files;  ///< relative to the source folder
   std::vector<Include> includes;
 };
 SourceTree source_tree_in(const std::filesystem::path& source,
@@ -39,14 +32,5 @@ std::vector<std::string> includes_against(const std::vector<std::string>& order,
 
 /// One line for every include in a cycle of modules. A module is a header with its source.
 std::vector<std::string> cyclic_includes(const SourceTree& tree);
-
-/// One line for every file of more than `most` lines.
-std::vector<std::string> long_files(const SourceTree& tree, std::size_t most);
-
-/// One line for every header that fewer than two modules include besides its own source, but those
-/// of `exempt`. Such a header is no interface: its contents belong to its only reader, unless their
-/// sources together would have more than `most` lines.
-std::vector<std::string> headers_with_one_reader(const SourceTree& tree, std::size_t most,
-                                                 const std::set<std::string>& exempt);
 
 }  // namespace touchdown::tests

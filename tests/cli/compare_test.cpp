@@ -20,12 +20,18 @@ using ::testing::Not;
 /// A finished run, "before".
 class Compared : public InFolder {
  protected:
-  Compared() { run_into("before"); }
+  Compared() {
+    folder_.fill("before", [](const ProgramFolder& folder) { run_into(folder, "before"); });
+  }
 
+  static void run_into(const ProgramFolder& folder, const std::string& directory,
+                       const std::string& options = "") {
+    (void)folder.output_of("run " + write_tiny_experiment(folder) +
+                           " --set simulators=[mujoco] --set noise.seeds=1 --no-pictures --out " +
+                           directory + " " + options);
+  }
   void run_into(const std::string& directory, const std::string& options = "") const {
-    (void)folder_.output_of("run " + write_tiny_experiment(folder_) +
-                            " --set simulators=[mujoco] --set noise.seeds=1 --no-pictures --out " +
-                            directory + " " + options);
+    run_into(folder_, directory, options);
   }
 };
 

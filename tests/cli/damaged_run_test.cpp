@@ -36,8 +36,10 @@ void for_each_damage(Json document, const std::vector<Json>& values,
 class DamagedRun : public InFolder {
  protected:
   DamagedRun() {
-    folder_.output_of("run " + write_tiny_experiment(folder_) +
-                      " --no-pictures --out run --set simulators=[mujoco] --set test.runs=1");
+    folder_.fill("run", [](const ProgramFolder& folder) {
+      folder.output_of("run " + write_tiny_experiment(folder) +
+                       " --no-pictures --out run --set simulators=[mujoco] --set test.runs=1");
+    });
   }
 
   /// Runs a command after a file of the run was replaced, and puts the file back.

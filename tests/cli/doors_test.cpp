@@ -304,7 +304,7 @@ TEST(Doors, GiveTheSameBeliefsAboutARobotWithConventionsOfItsOwn) {
     GTEST_SKIP() << "the Python package is not built, or NumPy is not installed";
   }
   folder.write("loop.py", loop);
-  folder.run("list", fmt::format("PYTHONPATH='{}' {} loop.py;", package.string(), python));
+  folder.execute("list", fmt::format("PYTHONPATH='{}' {} loop.py;", package.string(), python));
   EXPECT_EQ(beliefs_in(folder / "steps.csv"), expected);
   EXPECT_EQ(beliefs_in(folder / "whole.csv"), expected);
   EXPECT_EQ(beliefs_in(folder / "bag.csv"), expected);

@@ -15,8 +15,7 @@ using ::testing::HasSubstr;
 using PrintedFigure = InFolder;
 
 TEST_F(PrintedFigure, IsDrawnAgainAtItsWidthAndChangesNothingElse) {
-  write_tiny_experiment(folder_);
-  folder_.output_of("run tiny.yaml --no-video --out a");
+  write_finished_run(folder_, "--no-video");
   const std::string manifest = folder_.text("a/manifest.json");
   const std::string other = folder_.text("a/figures/error_bullet.svg");
   const std::string table = folder_.text("a/tables/results.csv");
@@ -34,8 +33,7 @@ TEST_F(PrintedFigure, IsDrawnAgainAtItsWidthAndChangesNothingElse) {
 }
 
 TEST_F(PrintedFigure, IsAskedForByAnExperimentOfTheSameId) {
-  write_tiny_experiment(folder_);
-  folder_.output_of("run tiny.yaml --no-video --out a");
+  write_finished_run(folder_, "--no-video");
   const std::string config = folder_.text("a/config.yaml");
   folder_.output_of("run tiny.yaml --no-video --out a --set figures.width_mm=88");
   EXPECT_THAT(folder_.text("a/figures/error_mujoco.svg"), HasSubstr("width=\"88mm\""));
@@ -43,8 +41,7 @@ TEST_F(PrintedFigure, IsAskedForByAnExperimentOfTheSameId) {
 }
 
 TEST_F(PrintedFigure, IsRefusedInOneLineWithTheNearestName) {
-  write_tiny_experiment(folder_);
-  folder_.output_of("run tiny.yaml --no-video --out a");
+  write_finished_run(folder_, "--no-video");
   const char* const range = "expected 40 to 400 mm with the unit mm, cm or in, as in 88mm";
   folder_.expect_refusals(
       {{"figure a error_mujoco --width 88", {"--width 88: ", range}},

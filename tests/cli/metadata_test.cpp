@@ -137,8 +137,9 @@ TEST_F(Metadata, OfARecordingStatesWhetherItsRobotIsStillTheSame) {
   const std::string changed = "own.yaml, or a file that this reads, was changed since";
   const std::string assumed =
       "the legs are assumed to be Upkie's, because its robot cannot be read";
-  const std::vector<std::string> uses = {"estimate own.mpack --estimator support_force",
-                                         "check own.mpack", "fit own.mpack -o own.npz"};
+  const std::vector<std::string> uses = {
+      "estimate own.mpack --estimator support_force", "check own.mpack",
+      "fit own.mpack -o own.npz --estimator robust --grid 40 40"};
   const auto expect = [&](const auto& matcher) {
     for (const std::string& use : uses) EXPECT_THAT(folder_.run(use).errors, matcher) << use;
   };

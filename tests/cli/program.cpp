@@ -1,43 +1,77 @@
-#include "program.hpp"
+#include "tests/cli/program.hpp"
 
-#include <chrono>
-#include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <fcntl.h>
-#include <fstream>
-#include <regex>
-#include <sstream>
+#include <filesystem>
+#include <iostream>
+#include <map>
 #include <sys/wait.h>
-#include <thread>
 #include <unistd.h>
+#include <wordexp.h>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+
+#include "apps/cli/command_line.hpp"
+#include "core/fingerprint.hpp"
 
 namespace touchdown::cli {
 
 namespace {
 
-int exit_code(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status); }
+/// A child has one thread only: what others have locked stays locked there.
+bool has_threads() {
+  const std::filesystem::directory_iterator threads("/proc/self/task");
+  return std::distance(begin(threads), end(threads)) > 1;
+}
+
+void redirect(const std::string& file, int stream) {
+  constexpr int mode = 0600;
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, mode);
+  ::dup2(descriptor, stream);
+  ::close(descriptor);
+}
+
+/// No exit code of the program.
+constexpr int needs_shell = 99;
+
+/// Calls the program's function in `folder`, and ends this process. Returns if the command needs a
+/// shell.
+void end_as_program(const std::string& command, const std::filesystem::path& folder) {
+  std::filesystem::current_path(folder);
+  wordexp_t words = {};
+  if (::wordexp(command.c_str(), &words, WRDE_NOCMD) != 0) return;
+  redirect(".stdout", STDOUT_FILENO);
+  redirect(".stderr", STDERR_FILENO);
+  const int code = run_program(static_cast<int>(words.we_wordc), words.we_wordv);
+  std::cout.flush();
+  std::fflush(nullptr);
+  ::_exit(code);
+}
 
 }  // namespace
 
-std::vector<std::string> messages_in(const std::string& errors) {
-  static const std::regex progress(R"([a-z ]+: \d+/\d+ .*)");
-  std::vector<std::string> lines;
-  std::istringstream text(errors);
-  for (std::string line; std::getline(text, line);) {
-    if (!std::regex_match(line, progress)) lines.push_back(line);
+Ended ProgramFolder::run(const std::string& arguments) const {
+  if (has_threads()) return execute(arguments);
+  build_fingerprint();  // known to all children
+  std::fflush(nullptr);
+  const pid_t process = ::fork();
+  if (process == 0) {
+    end_as_program("'" TOUCHDOWN_PROGRAM "' " + arguments, path());
+    ::_exit(needs_shell);
   }
-  return lines;
+  int status = 0;
+  ::waitpid(process, &status, 0);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == needs_shell) return execute(arguments);
+  return {exit_code_of(status), text(".stdout"), text(".stderr")};
 }
 
-Ended ProgramFolder::run(const std::string& arguments, const std::string& shell) const {
+Ended ProgramFolder::execute(const std::string& arguments, const std::string& shell) const {
   const std::string command =
       fmt::format("cd '{}' && {{ {} exec '" TOUCHDOWN_PROGRAM "' {}; }} >.stdout 2>.stderr",
                   path().string(), shell, arguments);
-  const int status = std::system(command.c_str());
-  return {exit_code(status), text(".stdout"), text(".stderr")};
+  return {exit_code_of(std::system(command.c_str())), text(".stdout"), text(".stderr")};
 }
 
 std::string ProgramFolder::output_of(const std::string& arguments) const {
@@ -61,6 +95,16 @@ std::string ProgramFolder::refusal_of(const std::string& arguments, int exit_cod
   const std::string line = messages.empty() ? "" : messages.front() + "\n";
   EXPECT_THAT(line, ::testing::StartsWith("touchdown: ")) << arguments;
   return line;
+}
+
+void ProgramFolder::fill(const std::string& name,
+                         const std::function<void(const ProgramFolder&)>& make) const {
+  static std::map<std::string, ProgramFolder> made;
+  const auto [found, is_new] = made.try_emplace(name);
+  if (is_new) make(found->second);
+  std::filesystem::copy(
+      found->second.path(), path(),
+      std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing);
 }
 
 void ProgramFolder::expect_refusals(const std::vector<Refusal>& refusals, int exit_code) const {
@@ -92,10 +136,16 @@ test: {scenarios: [step.yaml], runs: 3}
 noise: {torque: [0.0, 1.0], accelerometer: [0.0, 5.0], seeds: 2}
 highlights: [{torque: 1.0, accelerometer: 5.0}]
 intervals: {resamples: 100}
-video: {enabled: false}
+video: {enabled: false, width: 320}
 recordings: all
 )");
   return "tiny.yaml";
+}
+
+void write_finished_run(const ProgramFolder& folder, const std::string& flags) {
+  folder.fill(flags, [&](const ProgramFolder& made) {
+    made.output_of("run " + write_tiny_experiment(made) + " --out a " + flags);
+  });
 }
 
 std::string write_long_experiment(const ScratchFolder& folder) {
@@ -108,72 +158,6 @@ perturbation: {yaw: 0.05}
   folder.write("x.yaml",
                "name: x\nfit: {scenarios: [long.yaml]}\ntest: {scenarios: [long.yaml]}\n");
   return "x.yaml";
-}
-
-StartedProgram::StartedProgram(const std::string& arguments, const std::filesystem::path& folder,
-                               std::vector<std::string> environment)
-    : out_(folder / ".started.stdout"), err_(folder / ".started.stderr") {
-  std::vector<std::string> words = {TOUCHDOWN_PROGRAM};
-  std::istringstream rest(arguments);
-  for (std::string word; rest >> word;) words.push_back(word);
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  std::vector<char*> variables;
-  for (std::string& variable : environment) variables.push_back(variable.data());
-  for (char** variable = environ; *variable != nullptr; ++variable) variables.push_back(*variable);
-  variables.push_back(nullptr);
-  process_ = ::fork();
-  if (process_ != 0) return;
-  // Nothing here may allocate.
-  constexpr int mode = 0600;
-  ::dup2(::open(out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, mode), STDOUT_FILENO);
-  ::dup2(::open(err_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, mode), STDERR_FILENO);
-  if (::chdir(folder.c_str()) == 0) ::execve(argv.front(), argv.data(), variables.data());
-  ::_exit(127);
-}
-
-StartedProgram::~StartedProgram() {
-  if (!is_running()) return;
-  send(SIGKILL);
-  wait(0);
-}
-
-void StartedProgram::send(int signal) const {
-  if (!ended_) ::kill(process_, signal);
-}
-
-bool StartedProgram::is_running() {
-  wait(WNOHANG);
-  return !ended_;
-}
-
-void StartedProgram::wait_for_handler(int signal) {
-  const auto is_handled = [&] {
-    std::ifstream status("/proc/" + std::to_string(process_) + "/status");
-    for (std::string line; std::getline(status, line);) {
-      if (!line.starts_with("SigCgt:")) continue;  // proc(5): a mask; bit 0 is signal 1
-      return (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1U) != 0U;
-    }
-    return false;
-  };
-  while (is_running() && !is_handled()) let_run(0.001);
-}
-
-void StartedProgram::let_run(double seconds) {
-  const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-  while (is_running() && std::chrono::steady_clock::now() < until) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-}
-
-Ended StartedProgram::end() {
-  wait(0);
-  return {exit_code(status_), read_file(out_), read_file(err_)};
-}
-
-void StartedProgram::wait(int flags) {
-  if (!ended_) ended_ = ::waitpid(process_, &status_, flags) == process_;
 }
 
 }  // namespace touchdown::cli

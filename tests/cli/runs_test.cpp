@@ -79,7 +79,7 @@ std::vector<std::vector<std::string>> cells_of(const fs::path& csv) {
 }
 
 TEST_F(Run, DrawsFiguresThatAgreeWithItsTables) {
-  run_tiny("--out a");
+  write_finished_run(folder_, "");
   const std::string report = folder_.text("a/report.html");
   for (const char* figure : {"error", "densities", "reliability", "latency"}) {
     for (const char* engine : {"mujoco", "bullet"}) {
@@ -121,7 +121,8 @@ TEST_F(Run, DrawsFiguresThatAgreeWithItsTables) {
 }
 
 TEST_F(Run, ExplainsItselfAndEndsWithResultsPathsAndNextCommands) {
-  const std::string output = run_tiny("--out a");
+  write_finished_run(folder_, "");
+  const std::string output = folder_.text(".stdout");
   EXPECT_THAT(folder_.text("a/tables/success.csv"),
               AllOf(StartsWith("simulator,estimator,torque_noise_nm,accelerometer_noise_mps2,"
                                "success,success_low,success_high"),
@@ -147,8 +148,7 @@ TEST_F(Run, ExplainsItselfAndEndsWithResultsPathsAndNextCommands) {
 
 /// The counts of all samples are a table that grows with the grid of noise.
 TEST_F(Run, OutlinesTheDiskThatItsSamplesTake) {
-  write_tiny_experiment(folder_);
-  folder_.output_of("run tiny.yaml --out a --no-pictures");
+  write_finished_run(folder_);
   const auto samples = static_cast<double>(fs::file_size(folder_ / "a/tables/samples.csv"));
   const auto outlined = [&](const std::string& more) {
     const std::string text =
@@ -167,7 +167,7 @@ TEST_F(Run, OutlinesTheDiskThatItsSamplesTake) {
 }
 
 TEST_F(Run, UsesExistingRecordings) {
-  run_tiny("--no-pictures --out a");
+  write_finished_run(folder_);
   const fs::path recording = folder_ / "a/recordings/mujoco_step_test_000.mpack";
   const auto written = fs::last_write_time(recording);
   const auto before = files_of("a");
@@ -178,16 +178,16 @@ TEST_F(Run, UsesExistingRecordings) {
 }
 
 TEST_F(Run, KeepsTheRequestedRecordingsAndTheSameTables) {
-  run_tiny("--no-pictures --out all");
+  write_finished_run(folder_);
   run_tiny("--no-pictures --out pictured --set recordings=pictured --set video.run=1");
   run_tiny("--no-pictures --out none --set recordings=none");
-  EXPECT_EQ(names_in(folder_ / "all/recordings").size(), 8U);
+  EXPECT_EQ(names_in(folder_ / "a/recordings").size(), 8U);
   EXPECT_THAT(names_in(folder_ / "pictured/recordings"),
               ElementsAre("bullet_step_test_001.mpack", "mujoco_step_test_001.mpack"));
   EXPECT_FALSE(folder_.has("none/recordings"));
   EXPECT_EQ(folder_.text("pictured/recordings/bullet_step_test_001.mpack"),
-            folder_.text("all/recordings/bullet_step_test_001.mpack"));
-  auto all = files_of("all");
+            folder_.text("a/recordings/bullet_step_test_001.mpack"));
+  auto all = files_of("a");
   for (const char* other : {"pictured", "none"}) {
     for (const auto& [name, content] : files_of(other)) {
       if (name == "config.yaml") continue;

@@ -78,7 +78,7 @@ TEST_F(RunDirectory, IsNotMadeWhereTheUsersOwnFilesAre) {
 }
 
 TEST_F(RunDirectory, KeepsItsExperimentUnlessAnotherMayOverwriteIt) {
-  folder_.output_of(run + "a");
+  write_finished_run(folder_);
   const auto before = result_files(folder_ / "a");
   const std::string changes = " --set seed=4 --set estimators=[robust]";
   for (const char* more : {"", " --dry-run", " --shard 1/2"}) {
@@ -103,7 +103,7 @@ TEST_F(RunDirectory, KeepsItsExperimentUnlessAnotherMayOverwriteIt) {
 }
 
 TEST_F(RunDirectory, OfAnotherBuildIsComputedAnewWithoutAsking) {
-  folder_.output_of(run + "a");
+  write_finished_run(folder_);
   const auto before = result_files(folder_ / "a");
   const std::string key = folder_.text("a/state/key");
   folder_.write("a/state/key", key.substr(0, key.find(" build ")) + " build 0123456789abcdef\n");
@@ -119,7 +119,7 @@ TEST_F(RunDirectory, OfAnotherBuildIsComputedAnewWithoutAsking) {
 }
 
 TEST_F(RunDirectory, WithoutItsStateIsComputedAnew) {
-  folder_.output_of(run + "a");
+  write_finished_run(folder_);
   const auto before = result_files(folder_ / "a");
   fs::remove_all(folder_ / "a/state");
   folder_.expect_refusals({{"merge a", {"a: holds no part of an experiment"}},
@@ -190,7 +190,7 @@ TEST_F(Lock, OfARunRefusesOtherWritersAndNamesItsOwner) {
     running.end();
   }
   // A killed owner does not block others.
-  folder_.expect_refusals({{"merge a", {"parts are missing"}}});
+  EXPECT_THAT(folder_.execute("merge a").errors, HasSubstr("parts are missing"));
 }
 
 TEST_F(Lock, OfAShardAdmitsOnlyOtherShards) {
@@ -200,10 +200,10 @@ TEST_F(Lock, OfAShardAdmitsOnlyOtherShards) {
   first.send(SIGSTOP);
   folder_.expect_refusals({{"merge a", {"--shard 1/2"}}, {longer, {"a: is in use by process "}}},
                           1);
-  folder_.output_of(longer + " --shard 2/2");
+  EXPECT_EQ(folder_.execute(longer + " --shard 2/2").exit_code, 0);
   first.send(SIGCONT);
   EXPECT_EQ(first.end().exit_code, 0);
-  folder_.output_of("merge a --no-pictures");
+  EXPECT_EQ(folder_.execute("merge a --no-pictures").exit_code, 0);
 }
 
 TEST_F(Lock, LeavesShardsThatStartTogetherToAgreeOnTheirDirectory) {
@@ -223,8 +223,8 @@ TEST_F(Lock, LeavesShardsThatStartTogetherToAgreeOnTheirDirectory) {
       EXPECT_EQ(ended.exit_code, 0) << ended.errors;
     }
   }
-  folder_.output_of("merge a --no-pictures");
-  folder_.output_of(run + "whole");
+  EXPECT_EQ(folder_.execute("merge a --no-pictures").exit_code, 0);
+  EXPECT_EQ(folder_.execute(run + "whole").exit_code, 0);
   EXPECT_THAT(different_files(folder_ / "a", folder_ / "whole"), IsEmpty());
 }
 
@@ -254,12 +254,12 @@ TEST_F(Merge, RefusesAnExperimentThatWasChangedSinceItsPartsWereComputed) {
   EXPECT_FALSE(folder_.has("a/tables"));
   // From another folder and with one more comment it is the same experiment.
   replace_in(folder_ / "a/config.yaml", "name: tiny", "name: tiny  # of mine");
-  fs::create_directory(folder_ / "elsewhere");
-  EXPECT_EQ(folder_.run("merge ../a --no-pictures", "cd elsewhere &&").exit_code, 0);
+  const ProgramFolder elsewhere;
+  elsewhere.output_of("merge " + (folder_ / "a").string() + " --no-pictures");
 }
 
 TEST_F(Merge, LetsTheReportNameTablesThatWereEditedSince) {
-  folder_.output_of(run + "a");
+  write_finished_run(folder_);
   const std::string report = "report a --no-video --no-replay";
   EXPECT_EQ(folder_.run(report).errors, "");
   for (const std::string table : {"results.csv", "summary.json"}) {

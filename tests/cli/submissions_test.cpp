@@ -72,8 +72,10 @@ void write_constant(const ScratchFolder& folder, const std::string& signals,
 class Submission : public InFolder {
  protected:
   Submission() {
-    ran("run " + write_benchmark(folder_) + " --no-pictures --out run");
-    ran("export --benchmark signals run");
+    folder_.fill("exported", [](const ProgramFolder& folder) {
+      folder.output_of("run " + write_benchmark(folder) + " --no-pictures --out run");
+      folder.output_of("export --benchmark signals run");
+    });
   }
   std::string ran(const std::string& arguments) const { return folder_.output_of(arguments); }
   /// Scores constant beliefs about the exported signals.
@@ -87,8 +89,8 @@ TEST_F(Submission, ProgramWithTheSameEquationsHasTheSameScores) {
   const std::string python = python_with_numpy();
   if (python.empty()) GTEST_SKIP() << "python3 with NumPy is not installed";
   const std::string script = TOUCHDOWN_SOURCE_DIR "/examples/enter/free_fall.py";
-  ASSERT_EQ(folder_.run("list", fmt::format("{} {} signals falls &&", python, script)).exit_code,
-            0);
+  ASSERT_EQ(
+      folder_.execute("list", fmt::format("{} {} signals falls &&", python, script)).exit_code, 0);
   ran("report run");
   const std::string output = ran("score run --beliefs falls");
   EXPECT_THAT(output, AllOf(HasSubstr("\n  falls "), HasSubstr("falls: 16 runs scored"),
@@ -240,7 +242,7 @@ TEST_F(Submission, ExportsAreTheSameBytesFromARunAndFromItsExperimentOnAnyThread
   ran("export --benchmark one_thread one_thread.yaml");
   EXPECT_THAT(different_files(folder_ / "signals", folder_ / "one_thread"), IsEmpty());
   const std::string checked = "(cd signals && sha256sum --check --strict --quiet SHA256SUMS) &&";
-  EXPECT_EQ(folder_.run("list", checked).exit_code, 0);
+  EXPECT_EQ(folder_.execute("list", checked).exit_code, 0);
   const TextTable index = from_csv(folder_.text("signals/index.csv"));
   EXPECT_THAT(index.header, ElementsAre("file", "robot", "sensors", "simulator", "role", "scene",
                                         "run", "noise", "seed", "torque_noise_nm",

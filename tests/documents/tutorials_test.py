@@ -4,7 +4,8 @@
 
 Blocks of YAML and Python that begin with a file's name are written; commands in blocks of `sh` run one after the
 other in a folder of the page's own; every line of a block of `text` must be printed. Left to the reader are
-commands that install, compile, or open a window, and what follows `make`; other tests compile the examples.
+commands that install, compile, or open a window, and what follows `make`; other tests compile the examples. Pages
+that run studies are followed in `make nightly` alone, which sets TOUCHDOWN_LONG.
 """
 
 import os
@@ -20,6 +21,7 @@ sys.path.insert(0, str(ROOT / 'scripts' / 'documents'))
 from pages import blocks  # noqa: E402
 
 LEFT_TO_READERS = re.compile(r'make |export [A-Z]+=|sudo |cmake |cp examples|\$EDITOR|build/|touchdown watch')
+STUDY = re.compile(r'^(touchdown run (?!.*--dry-run)|python3 study\.py)', re.M)
 PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
 PACKAGE = str(pathlib.Path(sys.argv.pop(1)).resolve()) if len(sys.argv) > 1 else ''
 
@@ -64,6 +66,8 @@ class Tutorial:
 class Tutorials(unittest.TestCase):
     def test_each_can_be_followed(self):
         for page in sorted((ROOT / 'docs' / 'tutorials').glob('*.md')):
+            if 'TOUCHDOWN_LONG' not in os.environ and STUDY.search(page.read_text(encoding='utf-8')):
+                continue
             with self.subTest(page=page.name), tempfile.TemporaryDirectory() as folder:
                 Tutorial(page, pathlib.Path(folder)).follow()
 

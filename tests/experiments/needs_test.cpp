@@ -14,7 +14,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-Experiment experiment_with(const std::string& assignment) {
+Experiment loaded_experiment(const std::string& assignment) {
   YamlDocument document = YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/experiments/stairs.yaml");
   document.override_value(assignment);
   return experiment_from_yaml(document);
@@ -35,14 +35,14 @@ TEST(Needs, ApproximateThePlan) {
 }
 
 TEST(Needs, NameTheSettingsToLowerIfMemoryIsTooSmall) {
-  const RunRequest few = request_of(experiment_with("seed=3"));
+  const RunRequest few = request_of(loaded_experiment("seed=3"));
   EXPECT_NO_THROW(require_memory(few, 1.0, 4e9));
-  const RunRequest many = request_of(experiment_with("noise.seeds=100000"));
+  const RunRequest many = request_of(loaded_experiment("noise.seeds=100000"));
   EXPECT_THAT([&] { require_memory(many, 0.0, 1e8); },
               ThrowsMessage<Error>(AllOf(HasSubstr("noise.seeds=100000"),
                                          HasSubstr("this process may use 0.1 GB"),
                                          HasSubstr("lower test.runs or noise.seeds"))));
-  const RunRequest longer = request_of(experiment_with("test.runs=100000"));
+  const RunRequest longer = request_of(loaded_experiment("test.runs=100000"));
   EXPECT_THAT([&] { require_memory(longer, 1.0, 4e9); },
               ThrowsMessage<Error>(AllOf(HasSubstr("test.runs=100000"), HasSubstr("--shard"))));
   EXPECT_NO_THROW(require_memory(longer, 1e-5, 4e9));
@@ -64,7 +64,7 @@ TEST(Needs, LeaveOutSignalsThatLeaveTheMemoryAfterTheirEvaluation) {
 }
 
 TEST(Needs, CountPartsInWholeDiskBlocks) {
-  const RunRequest request = request_of(experiment_with("seed=3"));
+  const RunRequest request = request_of(loaded_experiment("seed=3"));
   const Plan plan = whole_plan(request);
   const double parts = disk_needs(plan, request.experiment).parts;
   EXPECT_GE(parts, 4096.0 * static_cast<double>(plan.tasks.size()));

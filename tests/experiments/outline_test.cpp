@@ -15,7 +15,7 @@ RunOutline outline(const Experiment& experiment, const ScratchFolder& folder) {
   return outline_of(experiment, {.out = folder / "run", .command = "test"});
 }
 
-TEST(Outline, CountsTheRunsAndPartsOfEveryShippedExperimentAndWritesNothing) {
+TEST(NightlyOutline, CountsTheRunsAndPartsOfEveryShippedExperimentAndWritesNothing) {
   const ScratchFolder folder;
   int experiments = 0;
   for (const std::filesystem::path& file : entries_in(TOUCHDOWN_SOURCE_DIR "/experiments")) {

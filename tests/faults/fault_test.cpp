@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/cli/program.hpp"
+#include "tests/cli/started_program.hpp"
 #include "tests/faults/outcome.hpp"
 #include "tests/faults/small_experiment.hpp"
 

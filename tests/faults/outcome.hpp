@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/cli/program.hpp"
+#include "tests/cli/started_program.hpp"
 #include "tests/faults/injection.hpp"
 
 namespace touchdown::faults {

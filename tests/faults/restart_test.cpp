@@ -9,8 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/cli/program.hpp"
 #include "tests/cli/result_files.hpp"
+#include "tests/cli/started_program.hpp"
 
 namespace touchdown::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "tests/cli/program.hpp"
+#include "tests/cli/started_program.hpp"
 
 namespace touchdown::faults {
 
@@ -24,7 +24,7 @@ test: {scenarios: [fall.yaml], runs: 1}
 noise: {torque: [0.0], accelerometer: [0.0], seeds: 2}
 highlights: [{torque: 0.0, accelerometer: 0.0}]
 intervals: {resamples: 10}
-video: {enabled: false}
+video: {enabled: false, width: 320}
 recordings: all
 workers: 1
 )");

@@ -9,10 +9,10 @@
 namespace touchdown::noise {
 namespace {
 
-constexpr double period = 0.001;
+constexpr double clock_period = 0.001;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-const ChannelDraws draws({7, 3}, NoiseChannel::left_knee_torque);
+const ChannelDraws knee_draws({7, 3}, NoiseChannel::left_knee_torque);
 
 /// 0, 1, 2, …
 std::vector<double> counting(std::size_t steps) {
@@ -26,13 +26,13 @@ std::vector<double> reported(const SensorChannel& channel, std::size_t steps,
                              std::vector<std::uint8_t>* missing = nullptr) {
   std::vector<double> values = counting(steps);
   std::vector<std::uint8_t> marked;
-  Clock<double>(channel, period, draws, nan).report(values, marked);
+  Clock<double>(channel, clock_period, knee_draws, nan).report(values, marked);
   if (missing != nullptr) *missing = marked;
   return values;
 }
 
 std::vector<double> held(double samples_per_step, std::size_t steps = 11) {
-  return reported({.rate = samples_per_step / period}, steps);
+  return reported({.rate = samples_per_step / clock_period}, steps);
 }
 
 TEST(HeldSamples, OfFourHundredHertzAreReportedEveryThreeAndTwoMillisecondsInTurn) {
@@ -70,7 +70,8 @@ TEST(Delay, IsRoundedToWholeStepsAndComesAfterTheHeldSamples) {
 /// The dropouts of a run.
 std::vector<DropoutInterval> dropouts_of(const Dropout& dropout, std::size_t steps = 4'000'000) {
   std::vector<DropoutInterval> dropouts;
-  for (DropoutProcess all(dropout, period, draws); all.current().begin < steps; all.advance()) {
+  for (DropoutProcess all(dropout, clock_period, knee_draws); all.current().begin < steps;
+       all.advance()) {
     dropouts.push_back({all.current().begin, std::min(steps, all.current().end)});
   }
   return dropouts;

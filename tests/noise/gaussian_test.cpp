@@ -12,9 +12,10 @@
 namespace touchdown::noise {
 namespace {
 
-constexpr std::size_t many = 1'000'000;
+constexpr std::size_t most_draws = 1'000'000;
 
-std::vector<double> draws(const NoiseKey& key, NoiseChannel channel, std::size_t count = many) {
+std::vector<double> normals(const NoiseKey& key, NoiseChannel channel,
+                            std::size_t count = most_draws) {
   std::vector<double> values(count);
   fill_standard_normal(key, channel, 0, values);
   return values;
@@ -26,8 +27,8 @@ double moment(const std::vector<double>& values, int order) {
   return sum / static_cast<double>(values.size());
 }
 
-double correlation(const std::vector<double>& a, const std::vector<double>& b,
-                   std::size_t lag = 0) {
+double mean_product(const std::vector<double>& a, const std::vector<double>& b,
+                    std::size_t lag = 0) {
   const std::size_t count = std::min(a.size(), b.size() - lag);
   double sum = 0.0;
   for (std::size_t i = 0; i < count; ++i) sum += a[i] * b[i + lag];
@@ -36,8 +37,10 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b,
 
 double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 
-/// Five standard errors of a mean of `many` draws with the given variance.
-double five_sigma(double variance) { return 5.0 * std::sqrt(variance / static_cast<double>(many)); }
+/// Five standard errors of a mean of `most_draws` draws with the given variance.
+double five_sigma(double variance) {
+  return 5.0 * std::sqrt(variance / static_cast<double>(most_draws));
+}
 
 TEST(Gaussian, IsTheBoxMullerTransformOfPhilox) {
   // The definition once more, with the C library's functions and Random123 itself.
@@ -62,7 +65,7 @@ TEST(Gaussian, IsTheBoxMullerTransformOfPhilox) {
       EXPECT_NEAR(standard_normal(key, channel, step), defined(key, channel, step), 1e-14);
     }
   }
-  const auto values = draws({7, 3}, NoiseChannel::accelerometer_x, 200'000);
+  const auto values = normals({7, 3}, NoiseChannel::accelerometer_x, 200'000);
   double worst = 0.0;
   for (std::size_t step = 0; step < values.size(); ++step) {
     worst = std::max(worst,
@@ -72,7 +75,7 @@ TEST(Gaussian, IsTheBoxMullerTransformOfPhilox) {
 }
 
 TEST(Gaussian, HasTheMomentsOfTheStandardNormal) {
-  const auto values = draws({1, 0}, NoiseChannel::left_wheel_torque);
+  const auto values = normals({1, 0}, NoiseChannel::left_wheel_torque);
   EXPECT_NEAR(moment(values, 1), 0.0, five_sigma(1.0));
   EXPECT_NEAR(moment(values, 2), 1.0, five_sigma(2.0));
   EXPECT_NEAR(moment(values, 3), 0.0, five_sigma(15.0));
@@ -81,7 +84,7 @@ TEST(Gaussian, HasTheMomentsOfTheStandardNormal) {
 }
 
 TEST(Gaussian, HasTheTailsOfTheStandardNormal) {
-  const auto values = draws({2, 0}, NoiseChannel::right_knee_torque, 4 * many);
+  const auto values = normals({2, 0}, NoiseChannel::right_knee_torque, 4 * most_draws);
   for (const double x : {1.0, 2.0, 3.0, 4.0}) {
     for (const double sign : {-1.0, 1.0}) {
       const double expected = normal_cdf(-x) * static_cast<double>(values.size());
@@ -94,7 +97,7 @@ TEST(Gaussian, HasTheTailsOfTheStandardNormal) {
 
 TEST(Gaussian, PassesAKolmogorovSmirnovTest) {
   for (const std::uint64_t run : {0U, 1U, 2U}) {
-    auto values = draws({3, run}, NoiseChannel::accelerometer_y);
+    auto values = normals({3, run}, NoiseChannel::accelerometer_y);
     std::sort(values.begin(), values.end());
     double distance = 0.0;
     const auto count = static_cast<double>(values.size());
@@ -108,23 +111,24 @@ TEST(Gaussian, PassesAKolmogorovSmirnovTest) {
 }
 
 TEST(Gaussian, StepsAreIndependent) {
-  const auto values = draws({4, 0}, NoiseChannel::left_knee_torque);
+  const auto values = normals({4, 0}, NoiseChannel::left_knee_torque);
   for (const std::size_t lag : {1U, 2U, 3U, 10U, 64U, 128U}) {
-    EXPECT_NEAR(correlation(values, values, lag), 0.0, five_sigma(1.0)) << lag;
+    EXPECT_NEAR(mean_product(values, values, lag), 0.0, five_sigma(1.0)) << lag;
     // Squares too: the two of a pair share a radius, unless the transform is right.
     std::vector<double> squares(values.size());
     std::transform(values.begin(), values.end(), squares.begin(),
                    [](double value) { return value * value - 1.0; });
-    EXPECT_NEAR(correlation(squares, squares, lag), 0.0, five_sigma(4.0)) << lag;
+    EXPECT_NEAR(mean_product(squares, squares, lag), 0.0, five_sigma(4.0)) << lag;
   }
 }
 
 TEST(Gaussian, ChannelsRunsAndSeedsAreIndependent) {
-  const auto one = draws({5, 6}, NoiseChannel::left_knee_torque);
-  EXPECT_NEAR(correlation(one, draws({5, 6}, NoiseChannel::left_wheel_torque)), 0.0,
+  const auto one = normals({5, 6}, NoiseChannel::left_knee_torque);
+  EXPECT_NEAR(mean_product(one, normals({5, 6}, NoiseChannel::left_wheel_torque)), 0.0,
               five_sigma(1.0));
   for (const NoiseKey& key : {NoiseKey{5, 7}, {6, 6}, {6, 5}, {5, 6ULL << 32U}}) {
-    EXPECT_NEAR(correlation(one, draws(key, NoiseChannel::left_knee_torque)), 0.0, five_sigma(1.0));
+    EXPECT_NEAR(mean_product(one, normals(key, NoiseChannel::left_knee_torque)), 0.0,
+                five_sigma(1.0));
   }
 }
 

@@ -17,15 +17,15 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-constexpr NoiseKey key{42, 3};
-constexpr double period = 0.001;
+constexpr NoiseKey report_key{42, 3};
+constexpr double report_period = 0.001;
 const Eigen::Vector3d gravity(0.0, 0.0, 9.81);  // in the attitude reference system: z down
 
 /// A tumbling robot with all joints in motion.
 Steps tumbling(std::size_t steps) {
   Steps run(steps);
   for (std::size_t k = 0; k < steps; ++k) {
-    const double t = period * static_cast<double>(k);
+    const double t = report_period * static_cast<double>(k);
     models::Observation& o = run[k];
     o.time = t;
     for (std::size_t j = 0; j < models::servo_count; ++j) {
@@ -48,8 +48,8 @@ SensorProfile profile_of(const std::string& text) {
   return from_yaml<SensorProfile>(YamlDocument::parse(text, "s.yaml"));
 }
 
-Steps reported(const SensorProfile& profile, Steps run, const NoiseKey& of = key) {
-  report_through(profile, of, period, run);
+Steps reported(const SensorProfile& profile, Steps run, const NoiseKey& of = report_key) {
+  report_through(profile, of, report_period, run);
   return run;
 }
 
@@ -133,7 +133,7 @@ TEST(Reported, ARunInPartsIsReportedAsTheWholeRunToTheBit) {
     const Steps whole = reported(profile, run);
     for (const std::size_t length : {1U, 7U, 64U, 699U}) {
       Steps parts = run;
-      ReportingSensors sensors(profile, key, period);
+      ReportingSensors sensors(profile, report_key, report_period);
       for (std::size_t k = 0; k < parts.size(); k += length) {
         sensors.report(std::span(parts).subspan(k, std::min(length, parts.size() - k)));
       }
@@ -255,7 +255,7 @@ TEST(ReportedGravity, CountsForTheRangeOfTheAccelerometer) {
 TEST(ReportedVibration, FollowsTheWheelThatTurnsAndNotItsEncodersReport) {
   Steps run(1'000);
   for (std::size_t k = 0; k < run.size(); ++k) {
-    const double t = period * static_cast<double>(k);
+    const double t = report_period * static_cast<double>(k);
     run[k].servo[models::index(models::Servo::left_wheel)] = {20.0 * t, 20.0, 0.0};
   }
   const std::string shaking = "gyroscope: {x: {vibration: {amplitude: 0.1, order: 2}}}\n";
@@ -264,7 +264,8 @@ TEST(ReportedVibration, FollowsTheWheelThatTurnsAndNotItsEncodersReport) {
   double largest = 0.0;
   for (std::size_t k = 1; k + 1 < run.size(); ++k) {
     const auto x = [&](std::size_t i) { return shaken[i].imu.angular_velocity.x(); };
-    EXPECT_NEAR((x(k + 1) - 2.0 * x(k) + x(k - 1)) / (period * period), -1'600.0 * x(k), 1.0);
+    EXPECT_NEAR((x(k + 1) - 2.0 * x(k) + x(k - 1)) / (report_period * report_period),
+                -1'600.0 * x(k), 1.0);
     largest = std::max(largest, std::abs(x(k)));
   }
   EXPECT_NEAR(largest, 2.0, 0.01);
@@ -340,7 +341,7 @@ TEST(ReportTargets, KeepTheTrackingErrorOfTheServos) {
       actions[k].servo[2].position = std::nan("");
     }
     std::vector<models::Action> shifted = actions;
-    report_targets(profile, key, shifted);
+    report_targets(profile, report_key, shifted);
     for (std::size_t k = 0; k < actions.size(); ++k) {
       for (std::size_t i = 0; i < models::servo_count; ++i) {
         const models::ServoCommand& command = shifted[k].servo[i];

@@ -26,12 +26,12 @@ models::Observation tumbling_step(std::size_t i) {
   return o;
 }
 
-constexpr NoiseKey key{42, 3};
+constexpr NoiseKey noisy_key{42, 3};
 
 TEST(SensorNoise, OfEveryLevelIsOnItsOwnSensorsOnly) {
   const models::Observation o = tumbling_step(0);
   const auto changed = [&](const SensorNoise& levels) {
-    return different({o}, {with_noise(o, key, 0, levels)});
+    return different({o}, {with_noise(o, noisy_key, 0, levels)});
   };
   EXPECT_THAT(changed({}), IsEmpty());
   EXPECT_THAT(changed({.hip_torque = 1.0}), ElementsAre("left_hip torque", "right_hip torque"));
@@ -48,7 +48,7 @@ TEST(SensorNoise, OfEveryLevelIsOnItsOwnSensorsOnly) {
 
 TEST(SensorNoise, TheAccelerometersNoiseIsTheSameWithAndWithoutGravity) {
   const models::Observation o = tumbling_step(0);
-  const models::Observation n = with_noise(o, key, 5, {.acceleration = 3.0});
+  const models::Observation n = with_noise(o, noisy_key, 5, {.acceleration = 3.0});
   EXPECT_TRUE((n.imu.linear_acceleration - o.imu.linear_acceleration)
                   .isApprox(n.imu.raw_linear_acceleration - o.imu.raw_linear_acceleration, 1e-13));
 }
@@ -57,8 +57,8 @@ TEST(SensorNoise, IsLinearInItsLevel) {
   const models::Observation o = tumbling_step(0);
   const SensorNoise one{1.0, 1.0, 1.0, 1.0, 1.0};
   const SensorNoise three{3.0, 3.0, 3.0, 3.0, 3.0};
-  const models::Observation a = with_noise(o, key, 7, one);
-  const models::Observation b = with_noise(o, key, 7, three);
+  const models::Observation a = with_noise(o, noisy_key, 7, one);
+  const models::Observation b = with_noise(o, noisy_key, 7, three);
   for (std::size_t i = 0; i < models::servo_count; ++i) {
     EXPECT_NEAR(b.servo[i].torque - o.servo[i].torque,
                 3.0 * (a.servo[i].torque - o.servo[i].torque), 1e-13);
@@ -71,8 +71,8 @@ TEST(SensorNoise, IsLinearInItsLevel) {
 
 TEST(SensorNoise, OneLevelDoesNotChangeTheDrawsOfAnother) {
   const models::Observation o = tumbling_step(0);
-  const models::Observation alone = with_noise(o, key, 7, {.wheel_torque = 1.0});
-  const models::Observation together = with_noise(o, key, 7, {2.0, 1.0, 5.0, 0.1, 0.1});
+  const models::Observation alone = with_noise(o, noisy_key, 7, {.wheel_torque = 1.0});
+  const models::Observation together = with_noise(o, noisy_key, 7, {2.0, 1.0, 5.0, 0.1, 0.1});
   EXPECT_EQ(alone.servo[models::index(models::Servo::left_wheel)].torque,
             together.servo[models::index(models::Servo::left_wheel)].torque);
 }

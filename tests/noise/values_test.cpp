@@ -11,19 +11,19 @@
 namespace touchdown::noise {
 namespace {
 
-constexpr double period = 0.001;
-constexpr std::size_t many = 400'000;
+constexpr double reading_period = 0.001;
+constexpr std::size_t reading_count = 400'000;
 
 /// The values as reported through a channel.
 std::vector<double> through(const SensorChannel& channel, std::vector<double> values,
                             std::uint64_t run = 0) {
   ChannelDraws draws({7, run}, NoiseChannel::accelerometer_x);
   ChannelState state;
-  disturb_values(values, channel, period, draws, state);
+  disturb_values(values, channel, reading_period, draws, state);
   return values;
 }
 
-std::vector<double> of_nothing(const SensorChannel& channel, std::size_t steps = many,
+std::vector<double> of_nothing(const SensorChannel& channel, std::size_t steps = reading_count,
                                std::uint64_t run = 0) {
   return through(channel, std::vector<double>(steps), run);
 }
@@ -55,7 +55,7 @@ TEST(SensorValues, OfAMountRingAtItsFrequencyAfterAnImpactAndDecayByItsDamping) 
       const double slope = 0.5 * (rings[k + 1] - rings[k - 1]);
       const double bend = rings[k + 1] - 2.0 * rings[k] + rings[k - 1];
       if (rings[k] < rings[k - 1] || rings[k] <= rings[k + 1]) continue;
-      maxima.push_back({(static_cast<double>(k) - slope / bend) * period,
+      maxima.push_back({(static_cast<double>(k) - slope / bend) * reading_period,
                         rings[k] - 0.5 * slope * slope / bend});
     }
     ASSERT_EQ(maxima.size(), 5U);
@@ -73,7 +73,7 @@ TEST(SensorValues, OfAMountRestInAConstantAndResonateAtItsFrequency) {
   }
   std::vector<double> sine(4000);
   for (std::size_t k = 0; k < sine.size(); ++k) {
-    sine[k] = std::sin(2.0 * std::numbers::pi * 40.0 * period * static_cast<double>(k));
+    sine[k] = std::sin(2.0 * std::numbers::pi * 40.0 * reading_period * static_cast<double>(k));
   }
   const auto resonant = through(mounted, sine);
   const double gain = std::sqrt(1.0 + 4.0 * 0.05 * 0.05) / (2.0 * 0.05);
@@ -103,7 +103,7 @@ TEST(SensorValues, ADrawnBiasAndADrawnScaleErrorAreConstantInARunAndDifferFromRu
 
 TEST(SensorValues, WhiteNoiseHasItsVarianceAndNoMemory) {
   const auto noise = of_nothing({.white = 2.0});
-  const double five_errors = 5.0 / std::sqrt(static_cast<double>(many));
+  const double five_errors = 5.0 / std::sqrt(static_cast<double>(reading_count));
   EXPECT_NEAR(correlation(noise), 4.0, 4.0 * std::sqrt(2.0) * five_errors);
   for (const std::size_t lag : {1U, 2U, 10U}) {
     EXPECT_NEAR(correlation(noise, lag), 0.0, 4.0 * five_errors) << lag;
@@ -134,7 +134,7 @@ TEST(HeavyTails, HaveTheQuantilesOfStudentsTAtTheSameStandardDeviation) {
     const auto noise = of_nothing({.white = 0.5, .degrees_of_freedom = row.freedom});
     const double scale = 0.5 * std::sqrt((row.freedom - 2.0) / row.freedom);
     const auto expect_share = [&](double quantile, double share) {
-      const double error = std::sqrt(share * (1.0 - share) / static_cast<double>(many));
+      const double error = std::sqrt(share * (1.0 - share) / static_cast<double>(reading_count));
       EXPECT_NEAR(share_beyond(noise, scale * quantile), share, 5.0 * error) << row.freedom;
     };
     expect_share(row.percent_5, 0.05);
@@ -147,7 +147,7 @@ TEST(HeavyTails, HaveTheVarianceOfTheWhiteNoiseAndTheKurtosisOfStudentsT) {
   for (const double freedom : {12.0, 20.0, 1e6}) {
     const auto noise = of_nothing({.white = 2.0, .degrees_of_freedom = freedom});
     const double kurtosis = 3.0 + 6.0 / (freedom - 4.0);
-    const double five_errors = 5.0 / std::sqrt(static_cast<double>(many));
+    const double five_errors = 5.0 / std::sqrt(static_cast<double>(reading_count));
     EXPECT_NEAR(mean(noise), 0.0, 2.0 * five_errors) << freedom;
     EXPECT_NEAR(correlation(noise), 4.0, 4.0 * std::sqrt(kurtosis - 1.0) * five_errors) << freedom;
     std::vector<double> squares;
@@ -165,7 +165,7 @@ TEST(HeavyTails, AreIndependentFromStepToStep) {
     for (std::size_t k = 0; k + lag < noise.size(); ++k) {
       both += std::abs(noise[k]) > limit && std::abs(noise[k + lag]) > limit ? 1U : 0U;
     }
-    const double expected = 0.0025 * static_cast<double>(many);
+    const double expected = 0.0025 * static_cast<double>(reading_count);
     EXPECT_NEAR(static_cast<double>(both), expected, 5.0 * std::sqrt(1.2 * expected)) << lag;
   }
 }
@@ -182,7 +182,8 @@ TEST(HeavyTails, ScaleTheDrawsOfNormalNoiseAndDoNotDependOnTheLengthOfTheCalls) 
   ChannelState state;
   std::vector<double> in_parts(2'001);
   for (const auto& [first, steps] : {std::pair{0U, 1U}, {1U, 999U}, {1'000U, 1'001U}}) {
-    disturb_values(std::span(in_parts).subspan(first, steps), heavy, period, draws, state, nullptr);
+    disturb_values(std::span(in_parts).subspan(first, steps), heavy, reading_period, draws, state,
+                   nullptr);
   }
   EXPECT_EQ(in_parts, tails);
 }
@@ -205,10 +206,12 @@ TEST(SensorValues, ColouredNoiseIsAFirstOrderGaussMarkovProcess) {
   constexpr double time_constant = 0.02;
   const auto noise = of_nothing({.coloured = {.sd = 1.5, .time_constant = time_constant}});
   // Samples 2τ apart count as independent; this is their number.
-  const double independent = static_cast<double>(many) * period / (2.0 * time_constant);
+  const double independent =
+      static_cast<double>(reading_count) * reading_period / (2.0 * time_constant);
   const double five_errors = 5.0 * 2.25 * std::sqrt(2.0 / independent);
   for (const std::size_t lag : {0U, 5U, 20U, 60U}) {
-    const double expected = 2.25 * std::exp(-static_cast<double>(lag) * period / time_constant);
+    const double expected =
+        2.25 * std::exp(-static_cast<double>(lag) * reading_period / time_constant);
     EXPECT_NEAR(correlation(noise, lag), expected, five_errors) << lag;
   }
 }
@@ -227,7 +230,7 @@ TEST(SensorValues, TheLowPassAnswersAStepExponentiallyAndBeginsAtRestOnTheFirstV
   const auto answer = through({.low_pass = 0.01}, step);
   EXPECT_EQ(answer[49], 0.0);
   for (const std::size_t k : {50U, 60U, 120U}) {
-    const double since = static_cast<double>(k - 49) * period;
+    const double since = static_cast<double>(k - 49) * reading_period;
     EXPECT_NEAR(answer[k], 1.0 - std::exp(-since / 0.01), 1e-12) << k;
   }
   EXPECT_EQ(through({.low_pass = 0.01}, {5.0, 5.0}), (std::vector{5.0, 5.0}));
@@ -247,7 +250,7 @@ TEST(SensorValues, WhiteNoiseIsAddedAfterTheLowPassAndColouredNoiseBefore) {
 WheelTurns turning(double speed, double from, double order, std::size_t steps) {
   std::vector<double> position, velocity;
   for (std::size_t k = 0; k < steps; ++k) {
-    position.push_back(from + speed * period * static_cast<double>(k));
+    position.push_back(from + speed * reading_period * static_cast<double>(k));
     velocity.push_back(speed);
   }
   return wheel_turns(position, velocity, order);
@@ -257,7 +260,8 @@ std::vector<double> shaken(const TurnsOfBoth& turns, double amplitude, std::uint
   ChannelDraws draws({7, run}, NoiseChannel::gyroscope_x);
   std::vector<double> values(turns[0].sine.size());
   ChannelState state;
-  disturb_values(values, {.vibration = {.amplitude = amplitude}}, period, draws, state, &turns);
+  disturb_values(values, {.vibration = {.amplitude = amplitude}}, reading_period, draws, state,
+                 &turns);
   return values;
 }
 
@@ -265,7 +269,7 @@ std::vector<double> shaken(const TurnsOfBoth& turns, double amplitude, std::uint
 double amplitude_at(const std::vector<double>& values, double frequency) {
   std::complex<double> sum;
   for (std::size_t k = 0; k < values.size(); ++k) {
-    sum += values[k] * std::polar(1.0, -frequency * period * static_cast<double>(k));
+    sum += values[k] * std::polar(1.0, -frequency * reading_period * static_cast<double>(k));
   }
   return 2.0 * std::abs(sum) / static_cast<double>(values.size());
 }

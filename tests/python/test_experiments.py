@@ -196,7 +196,7 @@ class WrittenInPython(InExperimentFolder):
 
     def test_gets_figures_a_film_and_a_report_like_any_other(self):
         experiment = {"estimators": ["free_fall", "python:mine.Same"], "recordings": "pictured", "noise.seeds": 1,
-                      "video": {"estimators": ["free_fall", "python:mine.Same"]}, "benchmark": {}}
+                      "video": {"estimators": ["free_fall", "python:mine.Same"], "width": 320}, "benchmark": {}}
         run = touchdown.run("hops.yaml", overrides=experiment, out="out", pictures=True)
         report = (run.path / "report.html").read_text()
         shown = report[:report.index("The command of this run")]

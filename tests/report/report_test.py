@@ -36,7 +36,7 @@ test: {scenarios: [step.yaml], runs: 2}
 noise: {torque: [0.0, 1.0], accelerometer: [0.0, 5.0]}
 highlights: [{torque: 1.0, accelerometer: 5.0}]
 intervals: {resamples: 50}
-video: {enabled: true, estimators: [robust, measurement_only]}
+video: {enabled: true, width: 640, estimators: [robust, measurement_only]}
 """
 
 LOADED = """

@@ -4,6 +4,7 @@
 #include "core/random.hpp"
 #include "policies/commands.hpp"
 #include "scenarios/scenario_file.hpp"
+#include "tests/draws.hpp"
 #include "tests/scenarios/runs.hpp"
 
 namespace touchdown::scenarios {
@@ -147,7 +148,7 @@ TEST(Perturbed, BendsNoKneeBackwards) {
     for (const char* robot : robots_of_all_stances) {
       const Scenario scenario = with_robot(name, robot);
       double lowest = 1e9;
-      for (int run = 0; run < 2000; ++run) {
+      for (int run = 0; run < draws(2000); ++run) {
         for (const double knee : commanded_knees(scenario, perturbed(scenario, 7, run))) {
           lowest = std::min(lowest, knee);
         }

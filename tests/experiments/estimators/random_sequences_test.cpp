@@ -14,6 +14,7 @@
 #include "scenarios/engine.hpp"
 #include "scenarios/generation/generate.hpp"
 #include "scenarios/scenario_file.hpp"
+#include "tests/draws.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 
 namespace touchdown::experiments {
@@ -21,7 +22,8 @@ namespace {
 
 std::size_t sequences() {
   const char* const number = std::getenv("TOUCHDOWN_RANDOM_SEQUENCES");
-  return number == nullptr ? 200 : std::strtoull(number, nullptr, 10);
+  if (number != nullptr) return std::strtoull(number, nullptr, 10);
+  return draws_all() ? 2000 : 50;
 }
 
 /// Signals like those that the recurrent networks were trained on. On others their memory may last

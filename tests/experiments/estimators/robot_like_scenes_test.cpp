@@ -42,7 +42,7 @@ std::map<std::string, std::map<double, Recall>> recall_on_robot_like_scenes() {
   return recall;
 }
 
-TEST(RobotLikeScenes, AreNotHarderForRobustThanForThePapersFilter) {
+TEST(NightlyRobotLikeScenes, AreNotHarderForRobustThanForThePapersFilter) {
   auto recall = recall_on_robot_like_scenes();
   for (const char* name : {"robust", "measurement_only"}) {
     EXPECT_GE(recall[name][0.0].mean(), recall["paper"][0.0].mean() - 0.01) << name;

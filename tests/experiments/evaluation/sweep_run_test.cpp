@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/evaluation/tasks.hpp"
+#include "tests/draws.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -57,6 +58,7 @@ TEST(SweepRun, RunsOneByOneWhereASignalGuardWouldReact) {
   RunSignals frozen = synthetic_run(4);
   for (std::size_t k = 1000; k < 1580; ++k) frozen.signals[k].vertical_acceleration = 0.25;
   expect_batch_equals_one_by_one(frozen, false);
+  if (!draws_all()) return;
   RunSignals gap = synthetic_run(5);
   for (std::size_t k = 2000; k < gap.steps(); ++k) gap.signals[k].time += 0.1;
   expect_batch_equals_one_by_one(gap, false);

@@ -198,7 +198,7 @@ BenchmarkRow scored_row(const std::string& scene, const std::string& split,
   return row;
 }
 
-Experiment experiment_with(const std::string& estimators, const std::string& table) {
+Experiment ranked_experiment(const std::string& estimators, const std::string& table) {
   return experiment_from_yaml(
       YamlDocument::parse("name: unseen\nestimators: [" + estimators +
                               "]\nfit: {scenarios: [scenarios/stairs.yaml]}\n" +
@@ -232,9 +232,9 @@ TEST(UnseenTable, HasTheMeansOfUnseenScenesOfTheFirstRobot) {
       "|---|---|---|---|\n";
   const std::string robust = "| `robust` | .800 [.750, .850] | .650 [.600, .700] | 4.5 / 45.0 |\n";
   const std::string hmm = "| `hmm` | 1 [1, 1] | .999 [.998, 1] | 0.0 / 0.5 |\n";
-  const std::string all = unseen_markdown(unseen, experiment_with("robust, hmm", ""));
+  const std::string all = unseen_markdown(unseen, ranked_experiment("robust, hmm", ""));
   EXPECT_EQ(all, header + hmm + robust);  // the best first; a bound is not ranked
-  EXPECT_EQ(unseen_markdown(unseen, experiment_with("robust, hmm", "robust")), header + robust);
+  EXPECT_EQ(unseen_markdown(unseen, ranked_experiment("robust, hmm", "robust")), header + robust);
 }
 
 }  // namespace

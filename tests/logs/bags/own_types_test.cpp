@@ -18,8 +18,8 @@ namespace bags = touchdown::test;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-constexpr std::int64_t step = 5'000'000;  // ns
-constexpr std::size_t rows = 60;
+constexpr std::int64_t stamp_step = 5'000'000;  // ns
+constexpr std::size_t row_count = 60;
 
 double position(std::size_t i, std::size_t k) { return 0.1 * static_cast<double>(i * 7 + k); }
 
@@ -30,10 +30,11 @@ class OwnTypes : public test::MappedLogs {
   static bags::TestBag bag_of(const std::string& definition, bool is_big,
                               const std::function<void(bags::CdrBytes&, std::size_t k)>& put) {
     bags::TestBag bag{{{"/state", "my_msgs/msg/State", "cdr", definition}}, {}};
-    for (std::size_t k = 0; k < rows; ++k) {
+    for (std::size_t k = 0; k < row_count; ++k) {
       bags::CdrBytes bytes(is_big);
       put(bytes, k);
-      const std::int64_t time = 1'700'000'000'000'000'000 + static_cast<std::int64_t>(k) * step;
+      const std::int64_t time =
+          1'700'000'000'000'000'000 + static_cast<std::int64_t>(k) * stamp_step;
       bag.messages.push_back({0, time, bytes.bytes()});
     }
     return bag;
@@ -42,8 +43,8 @@ class OwnTypes : public test::MappedLogs {
     return write("bag.mcap", bags::mcap_bytes(bag));
   }
   void expect_positions(const std::vector<LogRow>& read) {
-    ASSERT_EQ(read.size(), rows);
-    for (std::size_t k = 0; k < rows; ++k) {
+    ASSERT_EQ(read.size(), row_count);
+    for (std::size_t k = 0; k < row_count; ++k) {
       EXPECT_NEAR(read[k].observation.time, 0.005 * static_cast<double>(k), 1e-6);
       for (std::size_t i = 0; i < 6; ++i) {
         EXPECT_NEAR(read[k].observation.servo[i].position, position(i, k), 1e-5);
@@ -120,7 +121,7 @@ string frame_id
 )";
   const auto put = [](bags::CdrBytes& bytes, std::size_t k) {
     bytes.u32(5)
-        .u32(static_cast<std::uint32_t>(k * step))
+        .u32(static_cast<std::uint32_t>(k * stamp_step))
         .text("base")
         .u32(static_cast<std::uint32_t>(5 * k));
     bytes.u32(static_cast<std::uint32_t>(k % 3));
@@ -175,15 +176,15 @@ TEST_F(OwnTypes, WithoutAReadableDefinitionAreRefusedWithTheReason) {
               HasSubstr("(it has header.stamp, log_time, head[i], level, motor[i].q, motor[i].dq"));
   // Each beginning of a message is refused, or is a message with shorter lists.
   bags::TestBag cut = bag;
-  for (std::size_t k = 0; k < rows; ++k) cut.messages[k].data.resize(4 + k);
+  for (std::size_t k = 0; k < row_count; ++k) cut.messages[k].data.resize(4 + k);
   EXPECT_THAT(complaint(write_bag(cut), motors_mapping), HasSubstr("can be decoded: "));
 }
 
 /// Drivers that leave the list of names empty, and those that send a part of them.
 TEST_F(OwnTypes, JointStatesWithoutNamesAreReadByIndex) {
   bags::TestBag bag{{{"/joint_states", joint_state_type}, {"/imu", imu_type}}, {}};
-  for (std::size_t k = 0; k < rows; ++k) {
-    const std::int64_t time = 1'700'000'000'000'000'000 + static_cast<std::int64_t>(k) * step;
+  for (std::size_t k = 0; k < row_count; ++k) {
+    const std::int64_t time = 1'700'000'000'000'000'000 + static_cast<std::int64_t>(k) * stamp_step;
     bags::TestJoints state;
     for (const std::size_t i : {3U, 4U, 5U, 0U, 1U, 2U}) state.position.push_back(position(i, k));
     state.velocity = state.effort = state.position;

@@ -17,7 +17,7 @@ constexpr auto air = LabelState::air;
 constexpr auto contact = LabelState::contact;
 constexpr Wheels left = {true, false}, right = {false, true}, both = {true, true};
 constexpr TimeRange log_range = {0.0, 10.0};
-constexpr double step = 0.001;
+constexpr double label_step = 0.001;
 
 /// On the ground, one wheel up, in the air, a gap, on the ground.
 ContactIntervals some() {
@@ -41,10 +41,10 @@ TEST(LabelEdits, EdgesOfAWheelAreWhereItsOwnContactChanges) {
 
 TEST(LabelEdits, AMovedEdgeIsOfOneWheelAlone) {
   ContactIntervals labels = some();
-  EXPECT_EQ(move_edge(labels, 0, 2, 1.5, step, log_range), 1.5);
+  EXPECT_EQ(move_edge(labels, 0, 2, 1.5, label_step, log_range), 1.5);
   EXPECT_THAT(edges_of(labels, 0), ElementsAre(0, 1.5, 3, 5, 6));
   EXPECT_THAT(edges_of(labels, 1), ElementsAre(0, 1, 3, 5, 6));
-  EXPECT_EQ(move_edge(labels, 0, 1.5, 0.5, step, log_range), 0.5) << "over the other wheel's";
+  EXPECT_EQ(move_edge(labels, 0, 1.5, 0.5, label_step, log_range), 0.5) << "over the other wheel's";
   EXPECT_THAT(edges_of(labels, 1), ElementsAre(0, 1, 3, 5, 6));
   EXPECT_EQ(state_at(labels, 0.7, 0), air);
   EXPECT_EQ(state_at(labels, 0.7, 1), contact);
@@ -52,24 +52,24 @@ TEST(LabelEdits, AMovedEdgeIsOfOneWheelAlone) {
 
 TEST(LabelEdits, AnEdgeStopsAStepBeforeItsNeighbour) {
   ContactIntervals labels = some();
-  EXPECT_EQ(move_edge(labels, 0, 2, 9, step, log_range), 2.999);
-  EXPECT_EQ(move_edge(labels, 0, 2.999, -4, step, log_range), 0.001);
-  EXPECT_EQ(move_edge(labels, 0, 6, 50, step, log_range), 10.0) << "the log's end";
-  EXPECT_EQ(move_edge(labels, 0, 0, -50, step, log_range), 0.0) << "the log's start";
-  EXPECT_EQ(move_edge(labels, 0, 4, 4.5, step, log_range), 4.0) << "no edge";
+  EXPECT_EQ(move_edge(labels, 0, 2, 9, label_step, log_range), 2.999);
+  EXPECT_EQ(move_edge(labels, 0, 2.999, -4, label_step, log_range), 0.001);
+  EXPECT_EQ(move_edge(labels, 0, 6, 50, label_step, log_range), 10.0) << "the log's end";
+  EXPECT_EQ(move_edge(labels, 0, 0, -50, label_step, log_range), 0.0) << "the log's start";
+  EXPECT_EQ(move_edge(labels, 0, 4, 4.5, label_step, log_range), 4.0) << "no edge";
 }
 
 TEST(LabelEdits, AnEdgeToUnknownTimeIsOfBothWheels) {
   ContactIntervals labels = some();
-  EXPECT_EQ(move_edge(labels, 0, 3, 4, step, log_range), 4.0);
+  EXPECT_EQ(move_edge(labels, 0, 3, 4, label_step, log_range), 4.0);
   EXPECT_EQ(state_at(labels, 3.5, 1), air);
-  EXPECT_EQ(move_edge(labels, 1, 4, 1, step, log_range), 2.001) << "the other wheel's edge";
+  EXPECT_EQ(move_edge(labels, 1, 4, 1, label_step, log_range), 2.001) << "the other wheel's edge";
   EXPECT_EQ(state_at(labels, 2.001, 0), unknown);
 }
 
 TEST(LabelEdits, LabelsBeyondTheLogsEndStay) {
   ContactIntervals labels = {"", {{8, 9, {true, true}}, {9, 12, {false, false}}}};
-  EXPECT_EQ(move_edge(labels, 0, 9, 11, step, log_range), 10.0);
+  EXPECT_EQ(move_edge(labels, 0, 9, 11, label_step, log_range), 10.0);
   set_state(labels, {9.5, 10}, both, unknown);
   EXPECT_EQ(text(labels), "start,end,left,right\n8,9,1,1\n9,9.5,1,0\n10,12,0,0\n");
 }
@@ -97,7 +97,7 @@ TEST(LabelEdits, ASplitHasAnEdgeThatMoves) {
   ContactIntervals labels = some();
   split(labels, 0.25);
   EXPECT_THAT(edges_of(labels, 1), ElementsAre(0, 0.25, 1, 3, 5, 6));
-  EXPECT_EQ(move_edge(labels, 1, 0.25, 0.5, step, log_range), 0.5);
+  EXPECT_EQ(move_edge(labels, 1, 0.25, 0.5, label_step, log_range), 0.5);
   set_state(labels, {0.5, 1}, right, air);
   EXPECT_THAT(edges_of(labels, 1), ElementsAre(0, 0.5, 3, 5, 6));
   const std::string before = text(labels);

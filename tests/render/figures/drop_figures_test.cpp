@@ -24,7 +24,7 @@ using ::testing::Not;
 namespace fs = std::filesystem;
 
 constexpr std::size_t drop_steps = 81;
-const std::vector<std::string> estimators = {"robust", "phase"};
+const std::vector<std::string> drawn_estimators = {"robust", "phase"};
 
 experiments::SpectrumTrace staged_spectrum(double level) {
   experiments::SpectrumTrace trace;
@@ -121,7 +121,7 @@ class DropFigures : public ::testing::Test {
 };
 
 TEST_F(DropFigures, DetailIsAsWideAsAScreenWithItsDataBesideIt) {
-  const Figure figure = draw_drop_detail(staged_detail(2), estimators,
+  const Figure figure = draw_drop_detail(staged_detail(2), drawn_estimators,
                                          {"One drop", "Run 0.", "Curves."}, folder_ / "detail");
   const cv::Mat image = cv::imread(figure.png.string());
   EXPECT_EQ(image.cols, 1280);
@@ -168,7 +168,7 @@ TEST_F(DropFigures, SpectrogramRowsAreTheNearestBins) {
 }
 
 TEST_F(DropFigures, DetailIsDrawnAgainByTheScriptBesideIt) {
-  draw_drop_detail(staged_detail(1), estimators, {"it's `x` @a", "100 % {x}_y", ""},
+  draw_drop_detail(staged_detail(1), drawn_estimators, {"it's `x` @a", "100 % {x}_y", ""},
                    folder_ / "detail");
   const std::string before = read_file(folder_ / "detail.png");
   fs::remove(folder_ / "detail.png");
@@ -189,7 +189,8 @@ TEST_F(DropFigures, DetailOfUglyDataIsStillAFigure) {
   std::fill(detail.torque.wheel.begin(), detail.torque.wheel.end(), 0.0);
   std::fill(detail.height.begin(), detail.height.end(), 0.0);
   std::fill(detail.contact.begin(), detail.contact.end(), std::uint8_t{0});
-  const Figure figure = draw_drop_detail(detail, estimators, {"Ugly", "", ""}, folder_ / "ugly");
+  const Figure figure =
+      draw_drop_detail(detail, drawn_estimators, {"Ugly", "", ""}, folder_ / "ugly");
   EXPECT_GT(cv::imread(figure.png.string()).cols, 1280);
   EXPECT_THAT(read_file(folder_ / "ugly_1.dat"), HasSubstr("NaN"));
 }
@@ -197,7 +198,7 @@ TEST_F(DropFigures, DetailOfUglyDataIsStillAFigure) {
 TEST_F(DropFigures, DetailWithColumnsOfDifferentLengthsIsRefused) {
   experiments::DropDetail detail = staged_detail(1);
   detail.height.pop_back();
-  EXPECT_THROW(draw_drop_detail(detail, estimators, {}, folder_ / "detail"), Error);
+  EXPECT_THROW(draw_drop_detail(detail, drawn_estimators, {}, folder_ / "detail"), Error);
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 

@@ -20,7 +20,7 @@ Table moments() {
                "bullet,knee,0,0.08,0.05,0.083,0.067\nbullet,wheel,0,0.011,0.009,0.012,0.010\n"));
 }
 
-Table densities() {
+Table moment_densities() {
   TextTable table{{"simulator", "joint", "contact", "torque_nm", "density_per_nm"}, {}};
   for (const char* engine : {"mujoco", "bullet"}) {
     for (const char* joint : {"knee", "wheel"}) {
@@ -38,7 +38,7 @@ Table densities() {
 
 TEST(MomentsFigure, ShowsEveryEngineBesideTheRealRobot) {
   const ScratchFolder folder;
-  const Figure figure = draw_moments_figure(moments(), densities(), folder / "moments");
+  const Figure figure = draw_moments_figure(moments(), moment_densities(), folder / "moments");
   EXPECT_TRUE(std::filesystem::exists(figure.png));
   EXPECT_THAT(
       figure_text(read_file(folder / "moments.gp")).alt,
@@ -49,7 +49,7 @@ TEST(MomentsFigure, ShowsEveryEngineBesideTheRealRobot) {
 
 TEST(MomentsFigure, DrawsNoCurveForAnEngineWithoutSamples) {
   const ScratchFolder folder;
-  (void)draw_moments_figure(moments(), densities(), folder / "moments");
+  (void)draw_moments_figure(moments(), moment_densities(), folder / "moments");
   // The last panel: MuJoCo's curve, Bullet's, then three rows of moments.
   EXPECT_THAT(read_file(folder / "moments.dat"),
               HasSubstr("NaN\tNaN\n\n\n0.000000\t60.000000\n0.010000\t70.000000\n\n\n"

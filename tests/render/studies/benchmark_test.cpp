@@ -20,7 +20,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const char* const config = R"(name: study
+const char* const study_config = R"(name: study
 simulators: [mujoco]
 estimators: [robust]
 fit: {scenarios: [scenarios/stairs.yaml]}
@@ -33,7 +33,7 @@ benchmark: {}
 class BenchmarkPage : public ::testing::Test {
  protected:
   BenchmarkPage() {
-    folder_.write("config.yaml", config);
+    folder_.write("config.yaml", study_config);
     folder_.write("manifest.json", "{}");
     experiments::write_summary({}, folder_.path());
     folder_.write(
@@ -80,7 +80,7 @@ TEST_F(BenchmarkPage, IsLinkedFromTheReportOfABenchmarkAlone) {
   };
   EXPECT_THAT(report(), HasSubstr("href=\"benchmark.html\""));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "benchmark.html"));
-  const std::string text = config;
+  const std::string text = study_config;
   folder_.write("config.yaml", text.substr(0, text.find("benchmark")));
   EXPECT_THAT(report(), Not(HasSubstr("benchmark.html")));
 }

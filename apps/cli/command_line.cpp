@@ -1,3 +1,5 @@
+#include "apps/cli/command_line.hpp"
+
 #include <algorithm>
 #include <filesystem>
 #include <malloc.h>
@@ -123,11 +125,11 @@ void keep_freed_memory() noexcept {
 
 }  // namespace
 
-}  // namespace touchdown::cli
-
-int main(int argc, char** argv) {
-  touchdown::stop_on_interrupt();
-  touchdown::cli::keep_freed_memory();
-  touchdown::open_standard_streams();
-  return touchdown::finished([&] { return touchdown::cli::run_command_line(argc, argv); });
+int run_program(int argc, char** argv) {
+  stop_on_interrupt();
+  keep_freed_memory();
+  open_standard_streams();
+  return finished([&] { return run_command_line(argc, argv); });
 }
+
+}  // namespace touchdown::cli

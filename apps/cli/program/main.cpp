@@ -1,0 +1,3 @@
+#include "apps/cli/command_line.hpp"
+
+int main(int argc, char** argv) { return touchdown::cli::run_program(argc, argv); }
