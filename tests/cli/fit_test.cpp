@@ -434,7 +434,6 @@ TEST_F(Fit, AnswersWrongRequestsInOneLine) {
        {"b.mpack -o m.npz", {"b.mpack: byte 0"}},
        {"a.mpack -o m.npz --knee-range 3 1", {"--knee-range"}},
        {"a.mpack -o m.npz --bandwidth -1 1", {"--bandwidth"}},
-       {"a.mpack -o m.npz --gird 3 3", {"did you mean '--grid'?"}},
        {"robot.mpack -o m.npz", {"robot.mpack: at 0.000 s: no ground truth", "--contact"}},
        {"--contact rolling.mpack -o m.npz", {"no step of the logs is without contact"}},
        {"--no-contact rolling.mpack -o m.npz", {"no step of the logs is in contact"}},

@@ -97,26 +97,6 @@ TEST_F(WrongRequest, AboutAFileNamesItsOptionOrThePlaceInIt) {
   });
 }
 
-TEST_F(WrongRequest, InAnExperimentIsNamedWithItsLine) {
-  write_tiny_experiment(folder_);
-  for (const auto& [added, texts] : std::vector<std::pair<std::string, std::vector<std::string>>>{
-           {"sensors: noise/profiles/upkei.yaml",
-            {"x.yaml:4:10: sensors: noise/profiles/upkei.yaml: no such file",
-             "did you mean 'noise/profiles/upkie.yaml'?"}},
-           {"noise:\n  sedes: 3", {"x.yaml:5:3: noise.sedes", "did you mean 'seeds'?"}},
-           {"seed: many", {"x.yaml:4:7: seed", "expected a whole number"}},
-           {"noise: {seeds: 0}", {"noise.seeds", "from 1 to"}},
-           {"simulators: [mujco]", {"x.yaml:4:14: simulators", "did you mean 'mujoco'?"}},
-           {"estimators: [robst]", {"did you mean 'robust'?"}},
-           {"highlights: [{torque: 0.5, accelerometer: 0.0}]", {"highlights.0.torque"}}}) {
-    folder_.write("x.yaml",
-                  "name: tiny\nfit: {scenarios: [step.yaml]}\n"
-                  "test: {scenarios: [step.yaml]}\n" +
-                      added + "\n");
-    folder_.expect_refusals({{"run x.yaml", texts}, {"run x.yaml --dry-run", texts}});
-  }
-}
-
 using Help = InFolder;
 
 TEST_F(Help, BeginsWithAnExample) {

@@ -110,19 +110,8 @@ ModelArrays parameters() {
 
 class ModelFile : public ::testing::Test {
  protected:
-  /// The complaint about a file of these arrays.
-  std::string message(const ModelArrays& arrays) const {
-    write_npz(arrays, path_);
-    return message();
-  }
   std::string message() const {
-    try {
-      load_model(path_);
-    } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), AllOf(HasSubstr(path_.string()), Not(HasSubstr("\n"))));
-      return error.what();
-    }
-    return "nothing was thrown";
+    return complaint_of([&] { load_model(path_); });
   }
 
   const ScratchFolder folder_;
@@ -248,82 +237,21 @@ TEST_F(ModelFile, AsAHeaderHasNoCodeFromItsTexts) {
               HasSubstr("expected letters, digits and '_' in its name"));
 }
 
-TEST_F(ModelFile, NamesWhatIsWrong) {
-  struct Case {
-    ModelArrays good;
-    void (*spoil)(ModelArrays& arrays);
-    const char* expected;
-  };
-  const ModelArrays grid = small_grid();
-  const ModelArrays phases = arrays_of(small_phase_model());
-  const ModelArrays network = arrays_of(odd_network());
-  NeuralNetwork wide = odd_network();
-  wide.second.weight.conservativeResize(5, 7);
-  const std::vector<Case> cases = {
-      {{},
-       [](ModelArrays& a) {
-         a["slope"] = {{1}, {1.0}};
-       },
-       "model.npz"},
-      {grid, [](ModelArrays& a) { a.erase("knee_torque"); }, "missing knee_torque"},
-      {grid, [](ModelArrays& a) { a.erase("no_contact_likelihood"); },
-       "missing no_contact_likelihood"},
-      {grid,
-       [](ModelArrays& a) {
-         a["contact_likelihood"].shape = {4, 3};
-       },
-       "(3, 4)"},
-      {grid, [](ModelArrays& a) { a["contact_likelihood"].data[5] = std::nan(""); }, "finite"},
-      {grid, [](ModelArrays& a) { a["wheel_torque"].data[2] = 3.0; }, "equally spaced"},
-      {phases, [](ModelArrays& a) { a.erase("sample_rate"); }, "missing sample_rate"},
-      {phases, [](ModelArrays& a) { a["transition"].data[0] = 0.5; }, "rolling sum"},
-      {phases, [](ModelArrays& a) { a["torque_1_knee"].data[2] = 7.0; }, "axes ask for"},
-      {phases, [](ModelArrays& a) { a["torque_0_knee"].data[2] = -1.0; }, "2 points"},
-      {phases, [](ModelArrays& a) { a.erase("acceleration_0_noise"); }, "no acceleration density"},
-      {network, [](ModelArrays& a) { a.erase("input_mean"); }, "missing input_mean"},
-      {network,
-       [](ModelArrays& a) {
-         a["input_mean"].shape = {19, 1};
-       },
-       "input_mean: expected 1 axes, found 2"},
-      {network, [](ModelArrays& a) { a["input_mean"].data.assign(19, std::nan("")); },
-       "input_mean: expected finite numbers"},
-      {arrays_of(wide), [](ModelArrays& /*a*/) {}, "second_weight: expected shape 5 × 6"},
-      {parameters(), [](ModelArrays& a) { a["estimator"].data[0] = 300.0; },
-       "estimator: expected bytes"},
-      {parameters(), [](ModelArrays& a) { a["slope"].data[0] = std::nan(""); },
-       "slope: expected finite numbers"}};
-  for (const Case& one : cases) {
-    ModelArrays arrays = one.good;
-    one.spoil(arrays);
-    EXPECT_THAT(message(arrays), HasSubstr(one.expected));
-  }
-}
-
-TEST_F(ModelFile, NamesAllMissingArrays) {
-  ModelArrays arrays = small_grid();
-  arrays.erase("knee_torque");
-  arrays.erase("no_contact_likelihood");
-  EXPECT_THAT(message(arrays), HasSubstr("missing knee_torque, no_contact_likelihood"));
-  EXPECT_THAT(message({{"gru_input_weight", {{1}, {1.0}}}, {"period", {{1}, {0.005}}}}),
-              HasSubstr("missing input_mean, input_scale, gru_input_bias"));
-}
-
 TEST_F(ModelFile, IsRefusedWhereverItIsCutOffOrSpoilt) {
   EXPECT_THAT(message(), HasSubstr("no such file"));
   std::ofstream(path_) << "nonsense";
-  EXPECT_NE(message(), "nothing was thrown");
+  EXPECT_THAT(message(), AllOf(HasSubstr(path_.string()), Not(HasSubstr("\n"))));
   save_model({.arrays = arrays_of(odd_network())}, path_);
   const std::string good = read_file(path_);
   for (const double part : {0.0, 0.1, 0.5, 0.9, 0.999}) {
     std::ofstream(path_, std::ios::binary)
         << good.substr(0, static_cast<std::size_t>(part * static_cast<double>(good.size())));
-    EXPECT_NE(message(), "nothing was thrown");
+    EXPECT_THAT(message(), AllOf(HasSubstr(path_.string()), Not(HasSubstr("\n"))));
   }
   std::string spoilt = good;
   spoilt[200] = static_cast<char>(spoilt[200] ^ 0x10);  // within the first array
   std::ofstream(path_, std::ios::binary) << spoilt;
-  EXPECT_NE(message(), "nothing was thrown");
+  EXPECT_THAT(message(), AllOf(HasSubstr(path_.string()), Not(HasSubstr("\n"))));
 }
 
 TEST(Parameter, IsNamedIfItIsMissingOrHasAnotherSize) {

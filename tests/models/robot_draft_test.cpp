@@ -257,18 +257,5 @@ TEST_F(RobotDraft, NamesLinksWithComputedMasses) {
   EXPECT_THAT(warnings("<geom size=\".01\"/>"), ElementsAre(HasSubstr("mass of 2 links")));
 }
 
-TEST_F(RobotDraft, RefusesWhatHasNoWheelsOrNoKnees) {
-  EXPECT_THAT(complaint_of([&] {
-                draft_of(biped({}, "0 1 0", {"l", "r"}, tyre_about("0 1 0")));
-              }),
-              HasSubstr("expected a knee"));
-  EXPECT_THAT(complaint_of([&] {
-                draft_of(
-                    "<mujoco><worldbody><body name=\"t\"><freejoint/><geom size=\"1\"/></body>"
-                    "</worldbody></mujoco>");
-              }),
-              HasSubstr("expected two wheels"));
-}
-
 }  // namespace
 }  // namespace touchdown::models

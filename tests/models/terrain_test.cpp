@@ -12,7 +12,6 @@
 #include "models/profile.hpp"
 #include "models/robot_model.hpp"
 #include "models/scene_mjcf.hpp"
-#include "tests/complaint.hpp"
 #include "tests/models/upkie.hpp"
 
 namespace touchdown::models {
@@ -134,32 +133,6 @@ TEST(TerrainYaml, ReadsWhatIsRepeatedAndWhatLiesBeside) {
   EXPECT_EQ(terrain.beside[0].width, 0.5);
   EXPECT_EQ(std::get<Flat>(terrain.beside[0].pieces.at(0)).length, 1.0);
   EXPECT_EQ(YAML::Dump(to_node(read(YAML::Dump(to_node(terrain))))), YAML::Dump(to_node(terrain)));
-}
-
-TEST(TerrainYaml, IsRefusedWithThePlaceOfTheMistake) {
-  const auto lay = [](const std::string& text) { return edges(read(text)); };
-  expect_refused(
-      {{"pieces:\n  - flat: {lenght: 2}\n", {"scene.yaml:2", "length"}},
-       {"pieces:\n  - stairs: {count: 0}\n", {"count"}},
-       {"pieces:\n  - stair: {count: 1}\n", {"stairs"}},
-       {"pieces:\n  - flat: {length: 2}\n    step: {drop: 1}\n", {"one of"}},
-       {"pieces:\n  - flat: {length: .nan}\n", {"length"}},
-       {"friction: slippery\n", {"number"}},
-       {"pieces:\n  - ramp: {rise: 0}\n", {"rise"}},
-       {"pieces:\n  - step: {drop: 0.1}\n", {"scene.yaml"}},
-       {"beside:\n  - {y: 0.4, pieces: [flat: {lenght: 1}]}\n", {"scene.yaml:2", "length"}},
-       {"beside:\n  - {y: 0.4}\n", {"pieces: is missing"}},
-       {"beside: [{pieces: [flat: {length: 1}, ramp: {rise: 0.1}]}]\n", {"below the floor"}},
-       {"pieces: [flat: {length: 1}, step: {drop: 0.2, nosing_radius: 0}, flat: {length: 1}, "
-        "ramp: {incline: 10, rise: 0.3}]\n",
-        {"below the floor"}},
-       {"pieces: [flat: {length: 1}, step: {drop: 0.02, nosing_radius: 0.025}]\n",
-        {"no room", "nosing_radius"}},
-       {"pieces: [flat: {length: 1}, stairs: {count: 3, run: 0.02, rise: 0.25}]\n", {"no room"}},
-       {"pieces: [repeat: {count: 1000, pieces: [repeat: {count: 1000, pieces: [repeat: {count: "
-        "1000, pieces: [flat: {length: 0.1}]}]}]}]\n",
-        {"more than 10000 segments of ground"}}},
-      lay);
 }
 
 TEST(TerrainYaml, ReadsEveryKindOfPiece) {

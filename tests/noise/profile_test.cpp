@@ -1,11 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/fields.hpp"
 #include "core/resources.hpp"
 #include "noise/sensor_profile.hpp"
-#include "tests/complaint.hpp"
 #include "tests/documented_defaults.hpp"
 
 namespace touchdown::noise {
@@ -62,57 +60,6 @@ TEST(SensorProfile, IsNotIdealOnceAnyOfItsDisturbancesChangesAnything) {
   EXPECT_TRUE(is_ideal(SensorProfile()));
   EXPECT_TRUE(is_ideal(read("gyroscope: {vibration: {order: 3}, dropout: {kind: nan}}")));
   EXPECT_TRUE(is_ideal(read("torque: {degrees_of_freedom: 3}")));  // without white noise
-}
-
-TEST(SensorProfile, IsRefusedWithPlaceKeyAndExpectation) {
-  expect_refused(
-      {{"torque:\n  delay: -0.001\n",
-        {"^s.yaml:2:10: torque.delay: expected a number from 0 to 10"}},
-       {"torque:\n  knee:\n    dropout: {rate: 2}\n",
-        {"^s.yaml:3:21: torque.knee.dropout.rate: expected a number from 0 to 1"}},
-       {"gyroscope: {white: .nan}",
-        {"^s.yaml:1:20: gyroscope.white: expected a number from 0 to 10000"}},
-       {"torque: {degrees_of_freedom: 2}",
-        {"torque.degrees_of_freedom: expected a number from 2.1 to"}},
-       {"orientation: {x: {degrees_of_freedom: .inf}}",
-        {"orientation.x.degrees_of_freedom: expected a number from 2.1 to"}},
-       {"accelerometer: {range: 0}", {"accelerometer.range: expected a number from 1e-09 to"}},
-       {"accelerometer: {bias: 0.3}", {"accelerometer.bias: expected a mapping of keys to values"}},
-       {"accelerometer: {white: high}", {"accelerometer.white: expected a number"}},
-       {"accelerometre: {white: 1}",
-        {"s.yaml:1:1: accelerometre: unknown key", "did you mean 'accelerometer'?"}},
-       {"torque:\n  ancle: {white: 1}\n", {"s.yaml:2:3: torque.ancle: unknown key"}},
-       {"torque: {dropout: {kind: frosen}}",
-        {"expected one of missing, frozen, nan", "did you mean 'frozen'?"}},
-       {"position: {resolutoin: 0.1}", {"did you mean 'resolution'?"}},
-       // What would mean nothing there; the axes of an IMU have one clock.
-       {"torque: {vibration: {amplitude: 1}}", {"unknown key"}},
-       {"orientation: {range: 1}", {"unknown key"}},
-       {"gyroscope: {x: {delay: 0.1}}", {"unknown key"}},
-       {"torque: {low_pass: {cut_off: 10, time_constant: 1}}",
-        {"torque.low_pass.cut_off: expected either"}}},
-      read);
-  expect_refused(
-      {{"noise/profiles/upkei.yaml",
-        {"noise/profiles/upkei.yaml: no such file", "did you mean 'noise/profiles/upkie.yaml'?"}}},
-      [](const std::string& file) { return find_sensor_profile(file); });
-  const auto vary = [](const std::string& assignment) {
-    const std::size_t at = assignment.find('=');
-    return with_value({}, assignment.substr(0, at), std::stod(assignment.substr(at + 1)));
-  };
-  expect_refused(
-      {{"dropot=0.1", {"did you mean 'dropout'?"}},
-       {"white=0.1",
-        {"'white' is not one of scale, low_pass, degrees_of_freedom, rate, delay, dropout"}},
-       {"acelerometer.delay=0.1", {"did you mean 'accelerometer'?"}},
-       {"torque.kne.white=0.1", {"did you mean 'knee'?"}},
-       {"accelerometer.z.delay=0.1", {"'delay' is not one of scale, bias"}},
-       {"torque.vibration=0.1", {"'vibration' is not one of scale, bias"}},
-       {"a.b.c.d=0.1", {"expected a disturbance"}},
-       {"=0.1", {"expected a disturbance"}},
-       {"dropout=2", {"dropout.rate: expected a number from 0 to 1"}},
-       {"delay=-0.001", {"delay: expected a number from 0 to 10"}}},
-      vary);
 }
 
 TEST(SensorProfile, OfEveryShippedFileIsReadAndOnlyTheIdealOneIsIdeal) {

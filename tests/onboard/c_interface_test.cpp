@@ -104,13 +104,8 @@ TEST_F(CInterface, HasTheLoadsOfTheLibrary) {
   touchdown_destroy(estimator);
 }
 
-TEST_F(CInterface, ReportsErrorsInsteadOfThrowing) {
+TEST_F(CInterface, ReportsErrorsInAnyRoom) {
   std::array<char, 200> error{};
-  touchdown_use use = {nullptr, 200.0, nullptr};
-  EXPECT_EQ(touchdown_create(model().c_str(), &use, error.data(), error.size()), nullptr);
-  EXPECT_THAT(error.data(), HasSubstr("m.npz: was fitted at 1000 Hz, not at 200 Hz"));
-  EXPECT_EQ(touchdown_create("none.npz", nullptr, error.data(), error.size()), nullptr);
-  EXPECT_STREQ(error.data(), "none.npz: no such file");
   std::array<char, 6> shorter{};
   EXPECT_EQ(touchdown_create("none.npz", nullptr, shorter.data(), shorter.size()), nullptr);
   EXPECT_STREQ(shorter.data(), "none.");
@@ -180,33 +175,12 @@ TEST_F(CInterface, NamesASignalBeyondItsBound) {
   touchdown_destroy(estimator);
 }
 
-TEST_F(CInterface, RefusesASampleRateThatIsNone) {
-  for (const double rate : {std::nan(""), -5.0, HUGE_VAL, -HUGE_VAL}) {
-    std::array<char, 200> error{};
-    const touchdown_use use = {nullptr, rate, nullptr};
-    EXPECT_EQ(touchdown_create(model().c_str(), &use, error.data(), error.size()), nullptr);
-    EXPECT_THAT(error.data(), HasSubstr("m.npz: sample_rate: expected a positive number (Hz)"));
-  }
-}
-
 TEST_F(CInterface, RefusesConventionsThatAreNoneAndKeepsTheOnesBefore) {
   touchdown_estimator* const estimator = touchdown_create(model().c_str(), nullptr, nullptr, 0);
   ASSERT_NE(estimator, nullptr);
-  const auto refusal = [&](const auto& change) {
-    touchdown_conventions conventions = touchdown_upkie_conventions();
-    change(conventions);
-    std::array<char, 200> error{};
-    EXPECT_EQ(touchdown_set_conventions(estimator, &conventions, error.data(), error.size()), 0);
-    return std::string(error.data());
-  };
-  EXPECT_EQ(refusal([](auto& c) { c.imu_axes[0][0] = -1.0; }), "assembly: axes must be a rotation");
-  EXPECT_EQ(refusal([](auto& c) { c.imu_axes[2][2] = std::nan(""); }),
-            "assembly: axes must be a rotation");
-  EXPECT_EQ(refusal([](auto& c) { c.torque_unit = 0.0; }), "assembly: units must be positive");
-  EXPECT_EQ(refusal([](auto& c) { c.joint[5].sign = 0.0; }),
-            "assembly: a joint's sign must be 1 or -1");
-  EXPECT_EQ(refusal([](auto& c) { c.joint[1].torque_scale = 0.0; }),
-            "assembly: a joint's scales must be finite and not 0");
+  touchdown_conventions wrong = touchdown_upkie_conventions();
+  wrong.torque_unit = 0.0;
+  EXPECT_EQ(touchdown_set_conventions(estimator, &wrong, nullptr, 0), 0);
   const touchdown_conventions upkie = touchdown_upkie_conventions();
   EXPECT_EQ(touchdown_set_conventions(nullptr, &upkie, nullptr, 0), 0);
   EXPECT_EQ(touchdown_set_conventions(estimator, nullptr, nullptr, 0), 0);

@@ -1,14 +1,13 @@
 #include "estimator/npz/load_estimator.hpp"
 
-#include <functional>
 #include <memory>
 #include <sys/stat.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "logs/model_file.hpp"
+#include "tests/complaint.hpp"
 #include "tests/estimator/models/models.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -25,15 +24,6 @@ class LoadEstimator : public ::testing::Test {
   std::filesystem::path file(const std::string& name, const ModelArrays& arrays) const {
     logs::write_npz(arrays, folder_ / name);
     return folder_ / name;
-  }
-
-  static std::string complaint(const std::function<void()>& action) {
-    try {
-      action();
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "nothing was thrown";
   }
 
   const ScratchFolder folder_;
@@ -60,17 +50,17 @@ TEST_F(LoadEstimator, BelievesWhatWasFitted) {
 
 TEST_F(LoadEstimator, NamesTheFileInEveryError) {
   const auto m = file("m.npz", test::fitted_model("robust"));
-  EXPECT_THAT(complaint([&] { load_estimator(m, {.sample_rate = 200.0}); }),
+  EXPECT_THAT(complaint_of([&] { load_estimator(m, {.sample_rate = 200.0}); }),
               AllOf(StartsWith(m.string()), EndsWith(": was fitted at 1000 Hz, not at 200 Hz")));
-  EXPECT_THAT(complaint([&] { load_estimator(folder_ / "none.npz"); }),
+  EXPECT_THAT(complaint_of([&] { load_estimator(folder_ / "none.npz"); }),
               EndsWith("none.npz: no such file"));
-  EXPECT_THAT(complaint([&] { load_estimator(folder_.path()); }),
+  EXPECT_THAT(complaint_of([&] { load_estimator(folder_.path()); }),
               AllOf(StartsWith(folder_.path().string()), EndsWith(": is a folder")));
-  EXPECT_THAT(complaint([&] { load_estimator(folder_.write("text.npz", "name: robust\n")); }),
+  EXPECT_THAT(complaint_of([&] { load_estimator(folder_.write("text.npz", "name: robust\n")); }),
               HasSubstr("text.npz: is not a readable .npz file"));
   ModelArrays changed = test::fitted_model("robust");
   changed["contact_likelihood"].data[7] *= 2.0;
-  EXPECT_THAT(complaint([&] { load_estimator(file("changed.npz", changed)); }),
+  EXPECT_THAT(complaint_of([&] { load_estimator(file("changed.npz", changed)); }),
               HasSubstr("changed.npz: its numbers are not those that were fitted"));
 }
 
@@ -90,7 +80,7 @@ TEST_F(LoadEstimator, LoadsTheMetadata) {
 
 TEST_F(LoadEstimator, HeadersOfModelsAlwaysHaveMetadata) {
   const auto grid = file("grid.npz", test::fitted_arrays("robust"));
-  EXPECT_THAT(complaint([&] { logs::load_model_for(grid, {}); }),
+  EXPECT_THAT(complaint_of([&] { logs::load_model_for(grid, {}); }),
               HasSubstr("grid.npz: has no metadata"));
   const Model model = logs::load_model_for(grid, {"reference", 1000.0, "upkie"});
   EXPECT_THAT(logs::header_of_model(model, "grid.npz", "grid"),
@@ -114,11 +104,13 @@ TEST_F(LoadEstimator, ThrowsNothingButInputErrorsAboutPaths) {
   for (const fs::path& path :
        {folder_ / "a.npz", folder_ / std::string(300, 'x'), folder_ / "zero.npz",
         folder_ / "pipe.npz", m / "below.npz", fs::path(""), fs::path(std::string(5000, 'y'))}) {
-    EXPECT_THAT(complaint([&] { load_estimator(path); }), HasSubstr(path.string() + ": ")) << path;
-    EXPECT_THAT(complaint([&] { load_metadata(path); }), HasSubstr(path.string() + ": ")) << path;
+    EXPECT_THAT(complaint_of([&] { load_estimator(path); }), HasSubstr(path.string() + ": "))
+        << path;
+    EXPECT_THAT(complaint_of([&] { load_metadata(path); }), HasSubstr(path.string() + ": "))
+        << path;
   }
   if (!is_root) {
-    EXPECT_THAT(complaint([&] { load_estimator(folder_ / "locked" / "m.npz"); }),
+    EXPECT_THAT(complaint_of([&] { load_estimator(folder_ / "locked" / "m.npz"); }),
                 HasSubstr("cannot be opened"));
   }
   fs::permissions(folder_ / "locked", fs::perms::owner_all);

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "estimator/models/make_estimator.hpp"
 #include "models.hpp"
+#include "tests/complaint.hpp"
 
 namespace touchdown {
 namespace {
@@ -35,12 +36,7 @@ ModelArrays adapted(const ModelArrays& arrays, const ModelUse& use) {
 }
 
 std::string complaint(const ModelArrays& arrays, const ModelUse& use) {
-  try {
-    adapted(arrays, use);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return complaint_of([&] { adapted(arrays, use); });
 }
 
 TEST(ModelFor, AnotherRobotStoresItsLegs) {

@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/config/experiment_yaml.hpp"
 #include "experiments/plan/request.hpp"
@@ -18,10 +17,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using ::testing::StartsWith;
-using ::testing::ThrowsMessage;
 
-/// Ten lines; appended text begins on the eleventh.
 const char* const head = R"(name: study
 simulators: [mujoco]
 estimators: [robust, phase, measurement_only, reference, paper]
@@ -44,111 +40,11 @@ Experiment read_again(const Experiment& experiment) {
   return experiment_from_yaml(YamlDocument::parse(to_yaml(experiment), "config.yaml"));
 }
 
-/// The scenarios begin on the fifth line.
 YamlDocument document_with(const std::string& scenarios) {
   return YamlDocument::parse(
       "name: drawn\nfit: {scenarios: [scenarios/stairs.yaml]}\ntest:\n  runs: 1\n  scenarios: " +
           scenarios + '\n',
       "study.yaml");
-}
-
-/// A text, where its error stands, and the words of it.
-struct Refusal {
-  std::string text;
-  std::string place;
-  std::string words;
-  std::vector<std::string> set = {};  ///< as by `--set`
-};
-
-auto complains(const Refusal& expected) {
-  return ThrowsMessage<InputError>(
-      AllOf(StartsWith("study.yaml:" + expected.place), HasSubstr(expected.words)));
-}
-
-TEST(ExperimentFile, IsRefusedWithThePlaceAndTheReason) {
-  const std::vector<Refusal> refusals = {
-      {"detail: {drp: 2}", "11:10", "did you mean 'drop'?"},
-      {"detial: {drop: 2}", "11:1", "did you mean 'detail'?"},
-      {"detail:\n  run: 4", "12:8", "detail.run"},
-      {"detail: {seed: 3}", "11:", "detail.seed"},
-      {"detail: {drop: -1}", "11:", "detail.drop"},
-      {"detail: {after: .nan}", "11:", "detail.after"},
-      {"detail: {wheels: lift}", "11:18", "did you mean 'left'?"},
-      {"detail: {noise: []}", "11:", "1 to 3 noise settings"},
-      {"detail: {noise: [{torque: 1}]}", "11:", "detail.noise.0.accelerometer: is missing"},
-      {"detail: {noise: [{torque: 1, accelerometer: -2}]}", "11:", "detail.noise.0.accelerometer"},
-      {"detail: {noise: [{torque: 1, acelerometer: 2, accelerometer: 2}]}",
-       "11:", "did you mean 'accelerometer'?"},
-      {"detail: 3", "11:", "expected a mapping"},
-      {"detail: {enabled: false, drp: 1}", "11:", "'drop'"},
-      {"posterior: {noise: [1, 2]}", "11:", "expected a mapping"},
-      {"posterior: {}",
-       "11:",
-       "'phase' among the experiment's estimators",
-       {"estimators=[robust]"}},
-      {"video: {torque_noise: 0.25}", "11:", "torque_noise: unknown key"},
-      {"video: {accelerometer_noise: 1}", "11:", "accelerometer_noise: unknown key"},
-      {"video: {noise: {torque: 0.25}}", "11:", "accelerometer"},
-      {"video: {noise: {torque: -1, accelerometer: 0}}", "11:", "torque"},
-      {"video: {noise: 3}", "11:", "noise"}};
-  for (const Refusal& expected : refusals) {
-    EXPECT_THAT([&] { read(expected.text + '\n', expected.set); }, complains(expected))
-        << expected.text;
-  }
-  EXPECT_THROW(read("", {"noise.joint_position=-0.1"}), InputError);
-}
-
-TEST(ExperimentFile, IsRefusedForScenariosThatCannotBeDrawn) {
-  const std::vector<Refusal> refusals = {
-      {"[drawn:hop_2_010]", "5:14",
-       "test.scenarios: there is no family of scenarios 'hop' (did you mean 'hops'?)"},
-      {"{generate: {families: [kerb]}}", "5:", "did you mean 'kerbs'?"},
-      {"{generate: {count: 0}}", "5:", "test.scenarios.generate.count"},
-      {"{generat: {count: 2}}", "5:", "did you mean 'generate'?"},
-      {"{}", "5:", "test.scenarios"},
-      {"{files: [scenarios/flt.yaml]}", "5:", "did you mean 'scenarios/flat.yaml'?"}};
-  for (const Refusal& expected : refusals) {
-    const YamlDocument document = document_with(expected.text);
-    EXPECT_THAT(
-        [&] {
-          (void)experiment_from_yaml(document);
-          require_files(document);
-        },
-        complains(expected))
-        << expected.text;
-  }
-}
-
-/// A file with a list of estimators under each key that has one. Its line is the fifth.
-std::string with_list(const std::string& key, const std::string& list) {
-  const std::string fit =
-      key == "fit.tuning.fixed"
-          ? ", runs: 4, perturbed: true,\n tuning: {trials: 2, fixed: " + list + "}"
-          : "";
-  const std::string section = key.substr(0, key.find('.'));
-  const std::string name = key.substr(key.find('.') + 1);
-  return "name: a\nestimators: [robust, hmm]\ntest: {scenarios: [a.yaml]}\n"
-         "fit: {scenarios: [a.yaml]" +
-         fit + "}\n" + (section == "fit" ? "" : section + ": {" + name + ": " + list + "}\n");
-}
-
-TEST(ExperimentFile, ListsNamesOfItsOwnEstimatorsOnce) {
-  for (const std::string key :
-       {"fit.tuning.fixed", "benchmark.table", "video.estimators", "detail.estimators"}) {
-    const auto read_list = [&key](const std::string& list) {
-      return [text = with_list(key, list)] {
-        (void)experiment_from_yaml(YamlDocument::parse(text, "study.yaml"));
-      };
-    };
-    EXPECT_NO_THROW(read_list("[hmm, robust]")()) << key;
-    for (const Refusal& expected : {Refusal{"[robust, hm]", "5:", "did you mean 'hmm'"},
-                                    {"[rbust]", "5:", "did you mean 'robust'"},
-                                    {"[free_fall]", "5:", "'free_fall' is not one of robust, hmm"},
-                                    {"[hmm, robust, hmm]", "5:", "'hmm' appears twice"},
-                                    {"[]", "5:", "expected at least one name"}}) {
-      EXPECT_THAT(read_list(expected.text), complains(expected)) << key << ": " << expected.text;
-    }
-  }
 }
 
 TEST(ExperimentFile, HasTheDocumentedDefaults) {

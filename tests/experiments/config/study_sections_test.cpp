@@ -9,10 +9,8 @@
 namespace touchdown::experiments {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 
 Experiment with_sections(const std::string& tail) {
   return experiment_from_yaml(
@@ -62,19 +60,6 @@ TEST(StudySections, AddTheirFiles) {
       files_of(with_sections("closed_loop: {scenes: [{scenario: c.yaml}]}\n")).scenarios.back(),
       "c.yaml");
   EXPECT_THAT(files_of(with_sections("sweep: {delay: [0.25]}\n")).sensors, ElementsAre());
-}
-
-TEST(StudySections, ComplainOnTheLineWithTheNearestKey) {
-  const auto complaint = [](const std::string& tail, const char* place, const char* expected) {
-    EXPECT_THAT([&] { with_sections(tail); },
-                ThrowsMessage<InputError>(AllOf(HasSubstr(place), HasSubstr(expected))))
-        << tail;
-  };
-  complaint("benchmarks: {}\n", "study.yaml:4:1", "did you mean 'benchmark'?");
-  complaint("swep: {}\nbenchmark: {}\n", "study.yaml:4:1", "did you mean 'sweep'?");
-  complaint("benchmark: {refit: 1}\n", "study.yaml:4:", "did you mean 'refits'?");
-  complaint("cross_simulator: {overlay: {run: 4}}\n", "study.yaml:4:", "from 0 to 2");
-  complaint("benchmark: two\n", "study.yaml:4:", "expected a mapping");
 }
 
 TEST(StudySections, OfSeveralStudiesStandInOneFile) {

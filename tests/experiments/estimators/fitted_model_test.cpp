@@ -9,6 +9,7 @@
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 #include "logs/model_file.hpp"
+#include "tests/complaint.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -75,12 +76,9 @@ TEST(FittedModel, IsNeverFittedToReservedSeeds) {
   RunSignals reserved = synthetic_run(first_fit_run);
   reserved.info.seed = first_reserved_seed;
   for (const std::string& name : fitted_estimators()) {
-    try {
-      fit_models(synthetic_experiment({name}), {&reserved});
-      ADD_FAILURE() << name;
-    } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), ::testing::HasSubstr("reserved")) << name;
-    }
+    EXPECT_THAT(complaint_of([&] { fit_models(synthetic_experiment({name}), {&reserved}); }),
+                ::testing::HasSubstr("reserved"))
+        << name;
     // A direct call of the entry's fit is refused, too.
     const EstimatorEntry& entry = any_estimator_entry(name);
     EXPECT_THROW(entry.fit({.whole = {&reserved}}), InputError) << name;

@@ -14,6 +14,7 @@
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/submissions/export.hpp"
 #include "logs/model_file.hpp"
+#include "tests/complaint.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -80,13 +81,8 @@ TEST(LoadedEstimator, OfTheShippedModelEqualsItsEntry) {
 
 TEST(ShippedModel, RefusesAnotherRobotOrRateInExperimentsAsItsFileDoes) {
   const EstimatorEntry& entry = estimator_entry("shipped");
-  const auto complaint = [&](const EstimatorSetup& setup) -> std::string {
-    try {
-      (void)entry.make(setup);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "none";
+  const auto complaint = [&](const EstimatorSetup& setup) {
+    return complaint_of([&] { (void)entry.make(setup); });
   };
   LegGeometry long_legs;
   long_legs.upper_length *= 1.5;
@@ -98,10 +94,10 @@ TEST(ShippedModel, RefusesAnotherRobotOrRateInExperimentsAsItsFileDoes) {
   }
   LegGeometry with_rotors;
   with_rotors.wheel_inertia *= 1.2;
-  EXPECT_EQ(complaint({.legs = with_rotors, .robot = "upkie_actuated"}), "none");
-  EXPECT_EQ(complaint({.legs = LegGeometry{}, .robot = "upkie"}), "none");
+  EXPECT_EQ(complaint({.legs = with_rotors, .robot = "upkie_actuated"}), "no complaint");
+  EXPECT_EQ(complaint({.legs = LegGeometry{}, .robot = "upkie"}), "no complaint");
   for (const double rate : {199.0, 200.0, 250.0, 400.0, 600.0, 1000.0, 1005.0}) {
-    EXPECT_EQ(complaint({.sample_rate = rate}), "none") << rate;
+    EXPECT_EQ(complaint({.sample_rate = rate}), "no complaint") << rate;
     const auto file = std::filesystem::path(TOUCHDOWN_SOURCE_DIR) / "models/evidence_curves.npz";
     EXPECT_NO_THROW((void)load_estimator(file, {.sample_rate = rate})) << rate;
   }

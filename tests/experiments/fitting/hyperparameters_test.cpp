@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "estimator/numerics/number_text.hpp"
 #include "experiments/config/experiment_yaml.hpp"
 #include "experiments/estimators/registry.hpp"
@@ -17,11 +16,11 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-Experiment with(const std::string& more, const std::string& fit = "") {
+Experiment with(const std::string& more) {
   return experiment_from_yaml(YamlDocument::parse(
       "name: study\nsimulators: [mujoco]\nestimators: [phase, free_fall]\nfit: {scenarios: "
-      "[scenarios/stairs.yaml]" +
-          fit + "}\ntest: {scenarios: [scenarios/stairs.yaml]}\n" + more,
+      "[scenarios/stairs.yaml]}\ntest: {scenarios: [scenarios/stairs.yaml]}\n" +
+          more,
       "study.yaml"));
 }
 
@@ -74,25 +73,6 @@ TEST(GivenHyperparameters, AreWrittenReadAndReported) {
                                               HasSubstr("half_way of Free fall: -3")));
 }
 
-TEST(GivenHyperparameters, ReportErrorsWithTheLine) {
-  const auto error_of = [&](const std::string& text, const std::string& fit = "") -> std::string {
-    try {
-      (void)with(text, fit);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
-  };
-  EXPECT_THAT(error_of("hyperparameters: {phase: {leave_bellow: 0.5}}\n"),
-              AllOf(HasSubstr("study.yaml:6:"), HasSubstr("did you mean 'leave_below'")));
-  EXPECT_THAT(error_of("hyperparameters: {fase: {leave_below: 0.5}}\n"),
-              HasSubstr("did you mean 'phase'"));
-  EXPECT_THAT(error_of("hyperparameters: {phase: {leave_below: much}}\n"),
-              HasSubstr("hyperparameters.phase.leave_below"));
-  EXPECT_THAT(error_of(given, ", tuning: {trials: 2}, runs: 2, perturbed: true"),
-              HasSubstr("expected no fit.tuning beside it"));
-}
-
 /// Both engines, with hyperparameters from a file with this content.
 Experiment with_file(const ScratchFolder& folder, const std::string& content,
                      const std::string& more = "") {
@@ -125,40 +105,6 @@ TEST(HyperparameterFile, GivesEachEngineItsOwnValuesBeforeThoseOfAll) {
   EXPECT_THAT(text, Not(HasSubstr("chosen.yaml"))) << "a run directory needs no other file";
   EXPECT_EQ(text, to_yaml(experiment_from_yaml(YamlDocument::parse(text, "again.yaml"))));
   EXPECT_THAT(tuning_text(experiment), HasSubstr("by engine"));
-}
-
-TEST(HyperparameterFile, ReportsErrorsAtTheirPlace) {
-  const ScratchFolder folder;
-  const auto error_of = [&](const std::string& content) -> std::string {
-    try {
-      (void)with_file(folder, content);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
-  };
-  EXPECT_EQ(error_of("mujoco: {}\n"), "no error");
-  EXPECT_THAT(error_of("mujoco:\n  phase: {leave_bellow: 0.5}\n"),
-              AllOf(HasSubstr("chosen.yaml:2:"), HasSubstr("did you mean 'leave_below'")));
-  EXPECT_THAT(error_of("mujoco: {fase: {leave_below: 0.5}}\n"),
-              AllOf(HasSubstr("chosen.yaml:1:"), HasSubstr("did you mean 'phase'")));
-  EXPECT_THAT(error_of("mujocco: {phase: {leave_below: 0.5}}\n"),
-              AllOf(HasSubstr("chosen.yaml:1:"), HasSubstr("did you mean 'mujoco'")));
-  EXPECT_THAT(error_of("bullet: {phase: {leave_below: much}}\n"),
-              HasSubstr("bullet.phase.leave_below"));
-  EXPECT_THAT(error_of("bullet: 3\n"), HasSubstr("chosen.yaml:1:"));
-}
-
-TEST(HyperparameterFile, IsReportedIfItIsMissing) {
-  try {
-    (void)experiment_from_yaml(YamlDocument::parse(
-        "name: study\nestimators: [phase]\nfit: {scenarios: [scenarios/stairs.yaml]}\n"
-        "test: {scenarios: [scenarios/stairs.yaml]}\nhyperparameters:\n  tuned: nowhere.yaml\n",
-        "study.yaml"));
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("study.yaml:6:"), HasSubstr("nowhere.yaml")));
-  }
 }
 
 }  // namespace

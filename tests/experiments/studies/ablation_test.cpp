@@ -16,7 +16,6 @@
 namespace touchdown::experiments {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
@@ -31,10 +30,6 @@ struct Ablation : ::testing::Test {
             "highlights: [{torque: 0, accelerometer: 0}, {torque: 1, accelerometer: 5}]\n" +
             more,
         "steps.yaml"));
-  }
-
-  std::string complaint(const std::string& more) const {
-    return complaint_of([&] { (void)experiment(more); });
   }
 
   ScratchFolder folder;
@@ -78,18 +73,6 @@ TEST_F(Ablation, ComparesEachStepWithTheOneBeforeIt) {
   ASSERT_FALSE(result.figures.empty());
   EXPECT_EQ(result.figures.back().name, "ablation");
   EXPECT_EQ(result.figures.back().rows.groups.size(), 3U);  // the first step has no gain
-}
-
-TEST_F(Ablation, IsNamedWhereAnOrdinaryExperimentHasOneOfItsEstimators) {
-  for (const std::string name :
-       {"paper_low_pass", "paper_grid", "paper_margin", "hmm_without_memory"}) {
-    EXPECT_THAT(complaint("estimators: [robust, " + name + "]\n"),
-                AllOf(HasSubstr("steps.yaml:8:22: estimators"),
-                      HasSubstr("'" + name + "' belongs to the study 'ablation'"),
-                      HasSubstr("expected the section 'ablation'")));
-  }
-  EXPECT_THAT(complaint("estimators: [paper_lowpass]\n"), HasSubstr("paper_lowpass"));
-  EXPECT_EQ(complaint("estimators: [paper, paper_margin]\nablation: {}\n"), "no complaint");
 }
 
 std::vector<std::string> from_paper_to_robust() {

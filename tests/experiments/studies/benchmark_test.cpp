@@ -19,7 +19,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
-using ::testing::ThrowsMessage;
 
 /// A filter in a scene that it is fitted to and one in which nothing happens.
 Experiment with_benchmark(const ScratchFolder& folder, const std::string& benchmark) {
@@ -317,24 +316,6 @@ TEST(ABenchmark, CountsTheContentOfItsRobotsAndSensors) {
   folder.write("mine_too.yaml", "mjcf: " TOUCHDOWN_SOURCE_DIR
                                 "/models/upkie.xml\nactuators: {knee: {friction: 0.1}}\n");
   EXPECT_NE(of_robot(), before);
-}
-
-TEST(ABenchmark, RefusesRobotsAndSensorsWithEqualNames) {
-  const ScratchFolder folder;
-  const auto planned = [&](const std::string& benchmark) {
-    (void)whole_plan(request_of(with_benchmark(folder, benchmark)));
-  };
-  EXPECT_THAT([&] { planned("{sensors: [noise/profiles/ideal.yaml]}"); },
-              ThrowsMessage<InputError>(
-                  HasSubstr("benchmark.sensors: 'ideal' is there already: the experiment's own")));
-  EXPECT_THAT([&] { planned("{robots: [models/upkie.xml]}"); },
-              ThrowsMessage<InputError>(HasSubstr("benchmark.robots: 'upkie' is there already")));
-  EXPECT_THAT([&] { planned("{sensors: [noise/profiles/harsh.yaml, noise/profiles/harsh.yaml]}"); },
-              ThrowsMessage<InputError>(HasSubstr("small.yaml:10:22: benchmark.sensors")));
-  EXPECT_THAT([&] { planned("{sensor: [noise/profiles/harsh.yaml]}"); },
-              ThrowsMessage<InputError>(HasSubstr("did you mean 'sensors'?")));
-  EXPECT_THAT([&] { planned("{robots: [models/upkie_actuatd.yaml]}"); },
-              ThrowsMessage<InputError>(HasSubstr("upkie_actuated.yaml")));
 }
 
 }  // namespace

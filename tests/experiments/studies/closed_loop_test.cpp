@@ -197,36 +197,6 @@ TEST(ClosedLoop, StartsAllRunsEquallyForEveryContactSource) {
   EXPECT_THAT(scripts, ::testing::Each(scripts.front()));
 }
 
-TEST(ClosedLoop, ComplainsOnTheLine) {
-  const ScratchFolder folder;
-  const auto complaint = [&](const std::string& section) {
-    return complaint_of([&] { (void)whole_plan(request_of(with_closed_loop(folder, section))); });
-  };
-  const auto of_scene = [&](const std::string& scene) {
-    return complaint(of_steps(folder, scene));
-  };
-  EXPECT_EQ(of_scene(""), "no complaint");
-  EXPECT_THAT(of_scene(", key: terrain.friction"),
-              AllOf(HasSubstr("small.yaml:10:"), HasSubstr("values")));
-  EXPECT_THAT(of_scene(", values: [1, 2]"), HasSubstr("key"));
-  EXPECT_THAT(of_scene(", key: terrain.friction, values: [1, 0.5]"),
-              HasSubstr("expected increasing numbers"));
-  EXPECT_THAT(of_scene(", key: terrain.friction, values: [0.5, 1], delay: [0, 0.1]"),
-              HasSubstr("at most one varied quantity"));
-  EXPECT_THAT(of_scene(", delay: [-0.1]"), HasSubstr("from 0 to 1 s"));
-  EXPECT_THAT(of_scene(", dela: [0.1]"), HasSubstr("did you mean"));
-  EXPECT_THAT(of_scene(", key: terrain.frction, values: [1]"),
-              AllOf(HasSubstr("closed_loop.scenes.0"), HasSubstr("no number there")));
-  EXPECT_THAT(of_scene(", key: terrain.friction, values: [-1]"),
-              AllOf(HasSubstr("closed_loop.scenes.0"), HasSubstr("terrain.friction")));
-  const std::string scene = of_steps(folder, "");
-  EXPECT_THAT(complaint(scene + "  contact: [robst]\n"), HasSubstr("did you mean 'robust'?"));
-  EXPECT_THAT(complaint(scene + "  laws: [soft]\n"), HasSubstr("soft_landing"));
-  EXPECT_THAT(complaint(scene + "  film: {run: 2}\n"), HasSubstr("film.run"));
-  EXPECT_THAT(complaint(scene + "  film: {contact: [phase]}\n"), HasSubstr("film.contact"));
-  EXPECT_THAT(complaint("closed_loop: {runs: 2}\n"), HasSubstr("scenes"));
-}
-
 using RecordedContact = std::array<scoring::ContactSequence, models::wheel_count>;
 
 /// A robot that glides level at .5 m/s with wheels that turn at `wheel_speed`, m/s along the

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "experiments/config/experiment_yaml.hpp"
 #include "experiments/run_directory/shard.hpp"
@@ -44,16 +42,6 @@ inline std::string reread_yaml(const Experiment& experiment) {
   std::string text = to_yaml(experiment);
   EXPECT_EQ(to_yaml(experiment_from_yaml(YamlDocument::parse(text, "again.yaml"))), text);
   return text;
-}
-
-/// The `InputError` of a function.
-inline std::string complaint_of(const std::function<void()>& read) {
-  try {
-    read();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no complaint";
 }
 
 }  // namespace touchdown::experiments

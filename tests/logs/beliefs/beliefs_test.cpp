@@ -82,54 +82,6 @@ TEST(Beliefs, OfOtherSystemsTextsAreRead) {
   EXPECT_THAT(beliefs.place(1), HasSubstr("a.csv:3"));
 }
 
-TEST(Beliefs, ThatAreWrongAreRefusedByLineAndColumn) {
-  const std::string names = "time,p_left,p_right\n";
-  const std::map<std::string, std::string> wrong = {
-      {"time,p_lft,p_right\n",
-       "a.csv:1:6: unknown name 'p_lft' (did you mean 'p_left'?): expected "
-       "time, p_left, p_right and, for decisions, contact_left and "
-       "contact_right"},
-      {"time,p_left\n", "a.csv:1:6: 'p_right' is missing"},
-      {"time,p_left,p_right,contact_left\n", "a.csv:1:21: 'contact_right' is missing"},
-      {"time,p_left,time,p_right\n", "a.csv:1:13: 'time' appears twice"},
-      {"", "a.csv:1:1: unknown name ''"},
-      {names, "a.csv:1:1: holds no beliefs"},
-      {names + "0,0.5\n", "a.csv:2:3: expected 3 values, found 2"},
-      {names + "0,0.5,0.5\n1,half,0.5\n", "a.csv:3:3: expected a number, found 'half'"},
-      {names + "0,0.5, 0.5x\n", "a.csv:2:8: expected a number, found '0.5x'"},
-      {names + "0,0.5,1.5\n", "a.csv:2:7: p_right: 1.5: expected a probability from 0 to 1"},
-      {names + "0,nan,0.5\n", "a.csv:2:3: p_left: nan: expected a probability from 0 to 1"},
-      {names + "inf,0.5,0.5\n", "a.csv:2:1: time: inf: expected a time in seconds"},
-      {names + "0.1,0,0\n\n0.1,0,0\n",
-       "a.csv:4:1: time: 0.1: expected a time after the one before, 0.1"},
-      {names + "0.2,0,0\n0.1,0,0\n", "a.csv:3:1: time: 0.1: expected a time after the one before"},
-      {"time,p_left,p_right,contact_left,contact_right\n0,1,1,1,2\n",
-       "a.csv:2:9: contact_right: 2: expected 1 for contact or 0 for none"}};
-  const ScratchFolder folder;
-  for (const auto& [text, complaint] : wrong) {
-    folder.write("a.csv", text);
-    EXPECT_THAT([&] { read_beliefs(folder / "a.csv"); },
-                ThrowsMessage<InputError>(HasSubstr(complaint)))
-        << text;
-  }
-}
-
-TEST(Beliefs, InArraysThatAreWrongAreRefusedByNameAndIndex) {
-  const ScratchFolder folder;
-  const auto complaint = [&](const ModelArrays& arrays, const std::string& expected) {
-    write_npz(arrays, folder / "a.npz");
-    EXPECT_THAT([&] { read_beliefs(folder / "a.npz"); },
-                ThrowsMessage<InputError>(HasSubstr(expected)));
-  };
-  const ModelArray two{{2}, {0.0, 1.0}};
-  complaint({{"time", two}, {"p_left", two}, {"p_rigth", two}},
-            "a.npz: unknown name 'p_rigth' (did you mean 'p_right'?)");
-  complaint({{"time", two}, {"p_left", two}, {"p_right", {{3}, {0, 1, 1}}}},
-            "a.npz: p_right: expected one axis of 2, the steps of 'time'");
-  complaint({{"time", two}, {"p_left", two}, {"p_right", {{2}, {0.0, -1.0}}}},
-            "a.npz: index 1: p_right: -1: expected a probability");
-}
-
 TEST(Beliefs, InDictionariesThatAreWrongAreRefusedByTheirNumber) {
   const ScratchFolder folder;
   const auto complaint = [&](const std::string& bytes, const std::string& expected) {
@@ -147,12 +99,6 @@ TEST(Beliefs, InDictionariesThatAreWrongAreRefusedByTheirNumber) {
             "dictionary 2: expected the names of the first: ");
   complaint("\x80", "dictionary 0: 'time' is missing");
   complaint("", "a.mpack: holds no beliefs");
-}
-
-TEST(Beliefs, OfAnUnknownKindAreRefused) {
-  const ScratchFolder folder;
-  EXPECT_THAT([&] { read_beliefs(folder.write("a.txt", "")); },
-              ThrowsMessage<InputError>(HasSubstr("expected the extension .csv, .npz or .mpack")));
 }
 
 }  // namespace

@@ -568,8 +568,6 @@ TEST_F(JoinedLog, AJointThatARowOfNamesLacksIsHeld) {
 TEST_F(JoinedLog, NamesThatAFileLacksHaveARemedy) {
   write("imu.csv", robot_csv(0.1).imu);
   write("joint_states.csv", named_joints_csv(0.1, in_brackets, [](int) { return all_joints; }));
-  const std::string misspelt = with_part(csv_mapping, "l_knee", "l_kneee");
-  EXPECT_THAT(complaint(folder_.path(), misspelt), HasSubstr("did you mean 'l_knee/position'"));
   const std::string without =
       "sources: {joints: joint_states.csv, imu: imu.csv}\n"
       "time: {sec: header.stamp.sec, nanosec: header.stamp.nanosec}\njoints: {}\n" +
@@ -675,28 +673,6 @@ TEST_F(JoinedLog, RowsThatLackHalfOfTheirCellsAreHeldAtTheJointsClock) {
     EXPECT_NEAR(static_cast<double>(rows.size()), 500.0, 5.0);
     EXPECT_EQ(converted_.incomplete_rows, 0U);
   }
-}
-
-TEST_F(JoinedLog, WrongFilesAreRefused) {
-  const Csv csv = robot_csv(0.1);
-  write("joint_states.csv", csv.joints);
-  EXPECT_THAT(complaint(folder_.path(), csv_mapping), HasSubstr("imu.csv: no such file"));
-  write("imu.csv", csv.imu);
-  EXPECT_THAT(complaint(write("other.csv", "t\n"), csv_mapping), HasSubstr("give one of them"));
-  const auto with = [&](const std::string& what, const std::string& by) {
-    std::string text = csv_mapping;
-    text.replace(text.find(what), what.size(), by);
-    return complaint(folder_.path(), text);
-  };
-  EXPECT_THAT(with("nanosec: header.stamp.nanosec", "nanosec: nsec"),
-              HasSubstr("joint_states.csv has no column 'nsec'"));
-  EXPECT_THAT(with(", nanosec: header.stamp.nanosec", ""), HasSubstr("time.nanosec: is missing"));
-  EXPECT_THAT(with("[gx, gy, gz]", "[gx, gy, l_hip/position]"),
-              HasSubstr("imu.csv has no column 'l_hip/position'"));
-  EXPECT_THAT(with("time: {sec: header.stamp.sec, nanosec: header.stamp.nanosec}\n", ""),
-              HasSubstr("time: is missing"));
-  EXPECT_THAT(with("time: {sec: header.stamp.sec, nanosec: header.stamp.nanosec}", "period: 0.002"),
-              HasSubstr("joined by their times"));
 }
 
 }  // namespace

@@ -10,9 +10,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "logs/log/reader.hpp"
 #include "logs/mapping/conversion.hpp"
+#include "tests/complaint.hpp"
 #include "tests/logs/log/upkie_log.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -50,12 +50,7 @@ class MappedLogs : public ::testing::Test {
   }
 
   std::string complaint(const std::filesystem::path& log, const std::string& mapping) {
-    try {
-      (void)convert(log, mapping);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "none";
+    return complaint_of([&] { (void)convert(log, mapping); });
   }
 
   ScratchFolder folder_;

@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "render/studies/registry.hpp"
+#include "tests/complaint.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {
@@ -75,13 +75,11 @@ TEST(DropOverlay, ReportsTheNumberOfDrops) {
   const ScratchFolder folder;
   DropOverlay what;
   what.drop = 1;
-  try {
-    draw_drop_overlay(dropped("mujoco", 400), dropped("bullet", 400), what, folder / "overlay");
-    FAIL() << "drew a drop that does not exist";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(),
-                HasSubstr("the run in mujoco has 1 drops, counted from 0; none is number 1"));
-  }
+  EXPECT_THAT(complaint_of([&] {
+                draw_drop_overlay(dropped("mujoco", 400), dropped("bullet", 400), what,
+                                  folder / "overlay");
+              }),
+              HasSubstr("the run in mujoco has 1 drops, counted from 0; none is number 1"));
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
