@@ -87,6 +87,12 @@ double upward(const std::array<double, 4>& orientation, const Eigen::Vector3d& v
   return reference_is_z_up ? z : -z;
 }
 
+Eigen::Vector3d up_in_imu(const std::array<double, 4>& orientation) noexcept {
+  const Eigen::Quaterniond q = quaternion(orientation);
+  if (!is_orientation(q)) return Eigen::Vector3d::Constant(not_reported);
+  return q.conjugate() * -Eigen::Vector3d::UnitZ();
+}
+
 Eigen::Matrix3d signed_axes(const std::array<std::string_view, 3>& names) noexcept {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();
   for (Eigen::Index i = 0; i < 3; ++i) {
@@ -145,6 +151,7 @@ Signals signals_of(const RobotRecord& record, const AssemblyConfig& config,
   signals.linear_acceleration = imu.linear_acceleration;
   signals.angular_velocity = imu.angular_velocity;
   signals.vertical_acceleration = upward(imu.orientation, imu.linear_acceleration);
+  signals.up = up_in_imu(imu.orientation);
   signals.ground_velocity_command = record.ground_velocity_command;
   return signals;
 }

@@ -152,5 +152,7 @@ struct ImuSignals {
 /// quaternion (w x y z) does not have length one.
 [[nodiscard]] double upward(const std::array<double, 4>& orientation, const Eigen::Vector3d& vector,
                             bool reference_is_z_up = false) noexcept;
+/// The world's upward vertical in the IMU's frame, by a quaternion to a reference with z down.
+[[nodiscard]] Eigen::Vector3d up_in_imu(const std::array<double, 4>& orientation) noexcept;
 
 }  // namespace touchdown

@@ -24,7 +24,8 @@ constexpr std::array<std::string_view, signal_count> names = {
 
 /// A member from the time to the targets, by its number.
 double value_of(const Signals& signals, std::size_t index) noexcept {
-  static_assert(sizeof(Signals) == (1 + signal_count) * sizeof(double) + sizeof(Signals::target));
+  static_assert(sizeof(Signals) == (1 + signal_count) * sizeof(double) + sizeof(Signals::target) +
+                                       sizeof(Signals::up));
   double value = 0.0;
   // Eigen's vectors have constructors of their own, but nothing besides their numbers.
   const auto* const bytes = reinterpret_cast<const char*>(&signals);  // NOLINT
@@ -103,6 +104,7 @@ Signals SignalCheck::without_unusable(const Signals& signals,
   usable.vertical_acceleration = values[24];
   usable.ground_velocity_command = values[25];
   usable.target = signals.target;
+  usable.up = signals.up;
   return usable;
 }
 

@@ -58,6 +58,9 @@ struct Signals {
   double ground_velocity_command = 0.0;
   /// Left leg, right leg. Optional: no other signal depends on them.
   std::array<LegTargets, 2> target = {};
+  /// The world's upward vertical in the IMU frame, by its orientation; NaN: not known. The default
+  /// is that of a level torso.
+  Eigen::Vector3d up = {0.0, 0.0, -1.0};
 };
 
 }  // namespace touchdown

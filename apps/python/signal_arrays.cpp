@@ -56,10 +56,10 @@ bool is_derived(const py::object& arrays, const SignalNeeds& needs, const Assemb
   return !arrays.contains("vertical_acceleration") && arrays.contains("orientation");
 }
 
-/// Turns the vectors of the IMU into Upkie's axes, and sets the accelerations from the one of the
-/// IMU and its orientation (w x y z), if there is one.
+/// Turns the vectors of the IMU into Upkie's axes, and sets the vertical from its orientation (w x y
+/// z), if there is one. `derives`: also the accelerations, from the one of the IMU.
 void convert_imu(Signals& signals, const std::optional<std::array<double, 4>>& orientation,
-                 const AssemblyConfig& config) {
+                 bool derives, const AssemblyConfig& config) {
   RobotRecord record{.angular_velocity = signals.angular_velocity,
                      .linear_acceleration = signals.linear_acceleration,
                      .proper_acceleration = signals.linear_acceleration};
@@ -67,10 +67,9 @@ void convert_imu(Signals& signals, const std::optional<std::array<double, 4>>& o
   const ImuSignals imu = imu_of(record, config);
   signals.angular_velocity = imu.angular_velocity;
   // Gravity stays where no estimator needs the vertical acceleration.
-  signals.linear_acceleration = orientation ? imu.linear_acceleration : imu.proper_acceleration;
-  if (orientation) {
-    signals.vertical_acceleration = upward(imu.orientation, imu.linear_acceleration);
-  }
+  signals.linear_acceleration = derives ? imu.linear_acceleration : imu.proper_acceleration;
+  if (derives) signals.vertical_acceleration = upward(imu.orientation, imu.linear_acceleration);
+  if (orientation) signals.up = up_in_imu(imu.orientation);
 }
 
 }  // namespace
@@ -92,16 +91,15 @@ SignalArrays::SignalArrays(const py::object& arrays, const SignalNeeds& needs, A
       is_one_step_(is_one_step),
       map_(arrays, "signals"),
       imu_(std::move(imu)),
-      time_(column("time", 0)) {
-  const bool derives = is_derived(arrays, needs, imu_);
+      time_(column("time", 0)),
+      derives_(is_derived(arrays, needs, imu_)) {
   position_ = column("position", joint_count, needs.position);
   velocity_ = column("velocity", joint_count, needs.velocity);
   torque_ = column("torque", joint_count, needs.torque);
-  linear_acceleration_ = column("linear_acceleration", 3, needs.acceleration_vector || derives);
+  linear_acceleration_ = column("linear_acceleration", 3, needs.acceleration_vector || derives_);
   angular_velocity_ = column("angular_velocity", 3, needs.angular_velocity);
-  if (derives) {
-    orientation_.emplace(column("orientation", 4));
-  } else {
+  orientation_ = column("orientation", 4, derives_);
+  if (!derives_) {
     vertical_acceleration_ = column("vertical_acceleration", 0, needs.acceleration);
   }
   ground_velocity_command_ = column("ground_velocity_command", 0, needs.command);
@@ -134,7 +132,7 @@ Signals SignalArrays::at(std::size_t step) const {
   const auto q = [&](std::size_t i) { return (*orientation_)(step, i); };
   convert_imu(signals,
               orientation_ ? std::optional(std::array{q(0), q(1), q(2), q(3)}) : std::nullopt,
-              imu_);
+              derives_, imu_);
   return signals;
 }
 

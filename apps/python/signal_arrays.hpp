@@ -63,6 +63,7 @@ class SignalArrays {
   ArrayMap map_;
   AssemblyConfig imu_;
   StepArray time_;
+  bool derives_;  ///< accelerations from the orientation
   std::optional<StepArray> position_;
   std::optional<StepArray> velocity_;
   std::optional<StepArray> torque_;

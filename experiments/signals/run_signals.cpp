@@ -89,13 +89,10 @@ RunSignals signals_of(const logs::Recording& recording, const scoring::LabelConf
         static_cast<std::size_t>(std::llround(scoring.hold_off / recording.period())));
   }
   run.signals.reserve(recording.steps());
-  run.up_in_imu.reserve(recording.steps());
   for (std::size_t k = 0; k < recording.steps(); ++k) {
     const models::Observation& observation = recording.observation[k];
     run.signals.push_back(
         logs::signals_from(observation, k > 0 ? &recording.action[k - 1] : nullptr));
-    // The attitude reference system's z axis points down.
-    run.up_in_imu.push_back(observation.imu.orientation.conjugate() * -Eigen::Vector3d::UnitZ());
   }
   return run;
 }
@@ -114,7 +111,7 @@ NoiseRun noise_run(const RunSignals& run, const noise::NoiseKey& key) {
   for (std::size_t k = 0; k < run.steps(); ++k) {
     const Eigen::Vector3d draw(noise.acceleration[0][k], noise.acceleration[1][k],
                                noise.acceleration[2][k]);
-    noise.vertical_acceleration[k] = run.up_in_imu[k].dot(draw);
+    noise.vertical_acceleration[k] = run.signals[k].up.dot(draw);
   }
   for (int i = 0; i < models::servo_count; ++i) {
     const auto servo = static_cast<models::Servo>(i);

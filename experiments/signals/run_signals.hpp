@@ -45,8 +45,7 @@ struct RunSignals {
   /// Time from the beginning of the log to the first step (s). Only the beginning of a log is
   /// skipped, not that of each of its segments.
   double start = 0.0;
-  std::vector<Signals> signals;            ///< noiseless
-  std::vector<Eigen::Vector3d> up_in_imu;  ///< the world's vertical in the IMU frame
+  std::vector<Signals> signals;                                       ///< noiseless
   std::array<scoring::ContactSequence, models::wheel_count> contact;  ///< labels
   std::array<std::vector<double>, models::wheel_count> normal_force;  ///< truth, per wheel (N)
   std::vector<std::size_t> segments;             ///< first step of each statistical sample

@@ -46,8 +46,8 @@ inline RunSignals synthetic_run(std::int64_t number, std::size_t steps = 4000) {
       leg.wheel.velocity = sign * (10.0 + (air ? 30.0 * (phase - 0.6) : 0.0)) + 0.1 * jitter;
       run.contact[side].push_back(air ? 0 : 1);
     }
+    s.up = {0.1, 0.0, -std::sqrt(0.99)};
     run.signals.push_back(s);
-    run.up_in_imu.emplace_back(0.1, 0.0, -std::sqrt(0.99));
   }
   return run;
 }

@@ -135,7 +135,7 @@ TEST(DropDetail, SpectraArePlainTransformsOfTheFiltersInput) {
           noise::standard_normal(key, noise::NoiseChannel::accelerometer_x, step),
           noise::standard_normal(key, noise::NoiseChannel::accelerometer_y, step),
           noise::standard_normal(key, noise::NoiseChannel::accelerometer_z, step));
-      window[n] = run.signals[step].vertical_acceleration + 8.0 * run.up_in_imu[step].dot(draw);
+      window[n] = run.signals[step].vertical_acceleration + 8.0 * run.signals[step].up.dot(draw);
       energy += window[n] * window[n];
     }
     const auto& column = drop.spectrum.spectrum[row / spectrum_stride];
