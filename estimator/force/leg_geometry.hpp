@@ -6,6 +6,9 @@
 
 namespace touchdown {
 
+/// As large as that of a motor without one (N·m).
+inline constexpr double no_torque_limit = 1e4;
+
 /// One leg in its plane, hip to axle: two links, with their centres of mass on the lines between
 /// the joints. The values are Upkie's.
 struct LegGeometry {
@@ -23,6 +26,29 @@ struct LegGeometry {
   double hip_friction = 0.0;              ///< Coulomb friction of the hip (N·m)
   double knee_friction = 0.0;             ///< and of the knee (N·m)
   double position_resolution = 6.283e-4;  ///< of the hip's and the knee's positions (rad)
+  double upper_inertia = 2.80122e-3;      ///< about its centre of mass (kg·m²)
+  double lower_inertia = 2.12266e-3;      ///< likewise
+  // Inertia of the motors' rotors, as they appear at the joints (kg·m²); the wheel's is a part of
+  // `wheel_inertia`.
+  double hip_armature = 0.0;
+  double knee_armature = 0.0;
+  double wheel_armature = 0.0;
+  // Viscous friction of the joints (N·m·s/rad).
+  double hip_viscous = 0.0;
+  double knee_viscous = 0.0;
+  double wheel_viscous = 0.0;
+  // The largest torques of the motors (N·m); `no_torque_limit` where they are not known.
+  double hip_torque_limit = 16.0;
+  double knee_torque_limit = 16.0;
+  double wheel_torque_limit = 1.7;
+  // The left hip from the IMU, forward and upward in the torso (m). The right one is beside it.
+  double hip_forward = 0.0;
+  double hip_upward = -0.064;
+  /// Of each leg's centre of mass from the torso's middle plane (m).
+  double leg_sideways = 0.186481;
+
+  /// A leg without a hip is given as one with a very long upper link, whose signals do not count.
+  [[nodiscard]] bool has_hip() const noexcept { return upper_length < 10.0 * lower_length; }
 
   bool operator==(const LegGeometry&) const = default;
 };

@@ -27,9 +27,10 @@ TEST(LegGeometry, OfUpkieIsTheEstimatorsDefaultToTheBit) {
   for (const char* file : {"models/upkie.xml", "models/upkie_straight.yaml"}) {
     EXPECT_EQ(of_robot(file), LegGeometry{}) << file;
   }
-  LegGeometry with_friction;  // the friction of its actuators is its own
-  with_friction.hip_friction = with_friction.knee_friction = 0.06;
-  EXPECT_EQ(of_robot("models/upkie_actuated.yaml"), with_friction);
+  LegGeometry actuated;  // friction and rotors of its actuators are its own
+  actuated.hip_friction = actuated.knee_friction = 0.06;
+  actuated.hip_armature = actuated.knee_armature = 0.003;
+  EXPECT_EQ(of_robot("models/upkie_actuated.yaml"), actuated);
   LegGeometry large = of_robot("models/upkie_large_wheels.yaml");
   EXPECT_GT(large.wheel_inertia, 2.0 * LegGeometry{}.wheel_inertia);
   large.wheel_inertia = LegGeometry{}.wheel_inertia;
@@ -172,7 +173,14 @@ TEST(LegGeometry, IsMeasuredInThePlaneInWhichTheLegBends) {
                                .upper_centre = 0.5,
                                .lower_centre = 0.75,
                                .wheel_inertia = 0.001,
-                               .robot_mass = 6.4}));
+                               .robot_mass = 6.4,
+                               .upper_inertia = 0.002,
+                               .lower_inertia = 0.001,
+                               .wheel_torque_limit = 16.0,
+                               .hip_upward = 0.0,
+                               // Half of (.6·.2 + .4·.2 + .5·.26 + .2·.3) kg·m over 1.7 kg: the
+                               // thighs' lateral offsets are not mirrored.
+                               .leg_sideways = 0.114706}));
 }
 
 }  // namespace
