@@ -15,6 +15,7 @@
 #include "estimator/evidence/fit.hpp"
 #include "estimator/force/force_kinematics.hpp"
 #include "estimator/force/force_kinematics_fit.hpp"
+#include "estimator/force/load_filter.hpp"
 #include "estimator/force/support_force.hpp"
 #include "estimator/free_fall.hpp"
 #include "estimator/models/make_estimator.hpp"

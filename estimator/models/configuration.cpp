@@ -126,6 +126,25 @@ void visit_geometry(Visit& visit, Geometry& geometry) {
   visit("geometry.lower_centre", geometry.lower_centre);
 }
 
+/// What only equations of motion need.
+template <typename Visit, typename Geometry>
+void visit_dynamics(Visit& visit, Geometry& geometry) {
+  visit("geometry.upper_inertia", geometry.upper_inertia);
+  visit("geometry.lower_inertia", geometry.lower_inertia);
+  visit("geometry.hip_armature", geometry.hip_armature);
+  visit("geometry.knee_armature", geometry.knee_armature);
+  visit("geometry.wheel_armature", geometry.wheel_armature);
+  visit("geometry.hip_viscous", geometry.hip_viscous);
+  visit("geometry.knee_viscous", geometry.knee_viscous);
+  visit("geometry.wheel_viscous", geometry.wheel_viscous);
+  visit("geometry.hip_torque_limit", geometry.hip_torque_limit);
+  visit("geometry.knee_torque_limit", geometry.knee_torque_limit);
+  visit("geometry.wheel_torque_limit", geometry.wheel_torque_limit);
+  visit("geometry.hip_forward", geometry.hip_forward);
+  visit("geometry.hip_upward", geometry.hip_upward);
+  visit("geometry.leg_sideways", geometry.leg_sideways);
+}
+
 constexpr std::array<const char*, 2> signs = {"absolute", "mirrored"};
 constexpr std::array<const char*, 3> powers = {"mean_square", "energy", "root_mean_square"};
 constexpr std::array<const char*, 2> spectra = {"power", "magnitude"};
@@ -209,6 +228,17 @@ void visit_members(Visit& visit, Geometry& geometry) {
   visit("hip_friction", geometry.hip_friction);
   visit("knee_friction", geometry.knee_friction);
   visit("position_resolution", geometry.position_resolution);
+  visit_dynamics(visit, geometry);
+}
+
+template <typename Visit, typename Config>
+requires std::same_as<std::remove_const_t<Config>, LoadFilterConfig>
+void visit_members(Visit& visit, Config& config) {
+  visit_members(visit, config.geometry);
+  visit("lead", config.lead);
+  visit("leave_below", config.leave_below);
+  visit("return_above", config.return_above);
+  visit_guard(visit, config.guard);
 }
 
 template <typename Visit, typename Config>
@@ -260,12 +290,14 @@ ConfigurationText text_of(const PhaseFilterConfig& config) { return written(conf
 ConfigurationText text_of(const NeuralEstimatorConfig& config) { return written(config); }
 ConfigurationText text_of(const ForceKinematicsConfig& config) { return written(config); }
 ConfigurationText text_of(const DecisionConfig& config) { return written(config); }
+ConfigurationText text_of(const LoadFilterConfig& config) { return written(config); }
 ConfigurationText text_of(const LegGeometry& geometry) { return written(geometry); }
 
 void configure(BayesFilterConfig& config, const ConfigurationText& text) { read(config, text); }
 void configure(PhaseFilterConfig& config, const ConfigurationText& text) { read(config, text); }
 void configure(NeuralEstimatorConfig& config, const ConfigurationText& text) { read(config, text); }
 void configure(ForceKinematicsConfig& config, const ConfigurationText& text) { read(config, text); }
+void configure(LoadFilterConfig& config, const ConfigurationText& text) { read(config, text); }
 void configure(DecisionConfig& config, const ConfigurationText& text) {
   // In older files thresholds alone decide.
   if (text.contains("return_above") && !text.contains("settle_after")) {

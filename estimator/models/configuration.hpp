@@ -3,6 +3,7 @@
 #include "estimator/bayes/config.hpp"
 #include "estimator/decision/config.hpp"
 #include "estimator/force/force_kinematics.hpp"
+#include "estimator/force/load_filter.hpp"
 #include "estimator/models/metadata.hpp"
 #include "estimator/neural/estimator.hpp"
 #include "estimator/phase/config.hpp"
@@ -16,6 +17,7 @@ ConfigurationText text_of(const PhaseFilterConfig& config);
 ConfigurationText text_of(const NeuralEstimatorConfig& config);
 ConfigurationText text_of(const ForceKinematicsConfig& config);
 ConfigurationText text_of(const DecisionConfig& config);
+ConfigurationText text_of(const LoadFilterConfig& config);
 /// The robot's part of a configuration. Estimators that use kinematics have all of it or a part.
 ConfigurationText text_of(const LegGeometry& geometry);
 
@@ -26,6 +28,7 @@ void configure(PhaseFilterConfig& config, const ConfigurationText& text);
 void configure(NeuralEstimatorConfig& config, const ConfigurationText& text);
 void configure(ForceKinematicsConfig& config, const ConfigurationText& text);
 void configure(DecisionConfig& config, const ConfigurationText& text);
+void configure(LoadFilterConfig& config, const ConfigurationText& text);
 
 /// The bounds of the robot's signals in a configuration, keys "bounds.velocity" and so on; the
 /// defaults where it has none. Errors: `InputError` for values that are no bounds.

@@ -98,6 +98,17 @@ Recipe of_phases(std::string_view name) {
   return recipe_of<PhaseFilter, phase_of>(name, name, PhaseFilterConfig{});
 }
 
+/// The filter of loads has nothing to fit: its model is the robot's geometry, in the metadata.
+Recipe of_geometry(std::string_view name) {
+  return {name, name,
+          [](double /*rate*/, const LegGeometry& legs, bool /*servo_load*/) {
+            return text_of(LoadFilterConfig{.geometry = legs});
+          },
+          [](const Model& /*model*/, const EstimatorSettings& settings) -> Made {
+            return std::make_unique<LoadFilter>(configured(LoadFilterConfig{}, settings));
+          }};
+}
+
 /// An estimator on the features of loads and motions, at one of its operating points. The fit is
 /// the same for all points.
 template <typename Estimator, auto model_of>
@@ -118,6 +129,7 @@ const std::vector<Recipe>& recipes() {
         of_phases("hmm"),
         of_phases("hmm_without_memory"),
         recipe_of<NeuralEstimator, network_of>("nmn", "nmn", NeuralEstimatorConfig{}),
+        of_geometry("load_filter"),
         recipe_of<ForceKinematics, of_parameters<force_kinematics_model_of>>(
             "force_kinematics", "force_kinematics", ForceKinematicsConfig{}),
         of_decisions<DecisionNetwork, decision_model_of>("decision_network", "decision_network",
@@ -214,6 +226,17 @@ ModelArrays arrays_of(std::span<const CompiledArray> model) {
     }
   }
   return arrays;
+}
+
+Model load_filter_model(const LegGeometry& legs, double sample_rate, const std::string& robot) {
+  const std::string name = "load_filter";
+  Model model{.arrays = arrays_of(Parameters{}, name)};
+  model.metadata = ModelMetadata{.estimator = name,
+                                 .sample_rate = sample_rate,
+                                 .robot = robot,
+                                 .configuration = default_configuration(name, sample_rate, legs),
+                                 .fingerprint = {}};
+  return model_of(arrays_of(model));  // with the fingerprint
 }
 
 std::unique_ptr<ContactEstimator> make_estimator(std::span<const CompiledArray> model,

@@ -58,6 +58,10 @@ bool makes_estimator(std::string_view name);
 /// estimator that uses none.
 Model model_for(Model model, const ModelUse& use);
 
+/// The model of `LoadFilter` for a robot: its geometry alone. Errors: `InputError` for a rate that
+/// is not positive.
+Model load_filter_model(const LegGeometry& legs, double sample_rate, const std::string& robot);
+
 /// Whether both estimators use the same fit.
 bool share_fit(std::string_view estimator, std::string_view other);
 

@@ -1,4 +1,5 @@
 #include "estimator/force/force_kinematics_fit.hpp"
+#include "estimator/force/load_filter.hpp"
 #include "estimator/force/support_force.hpp"
 #include "estimator/models/parameters.hpp"
 #include "experiments/estimators/entries.hpp"
@@ -29,6 +30,30 @@ std::unique_ptr<ContactEstimator> make_support_force(const EstimatorEntry& entry
                          .low_pass = entry.chosen("low_pass"),
                          .contact = contact,
                          .release = contact * entry.chosen("release_share")});
+}
+
+std::unique_ptr<ContactEstimator> make_load_filter(const EstimatorEntry& entry,
+                                                   const EstimatorSetup& setup) {
+  return std::make_unique<LoadFilter>(
+      LoadFilterConfig{.sample_rate = setup.sample_rate,
+                       .geometry = setup.legs.value_or(LegGeometry{}),
+                       .lead = entry.chosen("lead"),
+                       .leave_below = entry.chosen("leave_below"),
+                       .return_above = entry.chosen("return_above")});
+}
+
+EstimatorEntry load_filter_entry() {
+  const LoadFilterConfig usual;
+  return {.name = "load_filter",
+          .title = "Load filter",
+          .summary = "Filters each wheel's load, by its leg's equations of motion, with two states",
+          .reason = "data: no labels; any robot, by its file alone",
+          .sensors = all_sensors,
+          .knows = {.geometry = true, .mass = true, .targets = true},
+          .hyperparameters = {between("lead", usual.lead, 0.0, 0.02),
+                              between("leave_below", usual.leave_below, 0.02, 0.6),
+                              between("return_above", usual.return_above, 0.6, 0.995)},
+          .making = {.by_step = make_load_filter}};
 }
 
 /// A threshold on each wheel's load, as teams with wheeled legs use it. It needs no fit.
@@ -68,7 +93,7 @@ EstimatorEntry force_kinematics_entry() {
 }  // namespace
 
 std::vector<EstimatorEntry> force_entries() {
-  return {support_force_entry(), force_kinematics_entry()};
+  return {load_filter_entry(), support_force_entry(), force_kinematics_entry()};
 }
 
 }  // namespace touchdown::experiments

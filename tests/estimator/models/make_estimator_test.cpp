@@ -208,6 +208,25 @@ TEST(Configuration, ReadsOlderFilesOfDecisionNetworks) {
   EXPECT_FALSE(text_of(ForceKinematicsConfig{}).contains("robot_mass"));
 }
 
+TEST(MakeEstimator, MakesALoadFilterOfARobotsGeometryAlone) {
+  LegGeometry legs;
+  legs.upper_length = 0.2;
+  legs.robot_mass = 7.0;
+  legs.knee_armature = 0.003;
+  legs.hip_torque_limit = 9.0;
+  const ModelArrays file = arrays_of(load_filter_model(legs, 1000.0, "other"));
+  LoadFilter expected({.geometry = legs});
+  const std::vector<double> beliefs = beliefs_of(expected);
+  EXPECT_EQ(beliefs_of(*make_estimator(file)), beliefs);
+  EXPECT_EQ(beliefs_of(*make_estimator(file, {.sample_rate = 1000.0, .robot = "other"})), beliefs);
+  EXPECT_THAT(complaint_about(file, {.configuration = {{"speed", "1"}}}), HasSubstr("no 'speed'"));
+  EXPECT_NO_THROW(make_estimator(file, {.sample_rate = 200.0})) << "its constants are in seconds";
+  EXPECT_THAT(complaint_about(file, {.robot = "upkie"}), HasSubstr("'other'"));
+  LoadFilterConfig config;
+  configure(config, metadata_of(file)->configuration);
+  EXPECT_EQ(config.geometry, legs);
+}
+
 TEST(Configuration, KeepsTheWindowsLengthAtAnotherRate) {
   EXPECT_EQ(at_rate(BayesFilterConfig::robust(), 200.0).transition.window, 26);
   EXPECT_EQ(default_configuration("robust", 500.0).at("transition.window"), "64");

@@ -36,6 +36,7 @@ TEST(Registry, StatesWhatEstimatorsAreGiven) {
   EXPECT_EQ(given("boosted_channels", true), given("evidence_curves", true));
   EXPECT_EQ(given("boosted_signals", true), "targets; fitted");
   EXPECT_EQ(given("support_force", true), "geometry");
+  EXPECT_EQ(given("load_filter", false), "geometry, mass, targets");
   EXPECT_EQ(given("free_fall", true), "signals");
   EXPECT_EQ(given("robust", true), "signals; fitted");
   for (const bool servo_load : {false, true}) {  // it has curves with targets and without

@@ -1,0 +1,325 @@
+#include "estimator/force/dynamic_loads.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "estimator/force/servo_law.hpp"
+#include "estimator/low_pass.hpp"
+
+namespace touchdown {
+
+namespace {
+
+constexpr double gravity = 9.81;                 // m/s²
+constexpr double time_constant = 0.003;          // s: of all motion and moments
+constexpr double alignment = 0.0016;             // s: servos low-pass their velocities, not torques
+constexpr double longer_with_noise = 0.001;      // s per m/s² of the accelerometer's noise
+constexpr double most_acceleration_noise = 5.0;  // m/s², for which the low-pass lasts longer
+
+// Errors that do not average out.
+constexpr double torque_error = 0.0033;   // of the joints' torques, as a share of weight × length
+constexpr double servo_share = 0.8;       // of that, by the servos' laws
+constexpr double scale_error = 0.03;      // of the load: scales of torques, masses
+constexpr double model_error = 0.0115;    // a share of the weight
+constexpr double dynamic_error = 0.1;     // of the force that accelerates a leg
+constexpr double forward_error = 0.0095;  // share of the weight: F_x of a leg without a hip
+constexpr double largest_share = 0.25;    // of the weight: the largest known deviation
+
+// Limits of the noise estimates; they are those of sensors, whatever the robot.
+constexpr double noise_gain = 0.01;
+constexpr double warm_up = 0.1;  // s
+
+constexpr double straight = 1e-9;  // m², beside the Jacobian's determinant
+
+double square(double x) noexcept { return x * x; }
+
+}  // namespace
+
+/// In the joints' own signs (N·m).
+struct DynamicLoads::LegTorques {
+  double hip;
+  double knee;
+  double wheel;
+  bool is_wheel_measured = true;
+
+  [[nodiscard]] bool is_known() const noexcept { return std::isfinite(hip + knee + wheel); }
+};
+
+DynamicLoads::DynamicLoads(const LegGeometry& geometry, double sample_rate,
+                           const SignalGuardConfig& guard)
+    : geometry_(geometry),
+      guard_(guard),
+      has_hip_(geometry.has_hip()),
+      rate_(sample_rate),
+      gain_(exact_low_pass_gain(time_constant, sample_rate)),
+      alignment_gain_(exact_low_pass_gain(alignment, sample_rate)),
+      white_(gain_ / (2.0 - gain_)),
+      white_of_change_(2.0 * gain_ * white_ * square(sample_rate)),
+      weight_(gravity * geometry.robot_mass),
+      torque_noise_(0.01, 10.0, noise_gain, warm_up * sample_rate),
+      servo_noise_(0.01, 10.0, noise_gain, warm_up * sample_rate),
+      velocity_noise_(0.001, 10.0, noise_gain, warm_up * sample_rate),
+      acceleration_noise_(0.05, 30.0, noise_gain, warm_up * sample_rate) {
+  const LegGeometry& g = geometry_;
+  const double upper_length = has_hip_ ? g.upper_length : 0.0;
+  const double upper_centre = g.upper_centre * upper_length;
+  const double lower_centre = g.lower_centre * g.lower_length;
+  const double below_knee = g.lower_mass + g.wheel_mass;
+  leg_mass_ = below_knee + (has_hip_ ? g.upper_mass : 0.0);
+  upper_mass_ = g.upper_mass * g.upper_centre + below_knee;
+  lower_mass_ = g.lower_mass * g.lower_centre + g.wheel_mass;
+  upper_inertia_ =
+      g.upper_inertia + g.upper_mass * square(upper_centre) + below_knee * square(upper_length);
+  lower_inertia_ =
+      g.lower_inertia + g.lower_mass * square(lower_centre) + g.wheel_mass * square(g.lower_length);
+  model_variance_ = square(model_error * weight_);
+  const double friction = std::max(g.hip_friction, g.knee_friction);
+  torque_variance_ = square(torque_error * weight_ * (upper_length + g.lower_length)) +
+                     square(friction) / 3.0;  // uniform within ± the friction
+  servo_variance_ = square(servo_share) * torque_variance_;
+  for (const double sigma : acceleration_noise_.levels()) {
+    acceleration_gain_.push_back(exact_low_pass_gain(
+        time_constant + longer_with_noise * std::min(sigma, most_acceleration_noise), sample_rate));
+  }
+}
+
+void DynamicLoads::reset() noexcept {
+  restart();
+  torque_noise_.reset();
+  servo_noise_.reset();
+  velocity_noise_.reset();
+  acceleration_noise_.reset();
+}
+
+void DynamicLoads::restart() noexcept {
+  torso_ = {};
+  leg_ = {};
+  torque_noise_.reset_signals();
+  servo_noise_.reset_signals();
+  velocity_noise_.reset_signals();
+  acceleration_noise_.reset_signals();
+}
+
+DynamicLoads::Loads DynamicLoads::known(const Loads& loads) const noexcept {
+  Loads known;
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (loads[side].deviation <= largest_share * weight_) known[side] = loads[side];
+  }
+  return known;
+}
+
+DynamicLoads::Loads DynamicLoads::update(const Signals& signals, bool has_acceleration) noexcept {
+  const bool has_imu = has_acceleration &&
+                       std::isfinite(signals.time + signals.vertical_acceleration) &&
+                       signals.linear_acceleration.allFinite() && signals.up.allFinite();
+  std::array<bool, 2> has_leg{};
+  std::array<LegTorques, 2> by_servos{};
+  std::array<LegSignals, 2> legs = signals.leg;
+  for (std::size_t side = 0; side < 2; ++side) {
+    LegSignals& leg = legs[side];
+    if (!has_hip_) leg.hip = {};
+    has_leg[side] = is_torque(leg.hip.torque, guard_) && is_torque(leg.knee.torque, guard_) &&
+                    is_torque(leg.wheel.torque, guard_) &&
+                    std::isfinite(leg.hip.position + leg.knee.position) &&
+                    std::isfinite(leg.hip.velocity + leg.knee.velocity + leg.wheel.velocity);
+    by_servos[side] = servo_torques(leg, signals.target[side]);
+  }
+  Loads loads;
+  if (has_imu) {
+    update_torso(signals);
+    const std::array<FootJacobian, 2> feet = foot_jacobians(geometry_, legs);
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (!has_leg[side]) continue;
+      const double elapsed = signals.time - leg_[side].time;
+      if (!(elapsed >= 0.0 && elapsed <= guard_.maximum_gap)) leg_[side] = {};
+      leg_[side].time = signals.time;
+      loads[side] = update_leg(side, legs[side], feet[side], by_servos[side]);
+    }
+  }
+  observe_noise(signals, has_imu, has_leg, by_servos);
+  return loads;
+}
+
+void DynamicLoads::update_torso(const Signals& signals) noexcept {
+  const double elapsed = signals.time - torso_time_;
+  if (!(elapsed >= 0.0 && elapsed <= guard_.maximum_gap)) torso_ = {};
+  torso_time_ = signals.time;
+  const auto in_torso = [](const Eigen::Vector3d& v) -> Eigen::Vector3d {
+    return {-v.x(), v.y(), -v.z()};
+  };
+  // The vertical part is that of the vertical acceleration, so that it alone is enough.
+  const Eigen::Vector3d& linear = signals.linear_acceleration;
+  const double vertical = gravity + signals.vertical_acceleration - signals.up.dot(linear);
+  torso_.specific_force.update(in_torso(linear + vertical * signals.up),
+                               acceleration_gain_[acceleration_noise_.level()]);
+  // Rotation is a small part: without a gyroscope, the torso is taken not to turn.
+  const bool has_turn = signals.angular_velocity.allFinite();
+  const Eigen::Vector3d turn = has_turn ? signals.angular_velocity : Eigen::Vector3d(0, 0, 0);
+  torso_.turn.update(in_torso(turn), gain_);
+  torso_.turn_acceleration = rate_ * torso_.turn.change;
+  torso_.up = {-signals.up.x(), -signals.up.z()};
+}
+
+DynamicLoads::LegTorques DynamicLoads::servo_torques(const LegSignals& leg,
+                                                     const LegTargets& target) const noexcept {
+  const auto limited = [](double torque, double limit) {  // NaN stays
+    return torque > limit ? limit : torque < -limit ? -limit : torque;
+  };
+  const double hip = has_hip_ ? servo_torque(leg.hip, target.hip, guard_) : 0.0;
+  // Wheels are driven by velocity: a position that is not given has no part in their law.
+  JointTarget of_wheel = target.wheel;
+  if (!std::isfinite(of_wheel.position)) of_wheel.position = leg.wheel.position;
+  const double wheel = servo_torque(leg.wheel, of_wheel);
+  const bool is_wheel_known = std::isfinite(wheel);
+  return {limited(hip, geometry_.hip_torque_limit),
+          limited(servo_torque(leg.knee, target.knee, guard_), geometry_.knee_torque_limit),
+          is_wheel_known ? limited(wheel, geometry_.wheel_torque_limit) : leg.wheel.torque,
+          !is_wheel_known};
+}
+
+void DynamicLoads::update_moments(Moments& moments, const LegTorques& torque, const LegSignals& leg,
+                                  double sign) const noexcept {
+  const double hip = torque.hip - geometry_.hip_viscous * leg.hip.velocity;
+  const double knee = torque.knee - geometry_.knee_viscous * leg.knee.velocity;
+  const double wheel = torque.wheel - geometry_.wheel_viscous * leg.wheel.velocity;
+  moments.aligned.update(sign * Eigen::Vector2d(knee - hip, -knee - wheel), alignment_gain_);
+  moments.value.update(moments.aligned.value, gain_);
+}
+
+/// A leg's links in its plane, forward and upward (m).
+struct DynamicLoads::Links {
+  Eigen::Vector2d upper;  ///< L₁ e₁; none without a hip
+  Eigen::Vector2d lower;  ///< L₂ e₂
+  double determinant;
+};
+
+/// F_z = upper (h₁ − τ₁ + τ₂) + lower (h₂ − τ₂ − τ_w) + offset.
+struct DynamicLoads::Levers {
+  double upper = 0.0;            ///< 1/m
+  double lower = 0.0;            ///< 1/m
+  double offset = 0.0;           ///< N
+  double offset_variance = 0.0;  ///< N²
+  Eigen::Vector2d by_force;      ///< F_z per specific force of the hip (kg)
+};
+
+DynamicLoads::Levers DynamicLoads::levers(const Links& links,
+                                          const Eigen::Vector2d& force) const noexcept {
+  const Eigen::Vector2d& up = torso_.up;
+  Levers levers;
+  if (has_hip_) {
+    const double per_area = 1.0 / (links.determinant + std::copysign(straight, links.determinant));
+    levers.upper = (links.lower.y() * up.x() - links.lower.x() * up.y()) * per_area;
+    levers.lower = (links.upper.x() * up.y() - links.upper.y() * up.x()) * per_area;
+    levers.by_force =
+        levers.upper * upper_mass_ * links.upper + levers.lower * lower_mass_ * links.lower;
+    return levers;
+  }
+  // One equation for two components: the forward one accelerates half of the robot.
+  const Eigen::Vector2d forward(up.y(), -up.x());
+  const double along = links.lower.dot(up);
+  levers.lower = 1.0 / (along + std::copysign(straight, along));
+  const double slope = levers.lower * links.lower.dot(forward);
+  const Eigen::Vector2d carried = slope * 0.5 * geometry_.robot_mass * forward;
+  levers.offset = -carried.dot(force);
+  levers.offset_variance = square(forward_error * weight_ * slope);
+  levers.by_force = levers.lower * lower_mass_ * links.lower - carried;
+  return levers;
+}
+
+WheelLoad DynamicLoads::update_leg(std::size_t side, const LegSignals& signals,
+                                   const FootJacobian& foot, const LegTorques& by_servos) noexcept {
+  Leg& leg = leg_[side];
+  const double sign = side == 0 ? 1.0 : -1.0;
+  const double upper_rate = sign * signals.hip.velocity;
+  leg.rate.update(
+      {upper_rate, upper_rate + sign * signals.knee.velocity, sign * signals.wheel.velocity},
+      gain_);
+  update_moments(leg.by_torques, {signals.hip.torque, signals.knee.torque, signals.wheel.torque},
+                 signals, sign);
+
+  // The hip's specific force (m/s²): s + ω̇ × r + ω × (ω × r).
+  const Eigen::Vector3d& turn = torso_.turn.value;
+  const Eigen::Vector3d arm(geometry_.hip_forward, sign * geometry_.leg_sideways,
+                            geometry_.hip_upward);
+  const Eigen::Vector3d of_hip = torso_.specific_force.value + torso_.turn_acceleration.cross(arm) +
+                                 turn.cross(turn.cross(arm));
+  const Eigen::Vector2d force(of_hip.x(), of_hip.z());
+
+  // h₁ and h₂. The links turn about −y, with the torso.
+  Links links = {{foot.upper_x, foot.upper_z}, {foot.lower_x, foot.lower_z}, foot.determinant()};
+  if (!has_hip_) links.upper.setZero();
+  const Eigen::Vector3d acceleration = rate_ * leg.rate.change;
+  const double of_knee = acceleration[1] - acceleration[0];
+  const double upper_turn = acceleration[0] - torso_.turn_acceleration.y();
+  const double lower_turn = acceleration[1] - torso_.turn_acceleration.y();
+  const double coupling = lower_mass_ * links.upper.dot(links.lower);
+  const double centrifugal = has_hip_ ? lower_mass_ * links.determinant : 0.0;
+  const double of_upper =
+      upper_mass_ * links.upper.dot(force) + upper_inertia_ * upper_turn + coupling * lower_turn -
+      centrifugal * square(leg.rate.value[1] - turn.y()) +
+      geometry_.hip_armature * acceleration[0] - geometry_.knee_armature * of_knee;
+  const double of_lower =
+      lower_mass_ * links.lower.dot(force) + lower_inertia_ * lower_turn + coupling * upper_turn +
+      centrifugal * square(leg.rate.value[0] - turn.y()) + geometry_.knee_armature * of_knee +
+      geometry_.wheel_armature * acceleration[2];
+
+  const Levers by = levers(links, force);
+  const auto solved = [&](const Moments& moments) {
+    return by.upper * (of_upper + moments.value.value[0]) +
+           by.lower * (of_lower + moments.value.value[1]) + by.offset;
+  };
+  const double by_hip = by.upper * (upper_inertia_ + coupling + geometry_.hip_armature) +
+                        by.lower * (lower_inertia_ + coupling);
+  const double by_knee = by.upper * (coupling - geometry_.knee_armature) +
+                         by.lower * (lower_inertia_ + geometry_.knee_armature);
+  const double gain = acceleration_gain_[acceleration_noise_.level()];
+  const double lift = links.upper.y() * upper_turn + links.lower.y() * lower_turn;  // of the axle
+  const double common =
+      gain / (2.0 - gain) * square(acceleration_noise_.sigma()) * by.by_force.squaredNorm() +
+      white_of_change_ * square(velocity_noise_.sigma()) * (square(by_hip) + square(by_knee)) +
+      square(dynamic_error * leg_mass_ * lift) + model_variance_ + by.offset_variance;
+  const double arms = square(by.upper) + square(by.upper - by.lower) + square(by.lower);
+  const double of_torques = white_ * square(torque_noise_.sigma());
+  const double variance = arms * (of_torques + torque_variance_) + common;
+  const auto load = [](double vertical, double own) {
+    return WheelLoad{vertical, std::sqrt(own + square(scale_error * vertical))};
+  };
+  if (!by_servos.is_known()) {
+    leg.by_servos = {};
+    return load(solved(leg.by_torques), variance);
+  }
+  update_moments(leg.by_servos, by_servos, signals, sign);
+  const double servo_variance =
+      arms * (white_ * square(servo_noise_.sigma()) + servo_variance_) +
+      (by_servos.is_wheel_measured ? square(by.lower) * of_torques : 0.0) + common;
+  const double share = servo_variance / (variance + servo_variance);
+  return load(share * solved(leg.by_torques) + (1.0 - share) * solved(leg.by_servos),
+              std::min(variance, servo_variance));
+}
+
+void DynamicLoads::observe_noise(const Signals& signals, bool has_imu,
+                                 const std::array<bool, 2>& has_leg,
+                                 const std::array<LegTorques, 2>& by_servos) noexcept {
+  std::array<double, 4> torque;
+  std::array<double, 4> servo;
+  std::array<double, 4> velocity;
+  torque.fill(std::nan(""));
+  servo = velocity = torque;
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (!has_leg[side]) continue;
+    const LegSignals& leg = signals.leg[side];
+    torque[2 * side + 1] = leg.knee.torque;
+    servo[2 * side + 1] = by_servos[side].knee;
+    velocity[2 * side + 1] = leg.knee.velocity;
+    if (!has_hip_) continue;
+    torque[2 * side] = leg.hip.torque;
+    servo[2 * side] = by_servos[side].hip;
+    velocity[2 * side] = leg.hip.velocity;
+  }
+  torque_noise_.update(torque);
+  servo_noise_.update(servo);
+  velocity_noise_.update(velocity);
+  acceleration_noise_.update({has_imu ? signals.vertical_acceleration : std::nan("")});
+}
+
+}  // namespace touchdown
