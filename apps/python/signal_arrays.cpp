@@ -56,8 +56,8 @@ bool is_derived(const py::object& arrays, const SignalNeeds& needs, const Assemb
   return !arrays.contains("vertical_acceleration") && arrays.contains("orientation");
 }
 
-/// Turns the vectors of the IMU into Upkie's axes, and sets the vertical from its orientation (w x y
-/// z), if there is one. `derives`: also the accelerations, from the one of the IMU.
+/// Turns the vectors of the IMU into Upkie's axes, and sets the vertical from its orientation (w x
+/// y z), if there is one. `derives`: also the accelerations, from the one of the IMU.
 void convert_imu(Signals& signals, const std::optional<std::array<double, 4>>& orientation,
                  bool derives, const AssemblyConfig& config) {
   RobotRecord record{.angular_velocity = signals.angular_velocity,
