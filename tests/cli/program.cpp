@@ -53,7 +53,7 @@ void end_as_program(const std::string& command, const std::filesystem::path& fol
 }  // namespace
 
 Ended ProgramFolder::run(const std::string& arguments) const {
-  if (has_threads()) return execute(arguments);
+  if (executes_ || has_threads()) return execute(arguments);
   build_fingerprint();  // known to all children
   std::fflush(nullptr);
   const pid_t process = ::fork();

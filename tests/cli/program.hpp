@@ -22,6 +22,9 @@ struct Refusal {
 /// An empty folder in which tests run the `touchdown` of this build.
 class ProgramFolder : public ScratchFolder {
  public:
+  /// With `executes`, `run` executes the program, for tests that stop and continue what it saves.
+  explicit ProgramFolder(bool executes = false) : executes_(executes) {}
+
   /// Calls the program's function in a process of its own, which saves the time to load libraries.
   /// Its saved state is that of another build than the program's. Arguments that need a shell,
   /// because they redirect streams, are executed.
@@ -41,12 +44,17 @@ class ProgramFolder : public ScratchFolder {
   /// for all tests that ask for the same `name`.
   void fill(const std::string& name, const std::function<void(const ProgramFolder&)>& make) const;
   bool has(const std::string& name) const { return std::filesystem::exists(*this / name); }
+
+ private:
+  bool executes_;
 };
 
 /// Each test has a folder of its own.
 class InFolder : public ::testing::Test {
  protected:
-  const ProgramFolder folder_{};
+  explicit InFolder(bool executes = false) : folder_(executes) {}
+
+  const ProgramFolder folder_;
 };
 
 /// Writes an experiment that takes about a second, and its scenarios, into the folder; returns its

@@ -9,8 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/cli/program.hpp"
 #include "tests/cli/result_files.hpp"
-#include "tests/cli/started_program.hpp"
 
 namespace touchdown::cli {
 namespace {
@@ -46,6 +46,8 @@ std::size_t files_written(const fs::path& folder) {
 
 /// A folder with the tiny experiment.
 struct Restart : InFolder {
+  Restart() : InFolder(true) {}
+
   const std::string run = "run " + write_tiny_experiment(folder_) + " --out ";
   const std::string run_without_pictures = "run tiny.yaml --no-pictures --out ";
 };
