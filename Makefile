@@ -104,9 +104,9 @@ faults: configure-nightly ## Let each system call fail, fill the disk, kill the 
 package: build/package/build.ninja ## Build a Debian package that needs no compiler: build/package/touchdown_*.deb
 	cmake --build --preset package --parallel $(JOBS) --target package
 
-lint: lint-packages ## Check formatting, shell scripts, and every source with clang-tidy
+lint: lint-packages ## Check formatting, shell scripts, and with clang-tidy every source, or those changed SINCE a date
 	@cmake --preset lint >/dev/null
-	@JOBS=$(JOBS) scripts/lint.sh build/lint
+	@JOBS=$(JOBS) scripts/lint.sh build/lint $(if $(SINCE),'$(SINCE)')
 
 format: ## Format every source file
 	@scripts/install_packages.sh lint

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""tidy.py <compile_commands.json> [path prefix...]: clang-tidy over every source that the build compiles.
+"""tidy.py <compile_commands.json> [path...]: clang-tidy over every source that the build compiles, or over
+those sources and headers that the paths, or folders, name.
 
 clang-tidy spends most of a file's time in headers of libraries, again for every file. So files are
 checked together, as one translation unit that includes them, with all of their options. Files that do
@@ -129,13 +130,18 @@ def warnings_of(flags, files, unit):
     return warnings + "\n" if done.returncode else ""
 
 
-def groups_of(commands, prefixes):
-    """Groups of files that can be checked together: their joined options, and the sorted files."""
+def groups_of(commands, paths):
+    """Groups of files that can be checked together: their joined options, and the sorted files. A header has the
+    options of the first source of its folder."""
     groups = []
+    headers = {path for path in paths if path.endswith(".hpp")}
     for entry in commands:
         flags = flags_of(entry)
-        files = {file for file in sources_of(entry)
-                 if file.startswith(prefixes) and not file.startswith(entry["directory"] + os.sep)}
+        sources = [file for file in sources_of(entry) if not file.startswith(entry["directory"] + os.sep)]
+        folders = {os.path.dirname(file) for file in sources}
+        files = {file for file in sources if file.startswith(paths)}
+        files |= {header for header in headers if os.path.dirname(header) in folders}
+        headers -= files
         if not files:
             continue
         for theirs, members in groups:
@@ -150,8 +156,8 @@ def groups_of(commands, prefixes):
 
 def main():
     commands = json.loads(pathlib.Path(sys.argv[1]).read_text())
-    prefixes = tuple(os.path.abspath(path) for path in sys.argv[2:]) or ("/",)
-    batches = [(flags, batch) for flags, files in groups_of(commands, prefixes) for batch in batches_of(files)]
+    paths = tuple(os.path.abspath(path) for path in sys.argv[2:]) or ("/",)
+    batches = [(flags, batch) for flags, files in groups_of(commands, paths) for batch in batches_of(files)]
     batches.sort(key=lambda batch: -len(batch[1]))  # the long ones first
     jobs = int(os.environ.get("JOBS") or os.cpu_count())
     # Beside the sources, where clang-tidy looks for its configuration.

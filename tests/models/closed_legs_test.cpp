@@ -1,4 +1,6 @@
 #include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "estimator/force/linkage.hpp"
 #include "models/robot_model.hpp"

@@ -2,6 +2,8 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "models/robot_model.hpp"
 #include "models/stance.hpp"

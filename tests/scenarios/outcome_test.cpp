@@ -1,3 +1,6 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include "simulators/registry.hpp"
 #include "tests/scenarios/runs.hpp"
 

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"

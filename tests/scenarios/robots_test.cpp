@@ -2,6 +2,9 @@
 #include <cmath>
 #include <regex>
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include "core/files.hpp"
 #include "core/resources.hpp"
 #include "logs/log/recording_file.hpp"

@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <limits>
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include "simulators/registry.hpp"
 #include "tests/scenarios/runs.hpp"
 

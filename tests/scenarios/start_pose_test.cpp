@@ -1,5 +1,8 @@
 #include "scenarios/start_pose.hpp"
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include "models/resizing.hpp"
 #include "tests/complaint.hpp"
 #include "tests/scenarios/runs.hpp"

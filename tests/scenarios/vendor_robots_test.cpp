@@ -3,6 +3,8 @@
 #include <regex>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "core/files.hpp"
 #include "scenarios/robot_check.hpp"

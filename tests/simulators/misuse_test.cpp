@@ -1,3 +1,6 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include "tests/complaint.hpp"
 #include "tests/simulators/upkie.hpp"
 
