@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "estimator/force/servo_law.hpp"
 #include "estimator/low_pass.hpp"
@@ -40,7 +41,6 @@ struct DynamicLoads::LegTorques {
   double hip;
   double knee;
   double wheel;
-  bool is_wheel_measured = true;
 
   [[nodiscard]] bool is_known() const noexcept { return std::isfinite(hip + knee + wheel); }
 };
@@ -56,8 +56,8 @@ DynamicLoads::DynamicLoads(const LegGeometry& geometry, double sample_rate,
       white_(gain_ / (2.0 - gain_)),
       white_of_change_(2.0 * gain_ * white_ * square(sample_rate)),
       weight_(gravity * geometry.robot_mass),
-      torque_noise_(0.01, 10.0, noise_gain, warm_up * sample_rate),
-      servo_noise_(0.01, 10.0, noise_gain, warm_up * sample_rate),
+      torque_noise_(NoiseEstimate<2>(0.01, 10.0, noise_gain, warm_up * sample_rate)),
+      servo_noise_(torque_noise_),
       velocity_noise_(0.001, 10.0, noise_gain, warm_up * sample_rate),
       acceleration_noise_(0.05, 30.0, noise_gain, warm_up * sample_rate) {
   const LegGeometry& g = geometry_;
@@ -81,6 +81,20 @@ DynamicLoads::DynamicLoads(const LegGeometry& geometry, double sample_rate,
     acceleration_gain_.push_back(exact_low_pass_gain(
         time_constant + longer_with_noise * std::min(sigma, most_acceleration_noise), sample_rate));
   }
+}
+
+void DynamicLoads::JointNoise::update(const std::array<LegTorques, 2>& torque) noexcept {
+  hip.update({torque[0].hip, torque[1].hip});
+  knee.update({torque[0].knee, torque[1].knee});
+  wheel.update({torque[0].wheel, torque[1].wheel});
+}
+
+void DynamicLoads::JointNoise::reset() noexcept {
+  for (NoiseEstimate<2>* of : {&hip, &knee, &wheel}) of->reset();
+}
+
+void DynamicLoads::JointNoise::reset_signals() noexcept {
+  for (NoiseEstimate<2>* of : {&hip, &knee, &wheel}) of->reset_signals();
 }
 
 void DynamicLoads::reset() noexcept {
@@ -124,6 +138,7 @@ DynamicLoads::Loads DynamicLoads::update(const Signals& signals, bool has_accele
                     std::isfinite(leg.hip.velocity + leg.knee.velocity + leg.wheel.velocity);
     by_servos[side] = servo_torques(leg, signals.target[side]);
   }
+  has_targets_ = by_servos[0].is_known() && by_servos[1].is_known();
   Loads loads;
   if (has_imu) {
     update_torso(signals);
@@ -170,11 +185,9 @@ DynamicLoads::LegTorques DynamicLoads::servo_torques(const LegSignals& leg,
   JointTarget of_wheel = target.wheel;
   if (!std::isfinite(of_wheel.position)) of_wheel.position = leg.wheel.position;
   const double wheel = servo_torque(leg.wheel, of_wheel);
-  const bool is_wheel_known = std::isfinite(wheel);
   return {limited(hip, geometry_.hip_torque_limit),
           limited(servo_torque(leg.knee, target.knee, guard_), geometry_.knee_torque_limit),
-          is_wheel_known ? limited(wheel, geometry_.wheel_torque_limit) : leg.wheel.torque,
-          !is_wheel_known};
+          std::isfinite(wheel) ? limited(wheel, geometry_.wheel_torque_limit) : leg.wheel.torque};
 }
 
 void DynamicLoads::update_moments(Moments& moments, const LegTorques& torque, const LegSignals& leg,
@@ -278,9 +291,12 @@ WheelLoad DynamicLoads::update_leg(std::size_t side, const LegSignals& signals,
       gain / (2.0 - gain) * square(acceleration_noise_.sigma()) * by.by_force.squaredNorm() +
       white_of_change_ * square(velocity_noise_.sigma()) * (square(by_hip) + square(by_knee)) +
       square(dynamic_error * leg_mass_ * lift) + model_variance_ + by.offset_variance;
-  const double arms = square(by.upper) + square(by.upper - by.lower) + square(by.lower);
-  const double of_torques = white_ * square(torque_noise_.sigma());
-  const double variance = arms * (of_torques + torque_variance_) + common;
+  const auto of_joints = [&](const JointNoise& noise, double systematic) {
+    return square(by.upper) * (white_ * square(noise.hip.sigma()) + systematic) +
+           square(by.upper - by.lower) * (white_ * square(noise.knee.sigma()) + systematic) +
+           square(by.lower) * (white_ * square(noise.wheel.sigma()) + systematic);
+  };
+  const double variance = of_joints(torque_noise_, torque_variance_) + common;
   const auto load = [](double vertical, double own) {
     return WheelLoad{vertical, std::sqrt(own + square(scale_error * vertical))};
   };
@@ -289,9 +305,7 @@ WheelLoad DynamicLoads::update_leg(std::size_t side, const LegSignals& signals,
     return load(solved(leg.by_torques), variance);
   }
   update_moments(leg.by_servos, by_servos, signals, sign);
-  const double servo_variance =
-      arms * (white_ * square(servo_noise_.sigma()) + servo_variance_) +
-      (by_servos.is_wheel_measured ? square(by.lower) * of_torques : 0.0) + common;
+  const double servo_variance = of_joints(servo_noise_, servo_variance_) + common;
   const double share = servo_variance / (variance + servo_variance);
   return load(share * solved(leg.by_torques) + (1.0 - share) * solved(leg.by_servos),
               std::min(variance, servo_variance));
@@ -300,24 +314,23 @@ WheelLoad DynamicLoads::update_leg(std::size_t side, const LegSignals& signals,
 void DynamicLoads::observe_noise(const Signals& signals, bool has_imu,
                                  const std::array<bool, 2>& has_leg,
                                  const std::array<LegTorques, 2>& by_servos) noexcept {
-  std::array<double, 4> torque;
-  std::array<double, 4> servo;
-  std::array<double, 4> velocity;
-  torque.fill(std::nan(""));
-  servo = velocity = torque;
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  std::array<LegTorques, 2> by_torques;
+  std::array<LegTorques, 2> laws;
+  std::array<double, 4> velocity{nan, nan, nan, nan};
+  by_torques.fill({nan, nan, nan});
+  laws = by_torques;
   for (std::size_t side = 0; side < 2; ++side) {
     if (!has_leg[side]) continue;
     const LegSignals& leg = signals.leg[side];
-    torque[2 * side + 1] = leg.knee.torque;
-    servo[2 * side + 1] = by_servos[side].knee;
+    by_torques[side] = {has_hip_ ? leg.hip.torque : nan, leg.knee.torque, leg.wheel.torque};
+    laws[side] = by_servos[side];
+    if (!has_hip_) laws[side].hip = nan;
+    velocity[2 * side] = has_hip_ ? leg.hip.velocity : nan;
     velocity[2 * side + 1] = leg.knee.velocity;
-    if (!has_hip_) continue;
-    torque[2 * side] = leg.hip.torque;
-    servo[2 * side] = by_servos[side].hip;
-    velocity[2 * side] = leg.hip.velocity;
   }
-  torque_noise_.update(torque);
-  servo_noise_.update(servo);
+  torque_noise_.update(by_torques);
+  servo_noise_.update(laws);
   velocity_noise_.update(velocity);
   acceleration_noise_.update({has_imu ? signals.vertical_acceleration : std::nan("")});
 }

@@ -43,6 +43,8 @@ class DynamicLoads {
   /// load with a large deviation. `has_acceleration`: the guard's verdict on it.
   Loads update(const Signals& signals, bool has_acceleration = true) noexcept;
 
+  /// Whether the last step had the load by the servos' laws, of both legs.
+  [[nodiscard]] bool has_targets() const noexcept { return has_targets_; }
   /// The loads as beliefs report them: NaN instead of those with a deviation beyond a quarter of
   /// the robot's weight.
   [[nodiscard]] Loads known(const Loads& loads) const noexcept;
@@ -86,6 +88,15 @@ class DynamicLoads {
     double time = 0.0;  ///< of the last usable signals (s)
   };
   struct LegTorques;
+  /// White noise of both legs' joints of a kind (N·m): sensors of joints may differ.
+  struct JointNoise {
+    NoiseEstimate<2> hip, knee, wheel;
+
+    explicit JointNoise(const NoiseEstimate<2>& alike) : hip(alike), knee(alike), wheel(alike) {}
+    void update(const std::array<LegTorques, 2>& torque) noexcept;
+    void reset() noexcept;
+    void reset_signals() noexcept;
+  };
   struct Links;
   struct Levers;
 
@@ -120,12 +131,13 @@ class DynamicLoads {
   double servo_variance_;  ///< N²·m²
   /// Of the low-pass of the acceleration, which lasts longer with more noise, by noise level.
   std::vector<double> acceleration_gain_;
-  NoiseEstimate<4> torque_noise_;    ///< of hips and knees (N·m)
-  NoiseEstimate<4> servo_noise_;     ///< of their torques by the servos' laws (N·m)
+  JointNoise torque_noise_;          ///< as measured
+  JointNoise servo_noise_;           ///< by the servos' laws
   NoiseEstimate<4> velocity_noise_;  ///< rad/s
   NoiseEstimate<1> acceleration_noise_;
   Torso torso_;
   double torso_time_ = 0.0;
+  bool has_targets_ = false;
   std::array<Leg, 2> leg_;
 };
 

@@ -71,6 +71,31 @@ TEST(DynamicLoad, HasADeviationInProportionToLargeTorqueNoise) {
   EXPECT_LT(held_loads<LoadFilter>({.torque_noise = 1.4, .has_targets = true})[0].deviation, half);
 }
 
+TEST(DynamicLoad, HasTheDeviationOfItsErrorsWhicheverJointsAreNoisy) {
+  constexpr double quiet = 0.002;
+  for (const std::array<double, 3>& noisy :
+       {std::array{1.0, quiet, quiet}, std::array{quiet, 1.0, quiet}, std::array{quiet, quiet, 1.0},
+        std::array{quiet, 1.0, 1.0}, std::array{1.0, 0.5, 0.25}}) {
+    double squares = 0.0;
+    double variance = 0.0;
+    for (int steps = 600; steps < 900; steps += 10) {
+      LoadFilter estimator;
+      const Belief belief = held(estimator, {.torque_noise = 0.6, .noisy = noisy}, steps);
+      for (const WheelBelief& wheel : belief.wheel) {
+        squares += std::pow(wheel.load.force - 26.0, 2);
+        variance += std::pow(wheel.load.deviation, 2);
+      }
+    }
+    EXPECT_NEAR(std::sqrt(squares / variance), 1.0, 0.35)
+        << noisy[0] << " " << noisy[1] << " " << noisy[2];
+  }
+  // The servos' laws know the load whatever the noise of torque sensors.
+  EXPECT_LT(held_loads<LoadFilter>(
+                {.torque_noise = 4.0, .noisy = {quiet, 1.0, 1.0}, .has_targets = true})[0]
+                .deviation,
+            3.0);
+}
+
 TEST(DynamicLoad, IsUnknownWhileSignalsAreUnusable) {
   LoadFilter estimator;
   held(estimator, {});

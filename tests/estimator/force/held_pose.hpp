@@ -21,6 +21,8 @@ struct HeldPose {
   double right = 26.0;  ///< likewise
   double acceleration = 0.0;
   double torque_noise = 0.001;  ///< of the sensors (N·m); never zero, so that none is frozen
+  /// The shares of it that hips, knees and wheels have.
+  std::array<double, 3> noisy = {1.0, 1.0, 1.0};
   bool has_targets = false;
 };
 
@@ -46,8 +48,9 @@ inline Belief held(ContactEstimator& estimator, const HeldPose& pose, int steps 
     for (std::size_t i = 0; i < 2; ++i) {
       LegSignals& leg = signals.leg[i];
       if (pose.has_targets) signals.target[i] = targets_of(leg);
-      for (JointSignals* joint : {&leg.hip, &leg.knee, &leg.wheel}) {
-        joint->torque += pose.torque_noise * normal();
+      const std::array<JointSignals*, 3> joints = {&leg.hip, &leg.knee, &leg.wheel};
+      for (std::size_t j = 0; j < joints.size(); ++j) {
+        joints[j]->torque += pose.torque_noise * pose.noisy[j] * normal();
       }
     }
     belief = estimator.update(signals);
