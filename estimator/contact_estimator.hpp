@@ -32,8 +32,8 @@ enum class SignalStatus : int {
   invalid,  ///< a signal that is NaN or beyond its bound: the belief relaxed towards the prior
   gap,      ///< time jumped: the window restarted and the belief relaxed
   frozen,   ///< a sensor repeated itself to the bit: the belief relaxed
-  /// The step was used, but the model's load by the servo law was muted: targets are missing, or
-  /// gains are zero.
+  /// The step was used, but without the load by the servos' laws: targets are missing, or gains are
+  /// zero.
   degraded,
 };
 
@@ -100,20 +100,8 @@ struct Evidence {
     double p_landing = unknown;                  ///< P(S_t = C | S_t−1 = ¬C)
   };
 
-  /// What each input of an additive model adds to ln P(contact) / P(no contact) of one wheel
-  /// (nats).
-  struct Contributions {
-    double load = unknown;           ///< of the wheel, by the torques and by the servo law
-    double ground_torque = unknown;  ///< of the wheel
-    double axle_motion = unknown;    ///< velocity and acceleration of the wheel's axle
-    double torso = unknown;          ///< vertical acceleration and roll rate
-    double other_leg = unknown;      ///< all inputs of the other leg
-    double offset = unknown;         ///< the bias and the noise levels
-  };
-
   std::array<Measurement, 2> wheel;  ///< left, right
   Transition transition;
-  std::array<Contributions, 2> contributions = {};  ///< left, right
 };
 
 /// The seam for contact estimators. The caller calls `update` once per time step. Neither `reset`

@@ -7,25 +7,20 @@ include(CMakePackageConfigHelpers)
 # Programs include <touchdown/estimator.hpp> or <touchdown/estimator/…>. The headers include each other
 # as "estimator/…".
 set(public
-  c_handle contact_estimator free_fall labelled_run record signal_assembler signal_bounds signal_guard signals stopped_signals
+  c_handle contact_estimator free_fall record signal_assembler signal_bounds signal_guard signals stopped_signals
   torque_channel upkie_observer
   bayes/config bayes/filter bayes/measurement_fit bayes/measurement_model bayes/measurement_only
   bayes/transition_model
-  decision/augmentation decision/config decision/descent decision/draws decision/filter decision/fit
-  decision/network decision/operating_point
-  evidence/curves evidence/filter evidence/fit
-  force/closed_legs force/force_kinematics force/force_kinematics_fit force/leg_geometry force/linkage
-  force/support_force
+  force/closed_legs force/leg_geometry force/linkage force/load_filter
   models/arrays models/make_estimator models/metadata models/model
-  neural/estimator neural/input neural/network
-  phase/config phase/filter phase/fit phase/labels phase/model phase/phase)
+  neural/estimator neural/input neural/network)
 # The headers of types that these hold by value. They are not for programs and may change.
 set(detail
   bayes/noisy_measurement bayes/recursion
-  decision/feature_extractor decision/logit_decision force/load_estimate force/servo_law force/wheel_loads
+  force/dynamic_loads
   neural/forward numerics/axis
   numerics/exponential numerics/noise_estimate
-  numerics/sliding_dft phase/prepared_model)
+  numerics/sliding_dft)
 set(include_dir ${CMAKE_INSTALL_INCLUDEDIR}/touchdown)
 target_include_directories(touchdown_estimator PUBLIC
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
@@ -48,7 +43,6 @@ endforeach()
 # Programs written for version 1.0 include these headers by their former names.
 foreach(renamed assembly/record.hpp=record.hpp assembly/signal_assembler.hpp=signal_assembler.hpp
         c_interface/handle.hpp=c_handle.hpp c_interface/touchdown.h=touchdown.h
-        decision/training.hpp=decision/fit.hpp evidence/training.hpp=evidence/fit.hpp
         models/compiled.hpp=models/make_estimator.hpp)
   string(REPLACE "=" ";" names ${renamed})
   list(GET names 0 former)

@@ -16,7 +16,7 @@ typedef struct touchdown_estimator touchdown_estimator;
 
 /* What the program requires of the model. NULL or 0: no requirement, the model decides. */
 typedef struct touchdown_use {
-  const char* estimator; /* "robust", "phase", … */
+  const char* estimator; /* "load_filter", "robust", … */
   double sample_rate;    /* rate at which the program calls touchdown_update (Hz) */
   const char* robot;     /* "upkie", … */
 } touchdown_use;
@@ -95,7 +95,7 @@ enum touchdown_status {
   TOUCHDOWN_INVALID = 1, /* signals that are NaN or beyond their bounds: the belief relaxes */
   TOUCHDOWN_GAP = 2,     /* time jumped: the belief relaxes to the prior */
   TOUCHDOWN_FROZEN = 3,  /* a sensor repeats itself to the bit: the belief relaxes to the prior */
-  TOUCHDOWN_DEGRADED = 4 /* used, but without servo targets, which the model can use */
+  TOUCHDOWN_DEGRADED = 4 /* used, but without servo targets, which load_filter can use */
 };
 
 /* Faults of a record, one bit each. */
@@ -128,7 +128,8 @@ typedef struct touchdown_belief {
 /* Returns a record to fill in: all its measurements are NaN, the command is 0. */
 touchdown_record touchdown_empty_record(void);
 
-/* Creates an estimator from a model file. `use` may be NULL. The caller destroys the estimator with
+/* Creates an estimator from a model file that `touchdown fit` or `touchdown export` wrote. Without one
+ * (NULL), it is load_filter with Upkie's legs. `use` may be NULL. The caller destroys the estimator with
  * touchdown_destroy. On failure, returns NULL and writes one line with the reason to `error`, which
  * has `error_size` bytes, terminating zero included; `error` may be NULL and `error_size` 0. This
  * function is in the component `models`, as are all that read a file. */
@@ -157,8 +158,8 @@ int touchdown_load_closed_legs(touchdown_estimator* estimator, const char* path,
 touchdown_belief touchdown_update(touchdown_estimator* estimator, const touchdown_record* record);
 
 /* The same with the commands that the servos executed when the record was measured, in the order of
- * its joints: those of the previous step. NULL: not known, as in touchdown_update. Only models with
- * the load by the servo law use them. */
+ * its joints: those of the previous step. NULL: not known, as in touchdown_update. Only load_filter
+ * uses them. */
 touchdown_belief touchdown_update_with_targets(touchdown_estimator* estimator,
                                                const touchdown_record* record,
                                                const touchdown_target targets[6]);

@@ -52,33 +52,13 @@ void evaluate_tasks(const ExperimentContext& context, const std::vector<std::siz
   done.tasks += evaluate_streamed(context, tasks, done);
 }
 
-/// Writes and frees the phase models, which are large, of fits that neither tasks nor pictures need
-/// any more.
-void release_phase_models(const ExperimentContext& context, Computed& done) {
-  const Plan& plan = context.plan;
-  if (!plan.model_tasks.empty()) return;
-  const std::vector<std::string>& engines = context.request.experiment.simulators;
-  for (auto& [key, by_estimator] : done.models) {
-    const bool is_own = std::find(engines.begin(), engines.end(), key) != engines.end();
-    const bool is_pictured = is_own && plan.kept_signals != KeptSignals::none;
-    if (is_pictured || done.pending.needs(key)) continue;
-    for (auto& [estimator, model] : by_estimator) {
-      if (!model.phase) continue;
-      if (!done.is_shard) write_model_of(key, estimator, model, context.directory);
-      model.phase.reset();
-      model.arrays.clear();
-    }
-  }
-  release_free_memory();
-}
-
 }  // namespace
 
 void evaluate_ready(ExperimentContext& context, Computed& done) {
   if (done.streamed.empty()) return;
   const StageTimer timer(context, "evaluate");
   evaluate_tasks(context, done.pending.take_ready(done.models), done);
-  release_phase_models(context, done);
+  release_free_memory();
 }
 
 void evaluate_rest(ExperimentContext& context, Computed& done) {

@@ -58,7 +58,6 @@ Plan whole_plan(const RunRequest& request) {
   for (const Study* study : requested_studies(request.experiment)) study->plan(request, plan);
   plan.kept_signals = kept_signals(request.experiment);
   keep_recordings(request.experiment, plan);
-  require_served(request.experiment, plan);
   require_distinct_runs(plan, request.experiment);
   return plan;
 }

@@ -6,22 +6,12 @@
 #include "core/program.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/fitting/fitting.hpp"
-#include "experiments/plan/training_data.hpp"
+#include "experiments/plan/rollouts.hpp"
 #include "experiments/stages.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
-
-bool is_tested(const std::string& fit, const Rollouts& runs, const Plan& plan) {
-  return std::any_of(runs.begin(), runs.end(), [&](const auto& entry) {
-    const PlannedRun& run = entry.second.plan;
-    if (run.role != RunRole::test) return false;
-    const std::vector<Condition>& conditions = plan.groups[run.group].conditions;
-    return std::any_of(conditions.begin(), conditions.end(),
-                       [&](const Condition& condition) { return condition.fit == fit; });
-  });
-}
 
 /// Simulates the streamed runs of one fit.
 Rollouts simulate_fit(const ExperimentContext& context, const NeededFit& fit,
@@ -70,13 +60,11 @@ void tune_and_fit(ExperimentContext& context, const NeededFit& needed, Computed&
   experiment.simulators = {engine};
   Rollouts streamed = simulate_fit(context, needed, done);
   const Rollouts& runs = streamed.empty() ? done.runs : streamed;
-  const RunPointers whole = whole_fit_runs(runs, engine, fit);
-  const RunPointers segments =
-      training_segments_of(runs, engine, experiment.training_segments, fit);
+  const RunPointers whole = fit_runs_of(runs, engine, fit);
   TunedHyperparameters chosen = chosen_in(done.trials);
   if (experiment.tuning && (fit.empty() || experiment.tuning->everywhere)) {
     const std::vector<Trial> trials =
-        tune(experiment, fit, whole, segments, context.should_continue, context.directory.store());
+        tune(experiment, fit, whole, context.should_continue, context.directory.store());
     chosen = chosen_in(trials);
     done.trials.insert(done.trials.end(), trials.begin(), trials.end());
     std::ranges::stable_sort(done.trials, {}, &Trial::fit);
@@ -91,52 +79,18 @@ void tune_and_fit(ExperimentContext& context, const NeededFit& needed, Computed&
     release_free_memory();
     return context.should_continue();
   };
-  add(0, fit_models(experiment, whole, segments, and_release, chosen));
-  Experiment refitted = experiment;
-  std::erase_if(refitted.estimators, [&](const std::string& estimator) {
-    return estimator_entry(experiment, estimator).is_upper_bound;
-  });
+  add(0, fit_models(experiment, whole, and_release, chosen));
   const auto refits = context.plan.refits.find(fit);
   const int count = refits == context.plan.refits.end() ? 0 : refits->second;
   for (int refit = 1; refit <= count; ++refit) {
-    add(refit, fit_models(refitted, drawn_anew(whole, experiment.seed, refit),
-                          drawn_anew(segments, experiment.seed, refit), and_release, chosen));
+    add(refit,
+        fit_models(experiment, drawn_anew(whole, experiment.seed, refit), and_release, chosen));
   }
   for (auto& [index, run] : streamed) {
     drop_signals(run);
     done.runs.emplace(index, std::move(run));
   }
   release_free_memory();
-}
-
-void fit_training_sets(ExperimentContext& context, const std::vector<NeededFit>& fits,
-                       Computed& done) {
-  const Plan& plan = context.plan;
-  if (plan.training_sets.empty() || fits.empty()) return;
-  const StageTimer timer(context, "fit");
-  Experiment experiment = context.request.experiment;
-  std::erase_if(experiment.simulators, [&](const std::string& engine) {
-    return std::ranges::none_of(fits, [&](const NeededFit& fit) { return fit.engine == engine; });
-  });
-  const TunedHyperparameters chosen = chosen_in(done.trials);
-  const TrainingPieces pieces = training_pieces(done.runs, experiment);
-  experiment.scoring.skip = pieces.skip;
-  for (const auto& [name, size] : plan.training_sets) {
-    if (!is_tested(name, done.runs, plan)) continue;
-    for (int refit = 0; refit <= plan.refits.at(name); ++refit) {
-      const RunPointers set = training_set(
-          refit == 0 ? pieces.runs : drawn_anew(pieces.runs, experiment.seed, refit), size);
-      try {
-        FittedModels of_set = fit_models(experiment, set, {}, context.should_continue, chosen);
-        for (auto& [simulator, by_estimator] : of_set) {
-          done.models.try_emplace(model_key(simulator, name, refit), std::move(by_estimator));
-        }
-      } catch (const InputError& error) {
-        throw InputError(fmt::format("training sets of {}, number {}: {}: expected larger sets",
-                                     size, refit + 1, error.what()));
-      }
-    }
-  }
 }
 
 }  // namespace touchdown::experiments

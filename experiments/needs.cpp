@@ -30,9 +30,6 @@ void add_fitted_runs(const RunRequest& request, double engines, Needs& needs) {
   for (const std::string& file : experiment.fit.scenarios) {
     add_runs(needs, scenario_of(request, file).scenario, engines * experiment.fit.runs, 0.0);
   }
-  for (const TrainingSegments& segments : experiment.training_segments) {
-    add_runs(needs, scenario_of(request, segments.scenario).scenario, engines * segments.runs, 0.0);
-  }
 }
 
 /// Steps of the runs that have signals in memory at once.
@@ -129,7 +126,7 @@ Needs needs_of(const RunRequest& request) {
 KeptSignals kept_signals(const Experiment& experiment) {
   const std::vector<const Study*> studies = requested_studies(experiment);
   if (studies.empty()) return KeptSignals::all;
-  const bool has_pictures = experiment.video.enabled || experiment.detail || experiment.posterior;
+  const bool has_pictures = experiment.video.enabled || experiment.detail;
   KeptSignals kept = has_pictures ? KeptSignals::own : KeptSignals::none;
   for (const Study* study : studies) kept = std::max(kept, study->kept_signals(experiment));
   return kept;

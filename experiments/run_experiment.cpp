@@ -54,7 +54,6 @@ std::optional<ExperimentResult> run_stages(ExperimentContext& context, Computed&
     tune_and_fit(context, fit, done);
     evaluate_ready(context, done);
   }
-  fit_training_sets(context, fits, done);
   evaluate_rest(context, done);
   run_model_tasks(context, done);
   if (done.is_shard) return std::nullopt;

@@ -6,7 +6,6 @@
 #include "core/error.hpp"
 #include "core/program.hpp"
 #include "experiments/config/experiment.hpp"
-#include "experiments/plan/training_data.hpp"
 #include "experiments/stages.hpp"
 
 namespace touchdown::experiments {
@@ -51,35 +50,27 @@ Rollouts hold_rollouts(const ExperimentContext& context, const std::set<std::siz
     runs.emplace(index, Rollout{context.plan.runs[index], {}, {}});
   }
   FitRunCheck check(experiment, context.plan, wanted);
-  SegmentCutter segments(experiment.training_segments, runs);
   for_each_rollout(experiment, context.plan, wanted, context.directory, missing,
                    context.should_continue, [&](std::size_t index, Rollout run) {
                      check.add(run);
                      runs.at(index) = std::move(run);
-                     segments.add(index);
-                     release_free_memory();  // of what is cut off
                    });
   return runs;
 }
 
 FitRunCheck::FitRunCheck(const Experiment& experiment, const Plan& plan,
                          const std::set<std::size_t>& needed) {
-  const bool has_segments = std::ranges::any_of(plan.runs, &PlannedRun::is_of_segments);
   for (const std::string& name : experiment.estimators) {
-    const EstimatorEntry& entry = estimator_entry(experiment, name);
-    const bool has_other_runs = has_segments && entry.fitting.learns_from_segments;
-    if (entry.fits() && !has_other_runs) whole_run_estimators_.push_back(name);
-    if (entry.fitting.phases) phase_estimators_.push_back(name);
-    if (entry.fitting.torques) measurement_estimators_.push_back(name);
+    if (estimator_entry(experiment, name).fits()) fitted_estimators_.push_back(name);
   }
   for (const std::size_t index : needed) {
     const PlannedRun& run = plan.runs[index];
-    if (run.is_of_whole_fit()) ++fits_[{run.fit, run.simulator}].left;
+    if (run.role == RunRole::fit) ++fits_[{run.fit, run.simulator}].left;
   }
 }
 
 void FitRunCheck::add(const Rollout& run) {
-  if (!run.plan.is_of_whole_fit()) return;
+  if (run.plan.role != RunRole::fit) return;
   std::array<bool, 3> own = {};
   if (!run.failed()) {
     const auto& [left, right] = run.signals.contact;
@@ -98,24 +89,20 @@ void FitRunCheck::add(const Rollout& run) {
   if (--runs.left > 0) return;
   const std::string& simulator = run.plan.simulator;
   if (!runs.is_any_usable) {
-    if (whole_run_estimators_.empty()) return;
+    if (fitted_estimators_.empty()) return;
     throw InputError(fmt::format("fit on {}: {}: no run of fit.scenarios stayed upright: {}",
-                                 simulator, fmt::join(whole_run_estimators_, ", "),
+                                 simulator, fmt::join(fitted_estimators_, ", "),
                                  failures_text(runs.failures)));
   }
-  const auto require = [&](bool holds, const std::vector<std::string>& estimators,
-                           const char* missing) {
-    if (holds || estimators.empty()) return;
+  const auto require = [&](bool holds, const char* missing) {
+    if (holds || fitted_estimators_.empty()) return;
     throw InputError(fmt::format("fit on {}: {}: fit.scenarios contain no {}: {}", simulator,
-                                 fmt::join(estimators, ", "), missing,
+                                 fmt::join(fitted_estimators_, ", "), missing,
                                  fmt::join(runs.scenes, ", ")));
   };
   const auto [flight, one_wheel, rolling] = runs.has_contact;
-  require(rolling, phase_estimators_, "rolling on both wheels");
-  require(flight, phase_estimators_,
-          one_wheel ? "flight of both wheels at once, only of one" : "flight");
-  require(rolling || one_wheel, measurement_estimators_, "contact");
-  require(flight || one_wheel, measurement_estimators_, "step without contact");
+  require(rolling || one_wheel, "contact");
+  require(flight || one_wheel, "step without contact");
 }
 
 }  // namespace touchdown::experiments

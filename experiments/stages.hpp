@@ -83,8 +83,7 @@ class StageTimer {
 /// Simulates the runs that are held, or reads their recordings. Errors: those of `FitRunCheck`.
 void simulate(ExperimentContext& context, Computed& done);
 
-/// Simulates runs and holds their signals. Those for training segments hold only their segments.
-/// Errors: those of `FitRunCheck`.
+/// Simulates runs and holds their signals. Errors: those of `FitRunCheck`.
 Rollouts hold_rollouts(const ExperimentContext& context, const std::set<std::size_t>& wanted,
                        MissingRun missing);
 
@@ -93,8 +92,7 @@ void drop_signals(Rollout& run);
 
 /// Notices that fitted runs lack flights or contact as soon as the last of them is simulated, which
 /// is before most test runs are. It cannot be known earlier: whether a robot leaves the ground is a
-/// result of the simulation. It checks the fits of phase and measurement models; the fits
-/// themselves check more.
+/// result of the simulation.
 class FitRunCheck {
  public:
   /// `needed`: the runs that will be simulated, by their index in the plan.
@@ -115,9 +113,7 @@ class FitRunCheck {
     std::map<std::string, std::string> failures = {};  ///< endings by file
   };
 
-  std::vector<std::string> whole_run_estimators_;  ///< fitted, and not to segments
-  std::vector<std::string> phase_estimators_;
-  std::vector<std::string> measurement_estimators_;
+  std::vector<std::string> fitted_estimators_;
   std::map<std::pair<std::string, std::string>, Runs> fits_;  ///< by name of the fit and engine
   std::mutex mutex_;
 };
@@ -137,11 +133,6 @@ std::vector<NeededFit> needed_fits(const ExperimentContext& context, const Compu
 /// Tunes hyperparameters, and makes one fit with its refits. A fit without a tuning of its own uses
 /// the choices of the experiment's own fit. Streamed fitted runs are simulated for it.
 void tune_and_fit(ExperimentContext& context, const NeededFit& fit, Computed& done);
-
-/// The fits to the plan's training sets, each with its refits. Errors: `InputError`, with the size
-/// of the set, when one does not suffice for a fit.
-void fit_training_sets(ExperimentContext& context, const std::vector<NeededFit>& fits,
-                       Computed& done);
 
 // Evaluation
 

@@ -10,7 +10,6 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/terminal_text.hpp"
-#include "estimator/models/parameters.hpp"
 #include "estimator/npz/npz.hpp"
 
 namespace touchdown::logs {

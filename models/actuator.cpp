@@ -29,10 +29,6 @@ void describe(Fields& fields, Actuator& actuator) {
       .doc("1/rad", "Frequency of the ripple, as the factor on the joint angle in its sine.");
   fields("torque_error", actuator.torque_error, -0.9, 10.0)
       .doc("Relative error of the servo's torque constant.");
-  fields
-      .if_set(actuator.position_resolution != Actuator{}.position_resolution, "position_resolution",
-              actuator.position_resolution, 0.0, 1.0)
-      .doc("rad", "Step of the reported position, for estimators' load by the servo law.");
 }
 
 }  // namespace touchdown::models

@@ -36,10 +36,6 @@ struct Actuator {
   double ripple = 0.0;                                              ///< amplitude (N·m)
   double ripple_cycles = 1.0;                                       ///< per radian of the joint
   double torque_error = 0.0;  ///< relative error of the servo's torque constant
-  /// Step of the position that the servo reports (rad), for estimators. Sensor profiles simulate
-  /// it.
-  double position_resolution = 6.283e-4;
-
   /// Whether the torque of the servo's law acts on the joint unchanged.
   bool is_ideal() const {
     return friction == 0.0 && load_friction == 0.0 && viscous == 0.0 && torque_lag == 0.0 &&

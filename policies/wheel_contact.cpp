@@ -41,7 +41,7 @@ void describe(Fields& fields, PolicyConfig& policy) {
   fields.choose("law", {"balancer", "soft_landing"}, policy.law).doc("Control law.");
   fields
       .choose("contact",
-              {"upkie_observer", "always", "free_fall", "support_force", "truth", "script"},
+              {"upkie_observer", "always", "free_fall", "load_filter", "truth", "script"},
               policy.contact)
       .doc("Contact source of the law; `truth` is an oracle, `script` repeats recorded contact.");
   fields("delay", policy.delay, 0.0, 1.0).doc("s", "Delay of the contact signal.");

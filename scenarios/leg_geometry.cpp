@@ -152,7 +152,6 @@ LegGeometry leg_geometry(const models::RobotModel& robot) {
           .robot_mass = rounded(mj_getTotalmass(robot.mj.get()), 1e6),
           .hip_friction = has_hip ? hip.friction : 0.0,
           .knee_friction = knee.friction,
-          .position_resolution = std::max(hip.position_resolution, knee.position_resolution),
           .upper_inertia = has_hip ? rounded(inertia_of(links[0], robot, *data, axis), 1e8) : 0.0,
           .lower_inertia = rounded(inertia_of(links[1], robot, *data, axis), 1e8),
           .hip_armature = rounded(of_hip.armature, 1e8),

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "estimator/force/support_force.hpp"
+#include "estimator/force/load_filter.hpp"
 #include "estimator/free_fall.hpp"
 #include "logs/signals_from.hpp"
 #include "models/robot_model.hpp"
@@ -63,10 +63,10 @@ policies::WheelContact named_source(const Scenario& scenario,
   if (name == "free_fall") {
     return contact_from(std::make_shared<FreeFall>(FreeFallConfig{.sample_rate = 1.0 / period}));
   }
-  if (name == "support_force") {
+  if (name == "load_filter") {
     const models::RobotModel robot = models::compile_robot_model(scenario.robot, {});
-    return contact_from(std::make_shared<SupportForce>(
-        SupportForceConfig{.sample_rate = 1.0 / period, .geometry = leg_geometry(robot)}));
+    return contact_from(std::make_shared<LoadFilter>(
+        LoadFilterConfig{.sample_rate = 1.0 / period, .geometry = leg_geometry(robot)}));
   }
   if (name == "truth") return contact_from_truth(simulator);
   throw InputError(fmt::format("policy.contact: unknown contact source '{}'", name));

@@ -2,15 +2,15 @@
 # Chooses the hyperparameters of experiments/benchmark.yaml: scripts/tune_benchmark.sh PROGRAM [FOLDER]
 #
 # Runs the tuning of experiments/benchmark_full.yaml alone, about five minutes of processor time, and copies its
-# choices to experiments/hyperparameters/benchmark.yaml. Upper bounds and the second operating point keep their defaults,
-# shipped models have no hyperparameters. FOLDER keeps the run, which resumes there.
+# choices to experiments/hyperparameters/benchmark.yaml. `load_filter` keeps its constants, because they are one
+# choice for all robots. FOLDER keeps the run, which resumes there.
 set -euo pipefail
 
 program=$(realpath "${1:?the program touchdown}")
 cd "$(dirname "$0")/.."
 run=${2:-$(mktemp -d)/tuning}
 "$program" run experiments/benchmark_full.yaml --out "$run" --no-pictures \
-  --set 'estimators=[robust,measurement_only,paper,phase,hmm,evidence_curves,evidence_curves_quiet,decision_network,force_kinematics,support_force,free_fall,upkie_observer,nmn,nmn_retrained]' \
+  --set 'estimators=[robust,measurement_only,paper,free_fall,upkie_observer,nmn,nmn_retrained]' \
   --set 'benchmark={}' \
   --set 'test.scenarios=[scenarios/kerb.yaml]' --set test.runs=1
 {

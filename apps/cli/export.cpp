@@ -153,7 +153,7 @@ ConfigurationText configuration_of(const std::vector<std::string>& assignments) 
   for (const std::string& one : assignments) {
     const std::size_t equals = one.find('=');
     if (equals == 0 || equals == std::string::npos) {
-      throw InputError(fmt::format("--set: {}: expected NAME=VALUE, as in leave_below=0.25", one));
+      throw InputError(fmt::format("--set: {}: expected NAME=VALUE, as in leave_below=0.05", one));
     }
     configuration[one.substr(0, equals)] = one.substr(equals + 1);
   }
@@ -172,10 +172,21 @@ ModelUse use_of(const ExportFlags& flags) {
   return use;
 }
 
-void export_header(const std::filesystem::path& model, const ExportFlags& flags) {
+/// The model of the file, or the filter of loads of the robot that the file describes.
+Model source_model(const std::filesystem::path& source, const ExportFlags& flags) {
+  const std::string extension = source.extension().string();
+  const bool is_robot = extension == ".xml" || extension == ".urdf" || extension == ".yaml";
+  if (!is_robot) return logs::load_model_for(source, use_of(flags));
+  const experiments::LogRobot robot = experiments::robot_of_file(source.string());
+  constexpr double usual_rate = 1000.0;  // Hz; the filter serves others, too
+  return model_for(load_filter_model(robot.legs.value(), usual_rate, robot.name),
+                   {.configuration = configuration_of(flags.configuration)});
+}
+
+void export_header(const std::filesystem::path& source, const ExportFlags& flags) {
   const std::string name = name_of(flags.output);
-  const std::string text = logs::header_of_model(logs::load_model_for(model, use_of(flags)),
-                                                 model.filename().string(), name);
+  const std::string text =
+      logs::header_of_model(source_model(source, flags), source.filename().string(), name);
   write_atomically(flags.output, text);
   print("header    {}, {:.2f} MB\n", flags.output, 1e-6 * static_cast<double>(text.size()));
   print("next      #include \"{}\"; touchdown::make_estimator(touchdown::compiled::{})\n",
@@ -183,18 +194,20 @@ void export_header(const std::filesystem::path& model, const ExportFlags& flags)
 }
 
 void export_model(const ExportFlags& flags) {
-  const std::filesystem::path model = find_resource(flags.source);
-  check_outputs({{model.string(), "model"}}, {flags.output});
+  const std::filesystem::path source = find_resource(flags.source);
+  check_outputs({{source.string(), source.extension() == ".npz" ? "model" : "robot"}},
+                {flags.output});
   if (std::filesystem::path(flags.output).extension() != ".npz") {
-    return export_header(model, flags);
+    return export_header(source, flags);
   }
-  const Model adapted = logs::load_model_for(model, use_of(flags));
+  const Model adapted = source_model(source, flags);
   logs::save_model(adapted, flags.output);
   const ModelMetadata& metadata = *adapted.metadata;
   print("model     {}, for '{}' at {:.6g} Hz on {}, fingerprint {}\n", flags.output,
         metadata.estimator, metadata.sample_rate, experiments::robot_text(metadata.robot),
         metadata.fingerprint);
-  print("next      touchdown estimate LOG --model {}\n", flags.output);
+  if (source.extension() == ".npz")
+    print("next      touchdown estimate LOG --model {}\n", flags.output);
 }
 
 void export_benchmark(const ExportFlags& flags, const CliSession& session) {
@@ -220,7 +233,8 @@ void export_source(const ExportFlags& flags, const CliSession& session) {
   if (flags.output.empty() == flags.folder.empty()) {
     throw InputError(
         "export: expected either --benchmark DIR, for a benchmark's signals, or -o FILE.hpp or "
-        "FILE.npz, for a model, or --mapping FILE.yaml -o FILE.mpack, for a log in another layout, "
+        "FILE.npz, for a model or a robot, or --mapping FILE.yaml -o FILE.mpack, for a log in "
+        "another layout, "
         "or -o FILE.mcap, for a log in Upkie's layout");
   }
   if (flags.mapping.empty() && !flags.labels.empty()) {
@@ -254,14 +268,15 @@ void add_export(CLI::App& program, const CliSession& session) {
       "touchdown export --benchmark signals experiments/benchmark.yaml\n"
       "touchdown export --benchmark signals runs/benchmark/latest --robot upkie\n"
       "touchdown export model.npz -o model.hpp\n"
-      "touchdown export models/evidence_curves.npz --robot my_robot.xml -o mine.npz\n"
+      "touchdown export my_robot.yaml -o my_robot.hpp\n"
       "touchdown export robot.csv --mapping robot.yaml -o robot.mpack\n"
       "touchdown export rosbag2_2026_03_01/ --mapping robot.yaml -o robot.mpack\n"
       "touchdown export robot.mpack -o robot.mcap\n\n"
       "Exports a benchmark's signals, a model or a log. A benchmark's signals are for an\n"
       "external estimator in any language; `touchdown score` scores its beliefs. A model becomes\n"
-      "a C++ header for a robot without files, or another model file. That file can contain\n"
-      "another robot's leg geometry or other hyperparameters, so that users need not set them.\n"
+      "a C++ header for a robot without files, or another model file, with other\n"
+      "hyperparameters if --set names them. A robot's file becomes the model of its load_filter,\n"
+      "for programs in C and C++.\n"
       "A log of another robot, as CSV, NumPy arrays or a ROS 2 bag, becomes a log in Upkie's\n"
       "layout, which all other commands read. A log in Upkie's layout, with the beliefs of "
       "`estimate`,\n"
@@ -269,10 +284,11 @@ void add_export(CLI::App& program, const CliSession& session) {
   const auto flags = std::make_shared<ExportFlags>();
   verb.option("source", &flags->source,
               "Experiment file with a section `benchmark`, or its run directory; or a model that "
-              "`touchdown fit` wrote; or a log as .csv, .npz or .mpack, or a ROS 2 bag (its "
+              "`touchdown fit` wrote; or a robot's file; or a log as .csv, .npz or .mpack, or a "
+              "ROS 2 bag (its "
               "folder, .mcap "
               "or .db3)")
-      .value_name("RUN_OR_EXPERIMENT_OR_MODEL_OR_LOG")
+      .value_name("RUN_OR_EXPERIMENT_OR_MODEL_OR_ROBOT_OR_LOG")
       .required();
   verb.option("--benchmark", &flags->folder, "New or empty folder for a benchmark's signals")
       .value_name("DIR");
@@ -296,14 +312,13 @@ void add_export(CLI::App& program, const CliSession& session) {
       .between(1.0, 1e6);
   verb.option("--robot", &flags->part.robots,
               "Export only this robot, as the benchmark's table names it. For a model: the robot\n"
-              "that it is for. Its file gives the leg geometry to an estimator that computes "
-              "loads. For\n"
-              "a log as FILE.mcap: the robot to show, if the log does not contain it")
+              "that it is for. For a log as FILE.mcap: the robot to show, if the log does not "
+              "contain it")
       .value_name("NAME|FILE")
       .one_at_a_time();
   verb.option(
           "--set", &flags->configuration,
-          "Export the model with another value of a hyperparameter, for example leave_below=0.25")
+          "Export the model with another value of a hyperparameter, for example leave_below=0.05")
       .value_name("NAME=VALUE")
       .one_at_a_time();
   verb.option("--sensors", &flags->part.sensors,

@@ -12,8 +12,6 @@
 #include "core/error.hpp"
 #include "core/program.hpp"
 #include "core/progress.hpp"
-#include "core/resources.hpp"
-#include "experiments/estimators/entries.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "logs/model_file.hpp"
 
@@ -27,10 +25,9 @@ struct FitFlags {
   std::vector<std::string> no_contact;
   std::vector<std::string> labels;
   std::string output;
-  std::string estimator;
+  std::string estimator = "robust";
   std::vector<std::string> hyperparameters;
   experiments::LogFitConfig config;
-  std::string prior;
   std::string robot;
   bool skips_accuracy = false;
   std::vector<int> grid;
@@ -85,21 +82,8 @@ std::vector<experiments::FitLog> logs_of(const FitFlags& flags) {
   return logs;
 }
 
-bool shapes_densities(const FitFlags& flags) {
-  return !flags.grid.empty() || !flags.bandwidth.empty() || !flags.bandwidth_floor.empty() ||
-         !flags.knee_range.empty() || !flags.wheel_range.empty();
-}
-
-/// Applies the flags for densities to the estimator. Errors: `InputError` for an estimator without
-/// them.
+/// Applies the flags for densities to the estimator.
 void shape_densities(experiments::EstimatorEntry& entry, const FitFlags& flags) {
-  if (!entry.fitting.torques) {
-    if (!shapes_densities(flags)) return;
-    throw InputError(
-        fmt::format("fit: --grid, --bandwidth, --bandwidth-floor, --knee-range and "
-                    "--wheel-range are not for {}",
-                    fmt::format("'{}'", entry.name)));
-  }
   MeasurementFitConfig& fit = entry.fitting.torques->fit;
   if (!flags.grid.empty()) {
     fit.knee_count = flags.grid[0];
@@ -113,14 +97,7 @@ void shape_densities(experiments::EstimatorEntry& entry, const FitFlags& flags) 
   if (!flags.wheel_range.empty()) fit.wheel_range = range_from(flags.wheel_range, "--wheel-range");
 }
 
-/// The estimator to fit: the recommended one, or with flags that shape densities, the recommended
-/// one of those that have them.
-std::string estimator_of(const FitFlags& flags) {
-  if (!flags.estimator.empty()) return flags.estimator;
-  return shapes_densities(flags) ? "robust" : "evidence_curves";
-}
-
-/// "robust, reference, … or phase".
+/// "robust, reference, … or measurement_only".
 std::string fitted_estimators() {
   std::vector<std::string> names;
   for (const experiments::EstimatorEntry& entry : experiments::estimator_entries()) {
@@ -144,31 +121,20 @@ void add_fit_flags(Verb& verb, FitFlags& flags) {
               "start,end,left,right")
       .value_name("FILE.csv");
   verb.option("-o,--output", &flags.output, "Model to write").value_name("FILE.npz").required();
-  verb.option(
-      "--estimator", &flags.estimator,
-      "Estimator: " + fitted_estimators() +
-          " (default: evidence_curves; force_kinematics without a takeoff in the logs; robust with "
-          "flags for densities)");
+  verb.option("--estimator", &flags.estimator, "Estimator: " + fitted_estimators()).shows_default();
   verb.option("--set", &flags.hyperparameters,
               "Run and fit the estimator with another value of a hyperparameter, for example\n"
-              "leave_below=0.25")
+              "threshold=0.6")
       .value_name("NAME=NUMBER")
       .one_at_a_time();
   verb.flag("--no-accuracy", &flags.skips_accuracy,
-            "Leave out the accuracy on left-out logs, which takes five more fits, and that of the\n"
-            "shipped model");
-  verb.option("--prior", &flags.prior,
-              "Model of evidence curves, such as models/evidence_curves.npz: the result is the "
-              "mean of\nboth. The more the logs hold of both classes, the more they weigh")
-      .value_name("FILE.npz");
-  verb.flag("--servo-load", &flags.config.servo_load,
-            "Give networks and evidence curves the load by the laws of the servos: for logs with "
-            "the\ncommands of hips and knees (action.servo)");
+            "Leave out the accuracy on left-out logs, which takes five more fits, and that of\n"
+            "load_filter");
   verb.option(
           "--robot", &flags.robot,
           "Robot that recorded the logs, for the model's metadata (default: that of simulated\n"
-          "logs). Its file gives the leg geometry to estimators that compute loads (default: each\n"
-          "simulated log's own, else Upkie's)")
+          "logs). Its file gives the legs for the checks of labels (default: each simulated log's\n"
+          "own, else Upkie's)")
       .value_name("NAME|FILE");
   verb.option("--skip", &flags.config.skip,
               "Time at the beginning of each log that is not used (s)")
@@ -197,15 +163,12 @@ void add_fit_flags(Verb& verb, FitFlags& flags) {
       .takes(2);
 }
 
-void show_samples(const experiments::LogFitReport& report, bool with_bandwidth) {
+void show_samples(const experiments::LogFitReport& report) {
   for (const bool contact : {true, false}) {
     const std::size_t i = contact ? 1 : 0;
-    print("{:<12} {} samples of both legs", contact ? "contact" : "no contact", report.samples[i]);
-    if (with_bandwidth) {
-      print(", bandwidth {:.4g} N·m (knee), {:.4g} N·m (wheel)", report.bandwidth[i].knee,
-            report.bandwidth[i].wheel);
-    }
-    print("\n");
+    print("{:<12} {} samples of both legs, bandwidth {:.4g} N·m (knee), {:.4g} N·m (wheel)\n",
+          contact ? "contact" : "no contact", report.samples[i], report.bandwidth[i].knee,
+          report.bandwidth[i].wheel);
   }
 }
 
@@ -231,49 +194,18 @@ void show_accuracy(const experiments::EstimatorEntry& entry,
             ? fmt::format("{:.4f} on every other {:g} s by a model of the rest", *accuracy.held_out,
                           experiments::part_length)
             : fmt::format("{:.4f} on each by a model of the others", *accuracy.held_out));
-  if (!accuracy.shipped) return;
-  print("{:<12} balanced accuracy {:.4f} of the shipped model on these logs\n", "",
-        *accuracy.shipped);
+  print("{:<12} balanced accuracy {:.4f} of load_filter, without a fit, on these logs\n", "",
+        accuracy.load_filter);
   print_warnings(accuracy.flights);
   const double own = accuracy.held_out.value_or(accuracy.fitted);
-  if (own >= *accuracy.shipped) return;
-  const std::string shipped = experiments::shipped_file("shipped");
+  if (own >= accuracy.load_filter) return;
   print_message(fmt::format(
-      "touchdown: the shipped model is better on these logs ({:.4f} against {:.4f}): use it{}{}\n",
-      *accuracy.shipped, own,
-      config.prior ? "" : ", or fit evidence_curves with --prior " + shipped,
-      accuracy.held_out && !accuracy.by_parts
-          ? "; unless each log has motions that the others lack, which makes the comparison unfair"
-          : ""));
-}
-
-/// Fits to logs. Without a name, and without a takeoff in the logs, estimators with a few physical
-/// parameters extrapolate best: `entry` is then another one.
-Model fit_chosen(const FitFlags& flags, const std::vector<experiments::FitLog>& logs,
-                 const experiments::LogFitConfig& config, experiments::EstimatorEntry& entry,
-                 experiments::LogFitReport& report) {
-  const experiments::EstimatorEntry& physical = experiments::estimator_entry("force_kinematics");
-  const bool may_choose = flags.estimator.empty() && flags.prior.empty() &&
-                          flags.hyperparameters.empty() && !flags.config.servo_load;
-  Model model =
-      experiments::fit_to_logs(entry, logs, config, report, may_choose ? &physical : nullptr);
-  if (report.replaced) {
-    print_message(
-        fmt::format("touchdown: these logs hold no takeoff of a wheel, so that {} is fitted: {} "
-                    "would not know the moments of takeoffs and landings\n",
-                    physical.name, entry.name));
-    entry = physical;
-  } else if (report.takeoffs.value_or(1) == 0 && entry.name != physical.name) {
-    report.warnings.push_back(fmt::format(
-        "{} does not know the moments of takeoffs and landings: add a log with flights and labels, "
-        "or fit --estimator {}",
-        entry.name, physical.name));
-  }
-  return model;
+      "touchdown: load_filter is better on these logs ({:.4f} against {:.4f}): use it\n",
+      accuracy.load_filter, own));
 }
 
 void fit(const FitFlags& flags, const CliSession& session) {
-  experiments::EstimatorEntry entry = experiments::estimator_entry(estimator_of(flags));
+  experiments::EstimatorEntry entry = experiments::estimator_entry(flags.estimator);
   const std::vector<experiments::FitLog> logs = logs_of(flags);
   if (!entry.fits()) {
     throw InputError(fmt::format("--estimator: '{}' is not fitted{}: expected {}", entry.name,
@@ -290,16 +222,11 @@ void fit(const FitFlags& flags, const CliSession& session) {
   std::vector<InputFile> inputs;
   for (const experiments::FitLog& log : logs) inputs.push_back({log.path, "log"});
   for (const std::string& labels : flags.labels) inputs.push_back({labels, "file of labels"});
-  if (!flags.prior.empty()) {
-    const std::filesystem::path prior = find_resource(flags.prior);
-    inputs.push_back({prior, "model"});
-    config.prior = {flags.prior, load_model(prior)};
-  }
   check_outputs(inputs, {flags.output});
   require_extension(flags.output, {".npz"}, "a model");
   require_different(logs);
   experiments::LogFitReport report;
-  const Model model = fit_chosen(flags, logs, config, entry, report);
+  const Model model = experiments::fit_to_logs(entry, logs, config, report);
   logs::save_model(model, flags.output);
   print_warnings(report.warnings);
   if (report.unusable > 0) {
@@ -308,13 +235,9 @@ void fit(const FitFlags& flags, const CliSession& session) {
         "left out\n",
         report.unusable));
   }
-  print("{}: {}, {:.3f} s of {} {}\n", flags.output, entry.title, report.seconds, logs.size(),
-        logs.size() == 1 ? "log" : "logs");
-  show_samples(report, entry.fitting.torques.has_value());
-  if (config.prior) {
-    print("{:<12} {:.0f} % of the model, {} the rest\n", "these logs", 100.0 * report.weight,
-          flags.prior);
-  }
+  print("{}: {}, {:.3f} s of {} {}\n", flags.output, entry.title, report.fitted_to.seconds,
+        logs.size(), logs.size() == 1 ? "log" : "logs");
+  show_samples(report);
   if (!flags.skips_accuracy) show_accuracy(entry, logs, config, model);
   print("{:<12} touchdown estimate LOG --model {} --estimator {}\n", "next", flags.output,
         entry.name);

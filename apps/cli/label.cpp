@@ -57,8 +57,7 @@ void label(const LabelFlags& flags, const CliSession& session) {
   logs::LogReader reader = open_log(flags.log, flags.options, session);
   experiments::LogSteps log(reader, nullptr,
                             experiments::checked_robot(estimator.request.robot, reader.info()));
-  const logs::ContactIntervals labels =
-      experiments::smoothed_contact(log, estimator, reader.info());
+  const logs::ContactIntervals labels = experiments::proposed_labels(log, estimator, reader.info());
   end_if(session.stop);
   print_warnings(reader.warnings());
   print_findings(reader.name(), log.findings());
@@ -76,10 +75,8 @@ void label(const LabelFlags& flags, const CliSession& session) {
   const std::string mapping = is_mapped ? " --mapping " + flags.options.mapping : "";
   print("{:<12} touchdown watch {} --labels {}{}{}\n", "next", flags.log, flags.output, robot,
         mapping);
-  // Fits read Upkie's layout.
-  if (is_mapped) print("{:<12} touchdown export {}{} -o log.mpack\n", "then", flags.log, mapping);
-  print("{:<12} touchdown fit {} --labels {} --prior models/evidence_curves.npz{} -o model.npz\n",
-        is_mapped ? "" : "then", is_mapped ? "log.mpack" : flags.log, flags.output, robot);
+  print("{:<12} touchdown estimate {} --labels {}{}{}\n", "then", flags.log, flags.output, robot,
+        mapping);
 }
 
 }  // namespace
@@ -87,8 +84,8 @@ void label(const LabelFlags& flags, const CliSession& session) {
 void add_label(CLI::App& program, const CliSession& session) {
   Verb verb(program, "label",
             "touchdown label robot.mpack -o labels.csv\n\n"
-            "Proposes contact labels of a log, for a person to correct: evidence curves look at "
-            "what\ncomes before and after each step. `touchdown fit --labels` reads the file.");
+            "Proposes contact labels of a log, for a person to correct: the estimator's decisions, "
+            "the\nleast sure first. `touchdown estimate --labels` scores estimators by the file.");
   const auto flags = std::make_shared<LabelFlags>();
   verb.option("log", &flags->log, "Log in Upkie's layout, or in another one with --mapping")
       .value_name("LOG")

@@ -62,7 +62,7 @@ void list() {
   print("estimators, why one would take them, and what they are given\n{}",
         table_of(experiments::estimator_entries(), [](const experiments::EstimatorEntry& entry) {
           return std::vector<std::string>{entry.name, entry.title, entry.summary, entry.reason,
-                                          experiments::given_text(entry, true)};
+                                          experiments::given_text(entry)};
         }));
 }
 

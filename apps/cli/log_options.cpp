@@ -16,22 +16,22 @@ void add_log_options(Verb& verb, LogOptions& options) {
   verb.option("--mapping", &options.mapping,
               "Maps the columns or topics of the logs to signals, as for `touchdown export`")
       .value_name("FILE.yaml");
-  verb.option(
-          "--model", &options.model,
-          "Model that `touchdown fit` wrote (default: the shipped one, models/evidence_curves.npz)")
+  verb.option("--model", &options.model,
+              "Model that `touchdown fit` wrote, for estimators that have one")
       .value_name("FILE.npz");
   verb.option("--estimator", &options.estimator,
-              "Estimator from `touchdown list` (default: the one that the model was fitted for)");
+              "Estimator from `touchdown list` (default: the one that the model was fitted for; "
+              "without\na model load_filter, which needs the robot alone)");
   verb.option(
           "--robot", &options.robot,
           "Robot that recorded the logs (default: that of a simulated log); it must be the\n"
-          "model's. Its file gives the leg geometry to estimators that compute loads (default:\n"
-          "that of a simulated log, else the model's)")
+          "model's. Its file gives the legs to load_filter (default: those of a simulated log's\n"
+          "robot, else Upkie's)")
       .value_name("NAME|FILE");
   verb.option(
           "--set", &options.hyperparameters,
           "Run the estimator with another value of a hyperparameter than its model's, for example\n"
-          "leave_below=0.25")
+          "leave_below=0.05")
       .value_name("NAME=NUMBER")
       .one_at_a_time();
   verb.flag("--transfer", &options.transfer,

@@ -249,7 +249,7 @@ void add_estimator(py::module_& module) {
       "An estimator by name (`estimators()` lists them), with its model if it is fitted.\n\n"
       "name: without it, the estimator of the model\n"
       "model: a result of `fit`, or the path of a file that `touchdown fit` wrote; without name "
-      "and model, the shipped one\n"
+      "and model, load_filter, which needs the robot alone\n"
       "sample_rate: steps per second of its signals (Hz)\n"
       "robot: name or file of the robot; a file gives the leg geometry\n"
       "transfer: allow another rate or robot than the model was fitted for\n"
@@ -290,8 +290,8 @@ void add_estimator(py::module_& module) {
           "before). Only the signals that this estimator uses are needed. Without "
           "`vertical_acceleration` it follows from `linear_acceleration` and `orientation` (4: w x "
           "y z, from the IMU to a frame with z down); with gravity_included, the orientation also "
-          "takes gravity out of `linear_acceleration`. NaN marks a failed sensor. Models with the "
-          "load by the servo law also use the joints' commands of the step before: "
+          "takes gravity out of `linear_acceleration`. NaN marks a failed sensor. load_filter "
+          "also uses the joints' commands of the step before: "
           "`target_position`, `target_velocity`, `target_torque` (feed-forward), `target_kp` "
           "(N·m/rad), `target_kd` (N·m·s/rad), 6 each; without them the status is \"degraded\".")
       .def("update_from_spine", &Estimator::update_from_spine, "observation"_a,

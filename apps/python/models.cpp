@@ -25,7 +25,7 @@ using DeclaredRun = std::pair<py::object, std::optional<bool>>;
 
 /// Fits to recordings in memory, or to logs by path.
 Model fit(const std::vector<DeclaredRun>& runs, const std::string& name, double skip,
-          const scoring::LabelConfig& labels, bool servo_load) {
+          const scoring::LabelConfig& labels) {
   std::vector<experiments::FitLog> logs;
   for (const auto& [run, contact] : runs) {
     if (py::hasattr(run, "info")) {
@@ -41,8 +41,7 @@ Model fit(const std::vector<DeclaredRun>& runs, const std::string& name, double 
     Model model;
     model.estimator.entry = entry;
     model.estimator.model = experiments::fit_to_logs(
-        entry, logs, {.labels = labels, .skip = skip, .servo_load = servo_load, .stop = &stop},
-        model.report);
+        entry, logs, {.labels = labels, .skip = skip, .stop = &stop}, model.report);
     return model;
   });
 }
@@ -87,7 +86,8 @@ void add_models(py::module_& module) {
       .def("save", &Model::save, "path"_a, "Write the model as `touchdown fit` does (.npz).")
       .def_property_readonly("estimator",
                              [](const Model& model) { return model.estimator.entry.name; })
-      .def_property_readonly("seconds", [](const Model& model) { return model.report.seconds; })
+      .def_property_readonly("seconds",
+                             [](const Model& model) { return model.report.fitted_to.seconds; })
       .def_property_readonly("warnings", [](const Model& model) { return model.report.warnings; })
       .def("__repr__", [](const Model& model) {
         return fmt::format("<Model of '{}'>", model.estimator.entry.name);
@@ -95,10 +95,10 @@ void add_models(py::module_& module) {
   module.def(
       "fit",
       [](const std::vector<DeclaredRun>& runs, const std::string& estimator, double skip,
-         double force_threshold, double debounce, bool servo_load) {
-        return fit(runs, estimator, skip, {force_threshold, debounce}, servo_load);
+         double force_threshold, double debounce) {
+        return fit(runs, estimator, skip, {force_threshold, debounce});
       },
-      "runs"_a, "estimator"_a, "skip"_a, "force_threshold"_a, "debounce"_a, "servo_load"_a);
+      "runs"_a, "estimator"_a, "skip"_a, "force_threshold"_a, "debounce"_a);
 }
 
 }  // namespace touchdown::python

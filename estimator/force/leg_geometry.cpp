@@ -1,7 +1,6 @@
 #include "estimator/force/leg_geometry.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 #include "estimator/numerics/sine.hpp"
@@ -52,20 +51,6 @@ FootJacobian foot_jacobian(const LegGeometry& geometry, const LegSignals& leg,
   const double hip = sign * leg.hip.position;
   const auto links = sines_and_cosines<2>({hip, hip + sign * leg.knee.position});
   return jacobian_of(geometry, links[0], links[1]);
-}
-
-double vertical_force(const LegGeometry& geometry, const LegSignals& leg, bool mirrored,
-                      double acceleration) noexcept {
-  const FootJacobian foot = foot_jacobian(geometry, leg, mirrored);
-  return vertical_force_times_determinant(geometry, foot, leg, mirrored, acceleration) /
-         foot.determinant();
-}
-
-double axle_velocity(const LegGeometry& geometry, const LegSignals& leg) noexcept {
-  const double hip = leg.hip.position;
-  const double knee = hip + leg.knee.position;
-  return geometry.upper_length * std::sin(hip) * leg.hip.velocity +
-         geometry.lower_length * std::sin(knee) * (leg.hip.velocity + leg.knee.velocity);
 }
 
 }  // namespace touchdown

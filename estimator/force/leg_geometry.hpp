@@ -25,7 +25,6 @@ struct LegGeometry {
   double robot_mass = 5.33922;            ///< of the whole robot (kg), which both legs carry
   double hip_friction = 0.0;              ///< Coulomb friction of the hip (N·m)
   double knee_friction = 0.0;             ///< and of the knee (N·m)
-  double position_resolution = 6.283e-4;  ///< of the hip's and the knee's positions (rad)
   double upper_inertia = 2.80122e-3;      ///< about its centre of mass (kg·m²)
   double lower_inertia = 2.12266e-3;      ///< likewise
   // Inertia of the motors' rotors, as they appear at the joints (kg·m²); the wheel's is a part of
@@ -78,68 +77,5 @@ struct FootJacobian {
 /// For one leg. `mirrored`: the joints' signs are those of the right leg.
 [[nodiscard]] FootJacobian foot_jacobian(const LegGeometry& geometry, const LegSignals& leg,
                                          bool mirrored) noexcept;
-
-/// The torques of the ground about a leg's joints, in the left leg's signs (N·m).
-struct JointLoads {
-  double hip;
-  double knee;
-};
-
-/// What remains of these joint torques, which are in the joints' own signs, after gravity and the
-/// leg's acceleration: −τ + Σ_i m_i (g + a) ∂z_i/∂q, as below.
-[[nodiscard]] inline JointLoads joint_loads(const LegGeometry& geometry, const FootJacobian& foot,
-                                            double hip_torque, double knee_torque, bool mirrored,
-                                            double acceleration) noexcept {
-  constexpr double gravity = 9.81;
-  const double sign = mirrored ? -1.0 : 1.0;
-  // The moment arms of the links' and the wheel's masses about each joint (kg·m).
-  const double below_knee = geometry.lower_centre * geometry.lower_mass + geometry.wheel_mass;
-  const double on_knee = below_knee * foot.lower_z;
-  const double on_hip =
-      (geometry.upper_centre * geometry.upper_mass + geometry.lower_mass + geometry.wheel_mass) *
-          foot.upper_z +
-      on_knee;
-  return {-sign * hip_torque + on_hip * (gravity + acceleration),
-          -sign * knee_torque + on_knee * (gravity + acceleration)};
-}
-
-/// The vertical force of the ground on the foot (N) with these torques about the joints, times the
-/// determinant of J (N·m²).
-[[nodiscard]] inline double vertical_force_times_determinant(const FootJacobian& foot,
-                                                             const JointLoads& load) noexcept {
-  return (foot.upper_x + foot.lower_x) * load.knee - foot.lower_x * load.hip;
-}
-
-/// The vertical force of the ground on a leg's foot (N) that explains the leg's torques, times the
-/// determinant of J (N·m²). The torso is taken to be level, and the whole leg to accelerate upwards
-/// with `acceleration` (m/s², without gravity):
-///
-///     Jᵀ F = −τ + Σ_i m_i (g + a) ∂z_i/∂q,
-///
-/// over the links and the wheel, solved for F = (F_x, F_z). The product is always finite, whereas a
-/// straight leg carries any load without torques.
-[[nodiscard]] inline double vertical_force_times_determinant(const LegGeometry& geometry,
-                                                             const FootJacobian& foot,
-                                                             const LegSignals& leg, bool mirrored,
-                                                             double acceleration) noexcept {
-  return vertical_force_times_determinant(
-      foot, joint_loads(geometry, foot, leg.hip.torque, leg.knee.torque, mirrored, acceleration));
-}
-
-/// The force alone (N). Not finite if the knee is straight.
-[[nodiscard]] double vertical_force(const LegGeometry& geometry, const LegSignals& leg,
-                                    bool mirrored, double acceleration) noexcept;
-
-/// The upward velocity of the axle relative to the hip (m/s), ż of the above, if the torso is level
-/// and does not turn.
-[[nodiscard]] inline double axle_velocity(const FootJacobian& foot, const LegSignals& leg,
-                                          bool mirrored) noexcept {
-  const double sign = mirrored ? -1.0 : 1.0;
-  return foot.upper_z * (sign * leg.hip.velocity) +
-         foot.lower_z * (sign * leg.hip.velocity + sign * leg.knee.velocity);
-}
-
-/// The same for either leg: in the mirrored one, the signs of a sine and of a velocity cancel.
-[[nodiscard]] double axle_velocity(const LegGeometry& geometry, const LegSignals& leg) noexcept;
 
 }  // namespace touchdown

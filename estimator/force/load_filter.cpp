@@ -92,6 +92,9 @@ const Belief& LoadFilter::estimate(const Signals& signals) noexcept {
     belief.contact =
         belief.p_contact >= (belief.contact ? config_.leave_below : config_.return_above);
   }
+  if (belief_.status == SignalStatus::good && !loads_.has_targets()) {
+    belief_.status = SignalStatus::degraded;
+  }
   multiply_wheels(belief_);
   return belief_;
 }

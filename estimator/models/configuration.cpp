@@ -115,36 +115,6 @@ void visit_bounds(Visit& visit, Bounds& bounds) {
   visit("bounds.ground_velocity", bounds.ground_velocity);
 }
 
-template <typename Visit, typename Geometry>
-void visit_geometry(Visit& visit, Geometry& geometry) {
-  visit("geometry.upper_length", geometry.upper_length);
-  visit("geometry.lower_length", geometry.lower_length);
-  visit("geometry.upper_mass", geometry.upper_mass);
-  visit("geometry.lower_mass", geometry.lower_mass);
-  visit("geometry.wheel_mass", geometry.wheel_mass);
-  visit("geometry.upper_centre", geometry.upper_centre);
-  visit("geometry.lower_centre", geometry.lower_centre);
-}
-
-/// What only equations of motion need.
-template <typename Visit, typename Geometry>
-void visit_dynamics(Visit& visit, Geometry& geometry) {
-  visit("geometry.upper_inertia", geometry.upper_inertia);
-  visit("geometry.lower_inertia", geometry.lower_inertia);
-  visit("geometry.hip_armature", geometry.hip_armature);
-  visit("geometry.knee_armature", geometry.knee_armature);
-  visit("geometry.wheel_armature", geometry.wheel_armature);
-  visit("geometry.hip_viscous", geometry.hip_viscous);
-  visit("geometry.knee_viscous", geometry.knee_viscous);
-  visit("geometry.wheel_viscous", geometry.wheel_viscous);
-  visit("geometry.hip_torque_limit", geometry.hip_torque_limit);
-  visit("geometry.knee_torque_limit", geometry.knee_torque_limit);
-  visit("geometry.wheel_torque_limit", geometry.wheel_torque_limit);
-  visit("geometry.hip_forward", geometry.hip_forward);
-  visit("geometry.hip_upward", geometry.hip_upward);
-  visit("geometry.leg_sideways", geometry.leg_sideways);
-}
-
 constexpr std::array<const char*, 2> signs = {"absolute", "mirrored"};
 constexpr std::array<const char*, 3> powers = {"mean_square", "energy", "root_mean_square"};
 constexpr std::array<const char*, 2> spectra = {"power", "magnitude"};
@@ -185,22 +155,6 @@ void visit_members(Visit& visit, Config& config) {
   visit_guard(visit, config.guard);
 }
 
-/// All but a known sensor noise, which does not belong to a model.
-template <typename Visit, typename Config>
-requires std::same_as<std::remove_const_t<Config>, PhaseFilterConfig>
-void visit_members(Visit& visit, Config& config) {
-  visit("torque_exponent", config.torque_exponent);
-  visit("acceleration_exponent", config.acceleration_exponent);
-  visit("leave_below", config.leave_below);
-  visit("return_above", config.return_above);
-  visit("noise_floor.knee_torque", config.noise_floor.knee_torque);
-  visit("noise_floor.wheel_torque", config.noise_floor.wheel_torque);
-  visit("noise_floor.acceleration", config.noise_floor.acceleration);
-  visit("noise_gain", config.noise_gain);
-  visit("noise_warm_up", config.noise_warm_up);
-  visit_guard(visit, config.guard);
-}
-
 template <typename Visit, typename Config>
 requires std::same_as<std::remove_const_t<Config>, NeuralEstimatorConfig>
 void visit_members(Visit& visit, Config& config) {
@@ -208,27 +162,34 @@ void visit_members(Visit& visit, Config& config) {
   visit_guard(visit, config.guard);
 }
 
-template <typename Visit, typename Config>
-requires std::same_as<std::remove_const_t<Config>, ForceKinematicsConfig>
-void visit_members(Visit& visit, Config& config) {
-  visit_geometry(visit, config.geometry);
-  visit("low_pass", config.low_pass);
-  visit("largest_force", config.largest_force);
-  visit("leak", config.leak);
-  visit("threshold", config.threshold);
-  visit_guard(visit, config.guard);
-}
-
 template <typename Visit, typename Geometry>
 requires std::same_as<std::remove_const_t<Geometry>, LegGeometry>
 void visit_members(Visit& visit, Geometry& geometry) {
-  visit_geometry(visit, geometry);
+  visit("geometry.upper_length", geometry.upper_length);
+  visit("geometry.lower_length", geometry.lower_length);
+  visit("geometry.upper_mass", geometry.upper_mass);
+  visit("geometry.lower_mass", geometry.lower_mass);
+  visit("geometry.wheel_mass", geometry.wheel_mass);
+  visit("geometry.upper_centre", geometry.upper_centre);
+  visit("geometry.lower_centre", geometry.lower_centre);
+  visit("geometry.upper_inertia", geometry.upper_inertia);
+  visit("geometry.lower_inertia", geometry.lower_inertia);
+  visit("geometry.hip_armature", geometry.hip_armature);
+  visit("geometry.knee_armature", geometry.knee_armature);
+  visit("geometry.wheel_armature", geometry.wheel_armature);
+  visit("geometry.hip_viscous", geometry.hip_viscous);
+  visit("geometry.knee_viscous", geometry.knee_viscous);
+  visit("geometry.wheel_viscous", geometry.wheel_viscous);
+  visit("geometry.hip_torque_limit", geometry.hip_torque_limit);
+  visit("geometry.knee_torque_limit", geometry.knee_torque_limit);
+  visit("geometry.wheel_torque_limit", geometry.wheel_torque_limit);
+  visit("geometry.hip_forward", geometry.hip_forward);
+  visit("geometry.hip_upward", geometry.hip_upward);
+  visit("geometry.leg_sideways", geometry.leg_sideways);
   visit("wheel_inertia", geometry.wheel_inertia);
   visit("robot_mass", geometry.robot_mass);
   visit("hip_friction", geometry.hip_friction);
   visit("knee_friction", geometry.knee_friction);
-  visit("position_resolution", geometry.position_resolution);
-  visit_dynamics(visit, geometry);
 }
 
 template <typename Visit, typename Config>
@@ -238,32 +199,6 @@ void visit_members(Visit& visit, Config& config) {
   visit("lead", config.lead);
   visit("leave_below", config.leave_below);
   visit("return_above", config.return_above);
-  visit_guard(visit, config.guard);
-}
-
-template <typename Visit, typename Config>
-requires std::same_as<std::remove_const_t<Config>, DecisionConfig>
-void visit_members(Visit& visit, Config& config) {
-  // Only this configuration has the wheel's inertia and the robot's mass. Older files without the
-  // mass belong to Upkie.
-  auto& geometry = config.geometry;
-  visit_geometry(visit, geometry);
-  visit("wheel_inertia", geometry.wheel_inertia);
-  visit("robot_mass", geometry.robot_mass);
-  // Models without the load by the servo law do not have its keys.
-  const bool is_read = !std::is_const_v<Config>;
-  if (is_read || config.servo_load) {
-    visit("servo_load", config.servo_load);
-    visit("hip_friction", geometry.hip_friction);
-    visit("knee_friction", geometry.knee_friction);
-    visit("position_resolution", geometry.position_resolution);
-  }
-  visit("difference", config.difference);
-  visit("smoothing", config.smoothing);
-  visit("leave_below", config.point.leave_below);
-  visit("return_above", config.point.return_above);
-  visit("settle_at", config.point.settle_at);
-  visit("settle_after", config.point.settle_after);
   visit_guard(visit, config.guard);
 }
 
@@ -286,26 +221,13 @@ void read(Config& config, const ConfigurationText& text) {
 }  // namespace
 
 ConfigurationText text_of(const BayesFilterConfig& config) { return written(config); }
-ConfigurationText text_of(const PhaseFilterConfig& config) { return written(config); }
 ConfigurationText text_of(const NeuralEstimatorConfig& config) { return written(config); }
-ConfigurationText text_of(const ForceKinematicsConfig& config) { return written(config); }
-ConfigurationText text_of(const DecisionConfig& config) { return written(config); }
 ConfigurationText text_of(const LoadFilterConfig& config) { return written(config); }
 ConfigurationText text_of(const LegGeometry& geometry) { return written(geometry); }
 
 void configure(BayesFilterConfig& config, const ConfigurationText& text) { read(config, text); }
-void configure(PhaseFilterConfig& config, const ConfigurationText& text) { read(config, text); }
 void configure(NeuralEstimatorConfig& config, const ConfigurationText& text) { read(config, text); }
-void configure(ForceKinematicsConfig& config, const ConfigurationText& text) { read(config, text); }
 void configure(LoadFilterConfig& config, const ConfigurationText& text) { read(config, text); }
-void configure(DecisionConfig& config, const ConfigurationText& text) {
-  // In older files thresholds alone decide.
-  if (text.contains("return_above") && !text.contains("settle_after")) {
-    config.point.settle_after = 0.0;
-  }
-  read(config, text);
-}
-
 SignalBounds signal_bounds_of(const ConfigurationText& text) {
   SignalBounds bounds;
   MemberReader reader(text);

@@ -1,22 +1,16 @@
 #pragma once
 
 #include "estimator/bayes/config.hpp"
-#include "estimator/decision/config.hpp"
-#include "estimator/force/force_kinematics.hpp"
 #include "estimator/force/load_filter.hpp"
 #include "estimator/models/metadata.hpp"
 #include "estimator/neural/estimator.hpp"
-#include "estimator/phase/config.hpp"
 #include "estimator/signal_bounds.hpp"
 
 namespace touchdown {
 
 /// An estimator's configuration as text, without its sample rate and the settings of its fit.
 ConfigurationText text_of(const BayesFilterConfig& config);
-ConfigurationText text_of(const PhaseFilterConfig& config);
 ConfigurationText text_of(const NeuralEstimatorConfig& config);
-ConfigurationText text_of(const ForceKinematicsConfig& config);
-ConfigurationText text_of(const DecisionConfig& config);
 ConfigurationText text_of(const LoadFilterConfig& config);
 /// The robot's part of a configuration. Estimators that use kinematics have all of it or a part.
 ConfigurationText text_of(const LegGeometry& geometry);
@@ -24,10 +18,7 @@ ConfigurationText text_of(const LegGeometry& geometry);
 /// The inverse. Members that the text lacks keep their values. Errors: `InputError` for an unknown
 /// key, and for values of the wrong kind.
 void configure(BayesFilterConfig& config, const ConfigurationText& text);
-void configure(PhaseFilterConfig& config, const ConfigurationText& text);
 void configure(NeuralEstimatorConfig& config, const ConfigurationText& text);
-void configure(ForceKinematicsConfig& config, const ConfigurationText& text);
-void configure(DecisionConfig& config, const ConfigurationText& text);
 void configure(LoadFilterConfig& config, const ConfigurationText& text);
 
 /// The bounds of the robot's signals in a configuration, keys "bounds.velocity" and so on; the

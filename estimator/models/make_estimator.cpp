@@ -8,11 +8,8 @@
 #include "estimator/bayes/ablation.hpp"
 #include "estimator/bayes/filter.hpp"
 #include "estimator/bayes/measurement_only.hpp"
-#include "estimator/decision/filter.hpp"
-#include "estimator/evidence/filter.hpp"
+#include "estimator/force/load_filter.hpp"
 #include "estimator/models/configuration.hpp"
-#include "estimator/models/parameters.hpp"
-#include "estimator/phase/filter.hpp"
 
 namespace touchdown {
 
@@ -20,27 +17,17 @@ namespace {
 
 using Made = std::unique_ptr<ContactEstimator>;
 
-/// The fit that all operating points of evidence curves share.
-constexpr std::string_view curves_fit = "evidence_curves";
-
 /// How the estimator of this name is made from a model.
 struct Recipe {
   std::string_view name;
   std::string_view fit;  ///< name of the estimator with the same fit
-  std::function<ConfigurationText(double sample_rate, const LegGeometry& legs, bool servo_load)>
-      configuration;
+  std::function<ConfigurationText(double sample_rate, const LegGeometry& legs)> configuration;
   std::function<Made(const Model& model, const EstimatorSettings& settings)> make;
 };
 
 /// Errors: `InputError` for a model without a grid.
 MeasurementModel grid_of(const Model& model) {
   return model.grid ? *model.grid : measurement_model_of(model.arrays);
-}
-
-/// Errors: `InputError` for a model without phases.
-std::shared_ptr<const PhaseModel> phase_of(const Model& model) {
-  return model.phase ? model.phase
-                     : std::make_shared<const PhaseModel>(phase_model_of(model.arrays));
 }
 
 std::shared_ptr<const NeuralNetwork> network_of(const Model& model) {
@@ -51,9 +38,6 @@ template <typename Config>
 Config configured(Config config, const EstimatorSettings& settings) {
   config.sample_rate = settings.sample_rate;
   configure(config, settings.configuration);
-  if constexpr (requires { config.geometry; }) {
-    if (settings.geometry) config.geometry = *settings.geometry;
-  }
   return config;
 }
 
@@ -71,22 +55,13 @@ BayesFilterConfig configured(BayesFilterConfig config, const EstimatorSettings& 
 template <typename Estimator, auto numbers_of, typename Config>
 Recipe recipe_of(std::string_view name, std::string_view fit, const Config& usual) {
   return {name, fit,
-          [usual](double rate, const LegGeometry& legs, bool servo_load) {
-            Config config = usual;  // NOLINT(performance-*): most have one of these members
-            if constexpr (requires { config.transition; }) config = at_rate(config, rate);
-            if constexpr (requires { config.geometry; }) config.geometry = legs;
-            if constexpr (requires { config.servo_load; }) config.servo_load = servo_load;
-            return text_of(config);
+          [usual](double rate, const LegGeometry& /*legs*/) {
+            if constexpr (requires { usual.transition; }) return text_of(at_rate(usual, rate));
+            return text_of(usual);
           },
           [usual](const Model& model, const EstimatorSettings& settings) -> Made {
             return std::make_unique<Estimator>(numbers_of(model), configured(usual, settings));
           }};
-}
-
-/// The same for models that consist of an estimator's own parameters.
-template <auto model_of>
-auto of_parameters(const Model& model) {
-  return model_of(parameters_of(model.arrays));
 }
 
 template <typename Estimator>
@@ -94,26 +69,17 @@ Recipe of_torques(std::string_view name, std::string_view fit, const BayesFilter
   return recipe_of<Estimator, grid_of>(name, fit, config);
 }
 
-Recipe of_phases(std::string_view name) {
-  return recipe_of<PhaseFilter, phase_of>(name, name, PhaseFilterConfig{});
-}
-
 /// The filter of loads has nothing to fit: its model is the robot's geometry, in the metadata.
 Recipe of_geometry(std::string_view name) {
   return {name, name,
-          [](double /*rate*/, const LegGeometry& legs, bool /*servo_load*/) {
+          [](double /*rate*/, const LegGeometry& legs) {
             return text_of(LoadFilterConfig{.geometry = legs});
           },
           [](const Model& /*model*/, const EstimatorSettings& settings) -> Made {
-            return std::make_unique<LoadFilter>(configured(LoadFilterConfig{}, settings));
+            LoadFilterConfig config = configured(LoadFilterConfig{}, settings);
+            if (settings.geometry) config.geometry = *settings.geometry;
+            return std::make_unique<LoadFilter>(config);
           }};
-}
-
-/// An estimator on the features of loads and motions, at one of its operating points. The fit is
-/// the same for all points.
-template <typename Estimator, auto model_of>
-Recipe of_decisions(std::string_view name, std::string_view fit, const OperatingPoint& point) {
-  return recipe_of<Estimator, of_parameters<model_of>>(name, fit, DecisionConfig{.point = point});
 }
 
 const std::vector<Recipe>& recipes() {
@@ -125,19 +91,8 @@ const std::vector<Recipe>& recipes() {
         of_torques<BayesFilter>("paper", "paper", BayesFilterConfig::paper()),
         of_torques<BayesFilter>("paper_rms", "paper", BayesFilterConfig::paper_rms()),
         of_torques<MeasurementOnly>("measurement_only", "robust", robust),
-        of_phases("phase"),
-        of_phases("hmm"),
-        of_phases("hmm_without_memory"),
         recipe_of<NeuralEstimator, network_of>("nmn", "nmn", NeuralEstimatorConfig{}),
-        of_geometry("load_filter"),
-        recipe_of<ForceKinematics, of_parameters<force_kinematics_model_of>>(
-            "force_kinematics", "force_kinematics", ForceKinematicsConfig{}),
-        of_decisions<DecisionNetwork, decision_model_of>("decision_network", "decision_network",
-                                                         network_point),
-        of_decisions<EvidenceCurves, evidence_curve_sets_of>("evidence_curves", curves_fit,
-                                                             balanced_point),
-        of_decisions<EvidenceCurves, evidence_curve_sets_of>("evidence_curves_quiet", curves_fit,
-                                                             quiet_point)};
+        of_geometry(load_filter_name)};
     for (const AblationStep& step : steps_from_paper_to_robust()) {
       const bool shares_fit = step.config.measurement == robust.measurement;
       recipes.push_back(
@@ -173,19 +128,13 @@ std::string no_such_member(const std::string& estimator, const std::string& key,
          listed(known, [](const auto& member) { return member.first; });
 }
 
-/// The model's own configuration, if it was fitted for this estimator, with `replaced` members. At
-/// another operating point, evidence curves keep all of it but their thresholds.
+/// The model's own configuration, if it was fitted for this estimator, with `replaced` members.
 ConfigurationText configuration_for(const ModelMetadata& metadata, const std::string& estimator,
                                     const ConfigurationText& replaced) {
   ConfigurationText configuration;
-  if (estimator == metadata.estimator) {
-    configuration = metadata.configuration;
-  } else if (recipe(estimator).fit == curves_fit) {
-    configuration = metadata.configuration;
-    for (const char* key : operating_point_keys) configuration.erase(key);
-  }
+  if (estimator == metadata.estimator) configuration = metadata.configuration;
   if (replaced.empty()) return configuration;
-  const ConfigurationText usual = recipe(estimator).configuration(metadata.sample_rate, {}, false);
+  const ConfigurationText usual = recipe(estimator).configuration(metadata.sample_rate, {});
   if (configuration.empty()) configuration = usual;
   for (const auto& [key, value] : replaced) {
     if (!usual.contains(key) && !is_signal_bound(key))
@@ -229,8 +178,8 @@ ModelArrays arrays_of(std::span<const CompiledArray> model) {
 }
 
 Model load_filter_model(const LegGeometry& legs, double sample_rate, const std::string& robot) {
-  const std::string name = "load_filter";
-  Model model{.arrays = arrays_of(Parameters{}, name)};
+  const std::string name(load_filter_name);
+  Model model{.arrays = {{std::string(estimator_array), array_of_text(name)}}};
   model.metadata = ModelMetadata{.estimator = name,
                                  .sample_rate = sample_rate,
                                  .robot = robot,
@@ -245,8 +194,8 @@ std::unique_ptr<ContactEstimator> make_estimator(std::span<const CompiledArray> 
 }
 
 ConfigurationText default_configuration(std::string_view estimator, double sample_rate,
-                                        const LegGeometry& legs, bool servo_load) {
-  return recipe(estimator).configuration(sample_rate, legs, servo_load);
+                                        const LegGeometry& legs) {
+  return recipe(estimator).configuration(sample_rate, legs);
 }
 
 bool makes_estimator(std::string_view name) { return find_recipe(name) != nullptr; }
@@ -257,12 +206,11 @@ bool share_fit(std::string_view estimator, std::string_view other) {
 
 ModelMetadata metadata_for(const Model& model, const ModelUse& use) {
   check_sample_rate(use);
-  ModelMetadata metadata = model.metadata.value_or(
-      ModelMetadata{.estimator = estimator_of(model),
-                    .sample_rate = model.phase ? model.phase->sample_rate : 0.0,
-                    .robot = {},
-                    .configuration = {},
-                    .fingerprint = {}});
+  ModelMetadata metadata = model.metadata.value_or(ModelMetadata{.estimator = estimator_of(model),
+                                                                 .sample_rate = 0.0,
+                                                                 .robot = {},
+                                                                 .configuration = {},
+                                                                 .fingerprint = {}});
   if (metadata.estimator.empty()) metadata.estimator = use.estimator;
   if (metadata.sample_rate == 0.0) metadata.sample_rate = use.sample_rate;
   if (metadata.estimator.empty() || !(metadata.sample_rate > 0.0)) {

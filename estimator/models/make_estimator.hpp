@@ -14,8 +14,8 @@
 namespace touchdown {
 
 /// Makes the estimator that a model was fitted for. A model without metadata, older or from another
-/// program, is accepted if `use` names what the arrays do not: the estimator of a grid, and the
-/// sample rate of all models but a phase model.
+/// program, is accepted if `use` names what the arrays do not: the sample rate and, of a grid, the
+/// estimator.
 /// Errors: `InputError`, one line, for missing arrays or metadata, for an estimator, rate or robot
 /// other than the model's, for unknown members of the configuration, and for numbers that the
 /// estimator refuses.
@@ -42,11 +42,10 @@ struct EstimatorSettings {
 /// for settings that the estimator refuses.
 std::unique_ptr<ContactEstimator> make_with(const Model& model, const EstimatorSettings& settings);
 
-/// The default configuration of an estimator at this rate (Hz), on a robot with these legs, with
-/// a model that has the load by the servo law, if the estimator can have it. Errors: `InputError`
-/// for a name of which no model is fitted.
+/// The default configuration of an estimator at this rate (Hz), on a robot with these legs. Errors:
+/// `InputError` for a name of which no model is fitted.
 ConfigurationText default_configuration(std::string_view estimator, double sample_rate,
-                                        const LegGeometry& legs = {}, bool servo_load = false);
+                                        const LegGeometry& legs = {});
 
 /// Whether this library makes an estimator of this name from a model. Experiments have others, too.
 bool makes_estimator(std::string_view name);

@@ -145,15 +145,9 @@ bool is_same_rate(double rate, double other) {
 /// The lowest and the highest rate at which a model may be used (Hz): those that its estimator was
 /// measured at (docs/results.md), and the fitted one.
 static std::pair<double, double> served_rates(const ModelMetadata& metadata) {
-  const double fitted = metadata.sample_rate;
   // The filter of loads has no fit, and constants in seconds.
-  if (metadata.estimator == "load_filter") return {100.0, 20'000.0};
-  // The features of evidence curves last as long at any rate.
-  constexpr double measured_fit = 1000.0;  // Hz
-  constexpr double lowest_measured = 200.0;
-  const bool is_measured =
-      metadata.estimator.starts_with("evidence_curves") && is_same_rate(fitted, measured_fit);
-  return {is_measured ? lowest_measured : fitted, fitted};
+  if (metadata.estimator == load_filter_name) return {100.0, 20'000.0};
+  return {metadata.sample_rate, metadata.sample_rate};
 }
 
 void check_use(const ModelMetadata& metadata, const ModelUse& use) {

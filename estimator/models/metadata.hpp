@@ -31,6 +31,17 @@ struct ModelMetadata {
 /// throughout), the members of the above, the configuration's keys after "configuration.".
 inline constexpr std::string_view metadata_array = "metadata";
 
+/// The estimator whose model is the robot's geometry alone, in its configuration, and the array of
+/// such a model: its bytes are this name.
+inline constexpr std::string_view load_filter_name = "load_filter";
+inline constexpr std::string_view estimator_array = "estimator";
+/// The array with the origin of a model, as the bytes of "key: value" lines.
+inline constexpr std::string_view provenance_array = "provenance";
+/// Whether an array of this name is a text about the model.
+constexpr bool is_text_array(std::string_view name) noexcept {
+  return name == estimator_array || name == provenance_array || name == metadata_array;
+}
+
 /// The array of a grid file that follows from the others. Readers do not need it, and the
 /// fingerprint leaves it out.
 inline constexpr std::string_view derived_array = "P_contact";

@@ -1,10 +1,8 @@
 #include "estimator/models/model.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/error.hpp"
-#include "estimator/models/parameters.hpp"
 
 namespace touchdown {
 
@@ -14,30 +12,33 @@ bool has(const ModelArrays& arrays, std::string_view name) {
   return arrays.contains(std::string(name));
 }
 
-/// Errors: `InputError` for texts and numbers that are none.
-void check_parameters(const ModelArrays& arrays) {
-  for (const auto& [name, array] : arrays) {
-    if (is_text_array(name)) (void)text_of_array(array, name);
+/// Errors: `InputError` for the models of estimators that other versions have: those of named
+/// arrays, and of densities of phases.
+void check_estimator(const Model& model, const ModelArrays& arrays) {
+  std::string name;
+  if (has(arrays, "transition")) {
+    name = model.metadata ? model.metadata->estimator : "phase";
+  } else if (has(arrays, estimator_array)) {
+    name = text_of_array(arrays.at(std::string(estimator_array)), std::string(estimator_array));
   }
-  (void)parameters_of(arrays);
+  if (name.empty() || name == load_filter_name) return;
+  throw InputError("was fitted for '" + name +
+                   "', which this version does not have; 'load_filter' needs no model, only the "
+                   "robot's file");
 }
 
 }  // namespace
 
-bool has_numbers(const Model& model) { return model.grid || model.phase || !model.arrays.empty(); }
+bool has_numbers(const Model& model) { return model.grid || !model.arrays.empty(); }
 
 Model model_of(ModelArrays arrays) {
   Model model;
   model.metadata = metadata_of(arrays);  // this checks the fingerprint of the arrays
   arrays.erase(std::string(metadata_array));
-  if (has(arrays, estimator_array)) {
-    check_parameters(arrays);
-  } else if (has(arrays, "transition")) {
-    model.phase = std::make_shared<const PhaseModel>(phase_model_of(arrays));
-    std::erase_if(arrays, [](const auto& each) { return each.first != provenance_array; });
-  } else if (has(arrays, "gru_input_weight")) {
+  check_estimator(model, arrays);
+  if (has(arrays, "gru_input_weight")) {
     (void)neural_network_of(arrays);
-  } else {
+  } else if (!has(arrays, estimator_array)) {
     model.grid = measurement_model_of(arrays);
   }
   model.arrays = std::move(arrays);
@@ -47,7 +48,6 @@ Model model_of(ModelArrays arrays) {
 ModelArrays arrays_of(const Model& model) {
   ModelArrays arrays = model.arrays;
   if (model.grid) arrays.merge(arrays_of(*model.grid));  // those of a file stay as they were
-  if (model.phase) arrays.merge(arrays_of(*model.phase));
   if (model.metadata) add_metadata(arrays, *model.metadata);
   return arrays;
 }
@@ -56,7 +56,6 @@ std::string estimator_of(const Model& model) {
   if (model.metadata) return model.metadata->estimator;
   const std::string name(estimator_array);
   if (model.arrays.contains(name)) return text_of_array(model.arrays.at(name), name);
-  if (model.phase) return "phase";
   return model.grid ? "" : "nmn";
 }
 
@@ -168,121 +167,6 @@ ModelArrays arrays_of(const NeuralNetwork& network) {
     arrays[name] = to_array(matrix, Matrix::ColsAtCompileTime == 1);
   });
   return arrays;
-}
-
-namespace {
-
-std::string numbered(const char* what, std::size_t i) {
-  return std::string(what) + "_" + std::to_string(i) + "_";
-}
-
-ModelArray ends(const Axis& axis) {
-  return {{3}, {axis.lower, axis.upper, static_cast<double>(axis.count)}};
-}
-
-ModelArray table(const std::vector<float>& values, std::size_t columns) {
-  return {{values.size() / columns, columns}, {values.begin(), values.end()}};
-}
-
-/// Reads arrays of a model. Errors: `InputError` that names a missing array or one of a wrong size.
-class PhaseArrays {
- public:
-  explicit PhaseArrays(const ModelArrays& arrays) : arrays_(arrays) {}
-
-  bool has(const std::string& name) const { return arrays_.contains(name); }
-
-  const std::vector<double>& take(const std::string& name) const {
-    require_arrays(arrays_, "phase model", {name});
-    return arrays_.at(name).data;
-  }
-
-  const std::vector<double>& take(const std::string& name, std::size_t size) const {
-    const std::vector<double>& data = take(name);
-    if (data.size() != size) {
-      throw InputError(name + ": expected " + std::to_string(size) + " values, found " +
-                       std::to_string(data.size()));
-    }
-    return data;
-  }
-
-  Axis axis(const std::string& name) const {
-    const std::vector<double>& data = take(name, 3);
-    constexpr double most = 1e8;
-    if (!(data[2] >= 2.0 && data[2] <= most)) {
-      throw InputError(name + ": expected 2 points or more");
-    }
-    return {data[0], data[1], static_cast<int>(data[2])};
-  }
-
-  std::vector<float> floats(const std::string& name) const {
-    const std::vector<double>& data = take(name);
-    return {data.begin(), data.end()};
-  }
-
- private:
-  const ModelArrays& arrays_;
-};
-
-}  // namespace
-
-ModelArrays arrays_of(const PhaseModel& model) {
-  ModelArrays arrays;
-  arrays["sample_rate"] = {{1}, {model.sample_rate}};
-  arrays["seconds"] = {{phase_count}, {model.seconds.begin(), model.seconds.end()}};
-  ModelArray transition{{phase_count, phase_count}, {}};
-  for (const auto& row : model.transition) {
-    transition.data.insert(transition.data.end(), row.begin(), row.end());
-  }
-  arrays["transition"] = transition;
-  for (std::size_t i = 0; i < model.torque.size(); ++i) {
-    const PhaseTorqueDensity& density = model.torque[i];
-    const std::string name = numbered("torque", i);
-    arrays[name + "noise"] = {
-        {4},
-        {density.noise.knee, density.noise.wheel, density.bandwidth.knee, density.bandwidth.wheel}};
-    arrays[name + "knee"] = ends(density.knee);
-    arrays[name + "wheel"] = ends(density.wheel);
-    arrays[name + "log_density"] = table(density.log_density, torque_density_count);
-  }
-  for (std::size_t i = 0; i < model.acceleration.size(); ++i) {
-    const PhaseAccelerationDensity& density = model.acceleration[i];
-    const std::string name = numbered("acceleration", i);
-    arrays[name + "noise"] = {{2}, {density.noise, density.bandwidth}};
-    arrays[name + "axis"] = ends(density.axis);
-    arrays[name + "log_density"] = table(density.log_density, acceleration_density_count);
-  }
-  return arrays;
-}
-
-PhaseModel phase_model_of(const ModelArrays& arrays) {
-  const PhaseArrays reader(arrays);
-  PhaseModel model;
-  model.sample_rate = reader.take("sample_rate", 1)[0];
-  const std::vector<double>& seconds = reader.take("seconds", phase_count);
-  std::copy(seconds.begin(), seconds.end(), model.seconds.begin());
-  const std::vector<double>& transition = reader.take("transition", phase_count * phase_count);
-  for (std::size_t i = 0; i < phase_count; ++i) {
-    for (std::size_t j = 0; j < phase_count; ++j) {
-      model.transition[i][j] = transition[i * phase_count + j];
-    }
-  }
-  for (std::size_t i = 0; reader.has(numbered("torque", i) + "noise"); ++i) {
-    const std::string name = numbered("torque", i);
-    const std::vector<double>& noise = reader.take(name + "noise", 4);
-    model.torque.push_back({{noise[0], noise[1]},
-                            {noise[2], noise[3]},
-                            reader.axis(name + "knee"),
-                            reader.axis(name + "wheel"),
-                            reader.floats(name + "log_density")});
-  }
-  for (std::size_t i = 0; reader.has(numbered("acceleration", i) + "noise"); ++i) {
-    const std::string name = numbered("acceleration", i);
-    const std::vector<double>& noise = reader.take(name + "noise", 2);
-    model.acceleration.push_back(
-        {noise[0], noise[1], reader.axis(name + "axis"), reader.floats(name + "log_density")});
-  }
-  check_phase_model(model);
-  return model;
 }
 
 }  // namespace touchdown

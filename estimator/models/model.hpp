@@ -9,18 +9,16 @@
 #include "estimator/models/arrays.hpp"
 #include "estimator/models/metadata.hpp"
 #include "estimator/neural/network.hpp"
-#include "estimator/phase/model.hpp"
 
 namespace touchdown {
 
 /// A fitted model: numbers that a fit found, and what the fit was made for. Fits return it; files
 /// and compiled-in headers hold it as `arrays_of` gives it. Copies, and the estimators that are
-/// made of it, share the large numbers of `grid` and `phase`.
+/// made of it, share the large numbers of `grid`.
 struct Model {
-  /// As in its file, without the metadata. Those of `phase`, and of a new `grid`, are not here.
+  /// As in its file, without the metadata. Those of a new `grid` are not here.
   ModelArrays arrays = {};
-  std::optional<MeasurementModel> grid = {};     ///< densities of torques
-  std::shared_ptr<const PhaseModel> phase = {};  ///< densities of phases: 20 MB
+  std::optional<MeasurementModel> grid = {};  ///< densities of torques
   /// Older files, and files from elsewhere, have none.
   std::optional<ModelMetadata> metadata = {};
 };
@@ -28,8 +26,8 @@ struct Model {
 /// Whether there is a fit in it.
 bool has_numbers(const Model& model);
 
-/// The model of a file's arrays. Errors: `InputError` for arrays that are no model, and those of
-/// `metadata_of`.
+/// The model of a file's arrays. Errors: `InputError` for arrays that are no model, for the model
+/// of an estimator that this version does not have, and those of `metadata_of`.
 Model model_of(ModelArrays arrays);
 
 /// The inverse, with the metadata and their fingerprint, if there are any.
@@ -56,15 +54,5 @@ NeuralNetwork neural_network_of(const ModelArrays& arrays);
 
 /// The inverse. It keeps every bit of single precision.
 ModelArrays arrays_of(const NeuralNetwork& network);
-
-/// The arrays of a phase model: `sample_rate`, `transition` (11 × 11), `seconds`, and for each
-/// noise level i `torque_i_knee` and `torque_i_wheel` (lower and upper end, number of points),
-/// `torque_i_log_density` (one row per cell, wheel by wheel, one column per phase),
-/// `acceleration_i_axis`, `acceleration_i_log_density`, and `…_noise` = (σ, bandwidth).
-ModelArrays arrays_of(const PhaseModel& model);
-
-/// The inverse: densities to single precision, all else to the bit. Errors: `InputError` for arrays
-/// that are missing or of the wrong size, and if `check_phase_model` throws.
-PhaseModel phase_model_of(const ModelArrays& arrays);
 
 }  // namespace touchdown

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "estimator/models/parameters.hpp"
 #include "estimator/npz/npz.hpp"
 
 namespace touchdown {
@@ -11,27 +10,18 @@ namespace {
 
 bool is_of_grid(std::string_view name) {
   return name == "wheel_torque" || name == "knee_torque" || name == "contact_likelihood" ||
-         name == "no_contact_likelihood";
+         name == "no_contact_likelihood" || name == metadata_array || name == provenance_array;
 }
 
-bool is_of_phase_model(std::string_view name) {
-  return name == "sample_rate" || name == "seconds" || name == "transition" ||
-         name == provenance_array || name.starts_with("torque_") ||
-         name.starts_with("acceleration_");
-}
-
-/// Which arrays of a file belong to the model: all arrays of a parameter model or a network; of a
-/// grid or a phase model only its own, because the file may hold others.
+/// Which arrays of a file belong to the model: of a grid only its own, because the file may hold
+/// others; all arrays of other models.
 NpzNeeds model_needs(const std::filesystem::path& path) {
   const std::vector<std::string> names = npz_names(path);
   const auto has = [&](std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
-  if (has(estimator_array) || has("gru_input_weight")) return any_array;
-  bool (*const belongs)(std::string_view) = has("transition") ? is_of_phase_model : is_of_grid;
-  return [belongs](std::string_view name) {
-    return name == metadata_array || belongs(name) ? any_array(name) : 0;
-  };
+  if (!has("contact_likelihood")) return any_array;
+  return [](std::string_view name) { return is_of_grid(name) ? any_array(name) : 0; };
 }
 
 /// What `make` makes of a file's model. The errors of `make` get the file's name in front.

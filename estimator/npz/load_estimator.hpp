@@ -9,9 +9,9 @@
 
 namespace touchdown {
 
-/// Loads a model file that `touchdown fit` wrote, or one of the same arrays. Beside a grid or a
-/// phase model, a file may hold other arrays, which are not read. Errors: `InputError`, one line
-/// that begins with the file's name, if the file is unreadable, was changed since the fit, or is no
+/// Loads a model file that `touchdown fit` or `export` wrote, or one of the same arrays. Beside a
+/// grid, a file may hold other arrays, which are not read. Errors: `InputError`, one line that
+/// begins with the file's name, if the file is unreadable, was changed since the fit, or is no
 /// model.
 Model load_model(const std::filesystem::path& path);
 

@@ -130,7 +130,7 @@ void add_member(zip_t& archive, const std::string& name, const std::string& byte
   // A fixed date: the same arrays must give the same bytes.
   constexpr zip_uint16_t midnight = 0;
   constexpr zip_uint16_t first_of_january_1980 = (1U << 5U) | 1U;
-  // The grids of a phase model take 40 MB, and a third of that deflated, at any level.
+  // Large grids take a third of their size deflated, at any level.
   const bool is_deflated = deflated == Deflated::all || bytes.size() > 400'000;
   if (zip_set_file_compression(&archive, index, is_deflated ? ZIP_CM_DEFLATE : ZIP_CM_STORE,
                                is_deflated ? 1 : 0) != 0 ||

@@ -1,5 +1,7 @@
-/* Contact estimation from C, with a simulated signal in place of your robot: it stands for 0.5 s, falls
- * for 0.2 s, and stands again.
+/* Contact estimation from C, with a simulated signal in place of your robot: it stands for 0.5 s,
+ * falls for 0.2 s, and stands again. Without an argument the estimator is the load filter with
+ * Upkie's legs. ROBOT.npz holds those of another robot, which `touchdown export robot.yaml -o
+ * ROBOT.npz` wrote, or a fitted model.
  *
  * Exit code 0 if the belief about the left wheel is right at the end of each phase. */
 
@@ -38,11 +40,11 @@ int main(int argc, char** argv) {
   touchdown_estimator* estimator;
   int right = 1;
   int step;
-  if (argc != 2) {
-    fprintf(stderr, "usage: c_interface MODEL.npz\n");
+  if (argc > 2) {
+    fprintf(stderr, "usage: c_interface [ROBOT.npz]\n");
     return 2;
   }
-  estimator = touchdown_create(argv[1], &use, error, sizeof error);
+  estimator = touchdown_create(argc == 2 ? argv[1] : NULL, &use, error, sizeof error);
   if (estimator == NULL) {
     fprintf(stderr, "%s\n", error);
     return 2;
@@ -52,8 +54,8 @@ int main(int argc, char** argv) {
     const touchdown_record record = read_robot(step);
     const touchdown_belief belief = touchdown_update(estimator, &record);
     if (step == 499 || step == 699 || step == 1199) {
-      printf("%.3f s: left wheel %s, P(contact) %.6f, signals %s\n", record.time,
-             belief.contact[0] ? "in contact" : "in the air", belief.p_contact[0],
+      printf("%.3f s: left wheel %s, P(contact) %.6f, load %.1f N, signals %s\n", record.time,
+             belief.contact[0] ? "in contact" : "in the air", belief.p_contact[0], belief.load[0],
              touchdown_status_text(belief.status));
       right = right && belief.contact[0] == !in_the_air(step);
     }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# Simulate, look, fit, estimate, score (docs/reference/python.md). first_steps.py [FIGURE.png]
+# Simulate, look, estimate, fit, score (docs/reference/python.md). first_steps.py [FIGURE.png]
 # %%
 import sys
 
@@ -12,10 +12,10 @@ fitted = touchdown.simulate("scenarios/stairs.yaml", seed=1, run=0)
 run = touchdown.simulate("scenarios/stairs.yaml", seed=1, run=1)
 print(run, run["torque"].shape, f"{1 - run['contact'].mean():.1%} without contact")
 
-# %% Two fitted estimators: a filter of loads and motions, and the robust form of the paper's filter.
-for name in ("force_kinematics", "robust"):
-    model = touchdown.fit(fitted, name)
-    estimator = touchdown.Estimator(model=model)
+# %% The robust form of the paper's filter, which is fitted, and the filter of loads, which needs no fit.
+estimators = {"robust": touchdown.Estimator(model=touchdown.fit(fitted, "robust")),
+              "load_filter": touchdown.Estimator("load_filter")}  # of your robot: robot="mine.yaml"
+for name, estimator in estimators.items():
     beliefs = estimator.run(run)
     scores = touchdown.score(beliefs, run)["wheels"]
     print(f"{name:<18} success {scores['success']:.4f}, mean takeoff latency {scores['takeoff_latency_ms']:.0f} ms")

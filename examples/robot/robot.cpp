@@ -1,4 +1,5 @@
-// A robot's program: contact estimation takes ten lines.
+// A robot's program: contact estimation takes ten lines. ROBOT.npz holds the robot's legs and
+// masses, which `touchdown export robot.yaml -o ROBOT.npz` wrote, or a fitted model.
 
 #include <touchdown/estimator.hpp>
 #include <touchdown/load_estimator.hpp>
@@ -6,7 +7,7 @@
 #include "made_up_robot.hpp"
 
 int main(int argc, char** argv) {
-  if (argc != 2) return usage("robot MODEL.npz");
+  if (argc != 2) return usage("robot ROBOT.npz");
   const auto estimator =
       touchdown::load_estimator(argv[1], {.sample_rate = rate, .robot = "upkie"});
   touchdown::SignalAssembler assembler({.sample_rate = rate});

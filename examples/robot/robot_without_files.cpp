@@ -1,9 +1,9 @@
-// The same for a robot without a file system: the model is compiled in.
+// The same for a robot without a file system: its legs and masses are compiled in.
 
 #include <touchdown/estimator.hpp>
 
 #include "made_up_robot.hpp"
-#include MODEL_HEADER  // written by `touchdown export model.npz -o model.hpp`
+#include MODEL_HEADER  // written by `touchdown export robot.yaml -o model.hpp`
 
 int main() {
   const auto estimator = touchdown::make_estimator(touchdown::compiled::model,

@@ -9,7 +9,7 @@
 
 namespace upkie::cpp::observers {
 
-/*! Estimates contact of the wheels with a fitted model of touchdown.
+/*! Estimates contact of the wheels with touchdown.
  *
  * Append it after FloorContact. It writes its decision to `floor_contact.contact`, which controllers
  * read, and to `contact` of each wheel. It adds P(contact) of each wheel, `p_any_wheel`,
@@ -20,18 +20,19 @@ class TouchdownObserver : public Observer {
   struct Parameters {
     /*! Configure from the dictionary given to reset, if it has a section `touchdown`:
      *
-     * model: file of a fitted model. robot: name of the robot it must be fitted to. decides: whether
-     * this observer (the default) or FloorContact writes `floor_contact.contact`.
+     * model: file of the robot's legs and masses, or of a fitted model. robot: name of the robot that
+     * the file must be of. decides: whether this observer (the default) or FloorContact writes
+     * `floor_contact.contact`.
      */
     void configure(const Dictionary& config);
 
     //! Time between two calls of read, in [s].
     double dt = 0.001;
 
-    //! Model file written by `touchdown fit`.
+    //! File written by `touchdown export ROBOT`, or model file written by `touchdown fit`.
     std::string model;
 
-    //! Robot that the model must be fitted to; any if empty.
+    //! Robot that the file must be of; any if empty.
     std::string robot = "upkie";
 
     //! Write the decision to `floor_contact.contact`.
@@ -48,8 +49,8 @@ class TouchdownObserver : public Observer {
 
   /*! Read the model.
    *
-   * \throw std::runtime_error If it cannot be used: unreadable, fitted to another robot or at
-   *     another frequency. Without a model, the configuration of reset must name one.
+   * \throw std::runtime_error If it cannot be used: unreadable, of another robot or for
+   *     another frequency. Without a file, the configuration of reset must name one.
    */
   explicit TouchdownObserver(const Parameters& params);
 
@@ -58,7 +59,7 @@ class TouchdownObserver : public Observer {
 
   inline std::string prefix() const noexcept final { return "floor_contact"; }
 
-  //! Reset the belief; read another model if the configuration names one. Throws as the constructor.
+  //! Reset the belief; read another file if the configuration names one. Throws as the constructor.
   void reset(const Dictionary& config) override;
 
   //! Process one observation. Missing keys count as not reported.
@@ -67,7 +68,7 @@ class TouchdownObserver : public Observer {
   //! Write the belief.
   void write(Dictionary& observation) override;
 
-  //! "robust, 1000 Hz, robot upkie, fingerprint ...".
+  //! "load_filter, 1000 Hz, robot upkie, fingerprint ...".
   std::string model() const;
 
  private:

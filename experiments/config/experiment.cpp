@@ -21,9 +21,6 @@ ExperimentFiles files_of(const Experiment& experiment) {
     files.insert(files.end(), more.begin(), more.end());
   };
   append(all.scenarios, experiment.test.scenarios);
-  for (const TrainingSegments& segments : experiment.training_segments) {
-    all.scenarios.push_back(segments.scenario);
-  }
   std::vector<std::string> sensors = {experiment.sensors};
   for (const StudySection& study : study_sections()) {
     if (!study.files) continue;

@@ -27,18 +27,6 @@ struct RunsConfig {
   bool perturbed = true;               ///< whether perturbations are drawn from the seed
 };
 
-/// Training segments of perturbed runs of one scene, simulated at the control period of the test
-/// runs.
-struct TrainingSegments {
-  std::string scenario;  ///< scenario file
-  int runs = 1;
-  double after = 0.3;   ///< earliest start of a segment (s)
-  double length = 5.0;  ///< s, less if the run ends earlier
-  /// Number of evenly spaced start times. Runs take them in turn; a segment with the last one ends
-  /// with its run.
-  int offsets = 1;
-};
-
 /// The section `fit.tuning`: every estimator with hyperparameters gets the same number of trials.
 /// Only fitted runs decide which trial is best (docs/explanation/benchmark.md).
 struct TuningConfig {
@@ -49,7 +37,7 @@ struct TuningConfig {
   /// Whether a benchmark's other robots and sensors have trials of their own. Otherwise they use
   /// the values chosen for the experiment's own robot and sensors.
   bool everywhere = false;
-  /// Estimators that keep their defaults, such as a second operating point of another one.
+  /// Estimators that keep their defaults.
   std::vector<std::string> fixed = {};
 };
 
@@ -93,19 +81,12 @@ struct DetailConfig {
   std::vector<std::string> estimators = {};                         ///< with probabilities shown
 };
 
-/// The section `posterior`: a figure of the phase filter's probability of every phase during one
-/// drop, for every engine.
-struct PosteriorConfig {
-  DropChoice choice = {};
-  noise::NoiseCell noise = {1.0, 5.0};
-};
-
 /// The content of an experiment file: runs, estimators, sensor noise, scoring and studies.
 struct Experiment {
   std::string name;
   std::uint64_t seed = 1;
   std::vector<std::string> simulators = {"mujoco", "bullet"};
-  std::vector<std::string> estimators = {"robust"};
+  std::vector<std::string> estimators = {"load_filter"};
   /// Estimators of the caller and of studies' sections, which `estimators` may name, too. They are
   /// no part of the file.
   std::vector<EstimatorEntry> external_estimators = {};
@@ -113,17 +94,12 @@ struct Experiment {
       {};  ///< of these estimators, instead of the defaults
   /// Likewise in one engine, by engine, then estimator. They precede those of all engines.
   std::map<std::string, std::map<std::string, HyperparameterValues>> engine_hyperparameters = {};
-  RunsConfig fit;  ///< noiseless runs for fitting models
-  /// If not empty: phase models are fitted to these instead, other learned models to both.
-  std::vector<TrainingSegments> training_segments;
-  /// Whether fitted networks and evidence curves get the load by the servo law.
-  bool fit_servo_load = false;
+  RunsConfig fit;                         ///< noiseless runs for fitting models
   std::optional<std::uint64_t> fit_seed;  ///< for drawing fitted runs, if not `seed`
   std::optional<TuningConfig> tuning;     ///< of hyperparameters on fitted runs
   RunsConfig test;                        ///< runs for scoring; no model is fitted to them
-  std::string robot;      ///< file of the robot in all runs; empty: each scenario's own
-  std::string sensors;    ///< file of the sensor profile; empty: ideal sensors
-  bool transfer = false;  ///< whether shipped models may run on other robots and at other rates
+  std::string robot;    ///< file of the robot in all runs; empty: each scenario's own
+  std::string sensors;  ///< file of the sensor profile; empty: ideal sensors
   noise::NoiseGridConfig noise;
   std::vector<noise::NoiseCell> highlights;  ///< cells of the grid that are scored in full
   scoring::LabelConfig labels;
@@ -135,8 +111,7 @@ struct Experiment {
   /// Drawn if the file has the section, unless it has `enabled: false`. An empty section uses the
   /// defaults.
   std::optional<DetailConfig> detail;
-  std::optional<PosteriorConfig> posterior;  ///< likewise
-  StudySections studies;                     ///< sections of the studies that it asks for
+  StudySections studies;      ///< sections of the studies that it asks for
   bool paper_tables = false;  ///< prints the paper's Tables I to III for every highlighted cell
   int workers = 0;            ///< threads; 0: one per core. Never changes a result.
 };

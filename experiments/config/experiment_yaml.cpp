@@ -120,16 +120,6 @@ static void describe(Fields& fields, RunsConfig& runs) {
   fields("perturbed", runs.perturbed).doc("Whether perturbations are drawn from the seed.");
 }
 
-static void describe(Fields& fields, TrainingSegments& segments) {
-  fields.require("scenario", segments.scenario).doc("Scenario file.");
-  fields("runs", segments.runs, 1, 100'000).doc("Number of perturbed runs.");
-  fields("after", segments.after, 0.0, 1e4).doc("s", "Earliest start of a segment.");
-  fields("length", segments.length, 0.01, 1e4)
-      .doc("s", "Length of a segment, less if the run ends earlier.");
-  fields("offsets", segments.offsets, 1, 1000)
-      .doc("Number of evenly spaced start times; runs use them in turn.");
-}
-
 /// All runs of a scenario without perturbations are equal, so they count as one.
 static void describe(Fields& fields, TuningConfig& tuning, const Experiment& experiment) {
   const RunsConfig& fit = experiment.fit;
@@ -145,7 +135,7 @@ static void describe(Fields& fields, TuningConfig& tuning, const Experiment& exp
   if (fields.given("fixed", !tuning.fixed.empty())) {
     own_estimators(fields, "fixed", experiment, tuning.fixed)
         .fallback("none")
-        .doc("Estimators that keep their defaults, such as a second operating point.");
+        .doc("Estimators that keep their defaults.");
   }
   const std::size_t runs =
       fit.scenarios.size() * (fit.perturbed ? static_cast<std::size_t>(fit.runs) : 1);
@@ -156,16 +146,8 @@ static void describe(Fields& fields, TuningConfig& tuning, const Experiment& exp
 
 static void describe_fit(Fields& fit, Experiment& experiment) {
   describe(fit, experiment.fit);
-  fit.list_if_any("segments", experiment.training_segments)
-      .doc("Segments of runs: phase models are fitted to these instead, others to both.");
   fit.section("tuning", experiment.tuning, experiment)
       .doc("The same number of trials for every ranked estimator with hyperparameters.");
-  if (fit.given("servo_load", experiment.fit_servo_load)) {
-    fit("servo_load", experiment.fit_servo_load)
-        .doc(
-            "Whether networks and evidence curves get the load by the servos' laws as one more "
-            "channel.");
-  }
   fit.optional("seed", experiment.fit_seed)
       .fallback("the experiment's")
       .doc("Seed of the fitted runs.");
@@ -252,12 +234,6 @@ static void describe(Fields& fields, Experiment& experiment) {
   file_if_any("sensors", experiment.sensors)
       .fallback("ideal sensors")
       .doc("Sensor profile of all runs.");
-  if (fields.given("transfer", experiment.transfer)) {
-    fields("transfer", experiment.transfer)
-        .doc(
-            "Whether `shipped` may run on another robot, or at another rate, than its "
-            "model was fitted for.");
-  }
   describe_studies(fields, "noise", experiment);
   const noise::NoiseGridConfig& noise = experiment.noise;
   fields.section("noise", experiment.noise)
@@ -315,9 +291,9 @@ Experiment experiment_from_yaml(const YamlDocument& document,
 std::vector<Key> experiment_keys() { return documented_keys(default_experiment()); }
 
 void require_files(const YamlDocument& document) {
-  std::vector<std::string> keys = {
-      "fit.scenarios", "fit.scenarios.files",  "test.scenarios", "test.scenarios.files", "robot",
-      "sensors",       "fit.segments.scenario"};
+  std::vector<std::string> keys = {"fit.scenarios",  "fit.scenarios.files",
+                                   "test.scenarios", "test.scenarios.files",
+                                   "robot",          "sensors"};
   for (const StudySection& section : study_sections()) {
     keys.insert(keys.end(), section.file_keys.begin(), section.file_keys.end());
   }

@@ -52,7 +52,7 @@ void describe(Fields& fields, VideoConfig& video, const Experiment& experiment);
 /// Describes the section `figures`.
 void describe(Fields& fields, PrintConfig& print);
 
-/// Describes the sections `detail` and `posterior`: figures of one drop.
+/// Describes the section `detail`: a figure of one drop.
 void describe_drop_figures(Fields& fields, Experiment& experiment);
 
 }  // namespace touchdown::experiments

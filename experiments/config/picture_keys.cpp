@@ -31,10 +31,10 @@ void describe_choice(Fields& fields, DropChoice& choice, const Experiment& exper
   fields("after", choice.after, 0.01, 10.0).doc("s", "Shown after takeoff or `at`.");
 }
 
-/// As many estimators as are readable, the paper's and the phase filter first.
+/// As many estimators as are readable, the paper's and the filter of loads first.
 std::vector<std::string> shown_by_default(std::vector<std::string> estimators) {
   auto next = estimators.begin();
-  for (const char* const name : {"robust", "measurement_only", "reference", "phase"}) {
+  for (const char* const name : {"robust", "measurement_only", "reference", "load_filter"}) {
     next = std::stable_partition(next, estimators.end(),
                                  [&](const std::string& other) { return other == name; });
   }
@@ -55,13 +55,6 @@ void describe(Fields& fields, DetailConfig& detail, const Experiment& experiment
   for (noise::NoiseCell& cell : detail.noise) {
     cell = noise::as_on_grid(cell, experiment.noise);
   }
-}
-
-void describe(Fields& fields, PosteriorConfig& posterior, const Experiment& experiment) {
-  if (fields.present("noise", true)) {
-    fields.section("noise", posterior.noise).doc("Noise setting of the figure.");
-  }
-  posterior.noise = noise::as_on_grid(posterior.noise, experiment.noise);
 }
 
 /// A section that enables a figure if it is present, unless it has `enabled: false`.
@@ -118,12 +111,6 @@ void describe(Fields& fields, PrintConfig& print) {
 void describe_drop_figures(Fields& fields, Experiment& experiment) {
   describe_switched(fields, "detail", experiment.detail, experiment)
       .doc("A figure of signals and estimates during one drop.");
-  describe_switched(fields, "posterior", experiment.posterior, experiment)
-      .doc("A figure of the phase filter's probabilities during one drop.");
-  const auto& names = experiment.estimators;
-  fields.check(!experiment.posterior || std::ranges::find(names, "phase") != names.end(),
-               "posterior",
-               "expected 'phase' among the experiment's estimators, or posterior.enabled: false");
 }
 
 }  // namespace touchdown::experiments

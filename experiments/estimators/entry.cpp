@@ -40,9 +40,7 @@ double EstimatorEntry::chosen(std::string_view hyperparameter) const {
 }
 
 Model EstimatorEntry::fit(const FitRuns& runs) const {
-  for (const auto* group : {&runs.whole, &runs.segments}) {
-    for (const RunSignals* run : *group) check_may_be_fitted(run->info);
-  }
+  for (const RunSignals* run : runs.whole) check_may_be_fitted(run->info);
   return fitting.fit(*this, runs);
 }
 
@@ -68,8 +66,6 @@ EstimatorEntry with_hyperparameters(EstimatorEntry entry, const HyperparameterVa
     const auto member = entry.configuration.find(name);
     if (member != entry.configuration.end()) member->second = text_of(value);
     if (name == "bandwidth_floor") fitting.torques->fit.bandwidth_floor = {value, value};
-    if (name == "torque_bandwidth") fitting.phases->torque_bandwidth = value;
-    if (name == "acceleration_bandwidth") fitting.phases->acceleration_bandwidth = value;
   }
   return entry;
 }
@@ -103,8 +99,6 @@ std::unique_ptr<ContactEstimator> make_of_model(const EstimatorEntry& entry,
   if (metadata && share_fit(metadata->estimator, entry.name)) {
     configuration.insert(metadata->configuration.begin(), metadata->configuration.end());
   }
-  // All operating points of evidence curves share a fit: a model of another one gives all settings
-  // but the thresholds.
   if (!metadata || metadata->estimator != entry.name) {
     for (const Hyperparameter& one : entry.hyperparameters) {
       if (!one.is_fitted_with) configuration[one.name] = text_of(one.value);
@@ -119,11 +113,11 @@ std::unique_ptr<ContactEstimator> make_of_model(const EstimatorEntry& entry,
        .geometry = setup.legs});
 }
 
-std::string given_text(const EstimatorEntry& entry, bool servo_load) {
+std::string given_text(const EstimatorEntry& entry) {
   std::vector<std::string> given;
   if (entry.knows.geometry) given.emplace_back("geometry");
   if (entry.knows.mass) given.emplace_back("mass");
-  if (entry.knows.targets && (servo_load || !entry.fits())) given.emplace_back("targets");
+  if (entry.knows.targets) given.emplace_back("targets");
   if (given.empty()) given.emplace_back("signals");
   const char* const model = entry.fits()                        ? "; fitted"
                             : !entry.fitting.trained_by.empty() ? "; fitted elsewhere"
@@ -133,7 +127,7 @@ std::string given_text(const EstimatorEntry& entry, bool servo_load) {
 
 bool share_model(const EstimatorEntry& one, const EstimatorEntry& other) {
   return one.fits() && one.fitting.fit == other.fitting.fit &&
-         one.fitting.torques == other.fitting.torques && one.fitting.phases == other.fitting.phases;
+         one.fitting.torques == other.fitting.torques;
 }
 
 }  // namespace touchdown::experiments

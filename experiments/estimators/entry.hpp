@@ -12,7 +12,6 @@
 #include "estimator/bayes/config.hpp"
 #include "estimator/contact_estimator.hpp"
 #include "estimator/force/leg_geometry.hpp"
-#include "estimator/phase/config.hpp"
 #include "experiments/batch/noise_level.hpp"
 #include "experiments/estimators/fit_runs.hpp"
 #include "experiments/estimators/fitted_model.hpp"
@@ -30,10 +29,6 @@ struct EstimatorSetup {
   std::optional<LegGeometry> legs = {};
   /// The labels of the run, for the oracle.
   const std::array<scoring::ContactSequence, models::wheel_count>* truth = nullptr;
-  /// Name of the robot; empty if unknown.
-  std::string robot = {};
-  /// Allows a model at other rates and on other robots than it was fitted for.
-  bool transfer = false;
   /// The entry's `configured_rate`, if windows keep their duration at this sample rate. Zero: they
   /// keep their number of steps.
   double configured_rate = 0.0;
@@ -86,7 +81,7 @@ Hyperparameter fitted_with(Hyperparameter hyperparameter);
 struct RobotKnowledge {
   bool geometry = false;  ///< lengths and masses of its legs
   bool mass = false;      ///< its whole mass
-  bool targets = false;   ///< targets and gains of its joints, where a fit uses them
+  bool targets = false;   ///< targets and gains of its joints, if there are any
   bool truth = false;     ///< labels, so that it cannot run on logs without them
 };
 
@@ -96,14 +91,9 @@ struct EstimatorEntry;
 struct FitMethod {
   /// Null for an estimator that experiments do not fit.
   Model (*fit)(const EstimatorEntry& entry, const FitRuns& runs) = nullptr;
-  /// Whether it is also fitted to an experiment's training segments, if there are any.
-  bool learns_from_segments = false;
   /// The program that trained its model, if experiments do not fit it.
   std::string trained_by = {};
-  /// Settings of the densities that it fits: of torques, or of phases. A model without either
-  /// consists of the estimator's own parameters (experiments/estimators/fits.hpp).
-  std::optional<MeasurementConfig> torques = {};
-  std::optional<PhaseFitConfig> phases = {};
+  std::optional<MeasurementConfig> torques = {};  ///< settings of the densities that it fits
 };
 
 /// How the estimator is made for a run: step by step as on a robot, or for the whole run at once.
@@ -114,9 +104,6 @@ struct MakeMethod {
                                                const EstimatorSetup& setup) = nullptr;
   /// Replaces `by_step`.
   std::function<WholeRunEstimator(const EstimatorSetup& setup)> whole_run = {};
-  /// Null for an estimator that serves every robot. Errors: `InputError` for a rate or a robot that
-  /// its model does not serve; `by_step` throws the same.
-  void (*require_served)(const EstimatorEntry& entry, const EstimatorSetup& setup) = nullptr;
 };
 
 /// Makes the estimator's batched form, which experiments/batch computes; null without one. Returns
@@ -133,8 +120,6 @@ struct EstimatorEntry {
   std::string reason;   ///< a phrase: on which axis one would prefer it to all others
   Sensors sensors;
   RobotKnowledge knows = {};
-  /// Whether it is a reference upper bound, not a candidate for a robot.
-  bool is_upper_bound = false;
   /// Identifies code outside the program that its results depend on. Results saved with another
   /// revision are not reused.
   std::string revision = {};
@@ -174,9 +159,9 @@ void check_names(const HyperparameterValues& values, const EstimatorEntry& entry
 std::unique_ptr<ContactEstimator> make_of_model(const EstimatorEntry& entry,
                                                 const EstimatorSetup& setup);
 
-/// What the estimator is given: "geometry, mass, targets; fitted". `servo_load`: whether fits use
-/// targets; shipped models do in any case. "signals" if it is given nothing else.
-std::string given_text(const EstimatorEntry& entry, bool servo_load);
+/// What the estimator is given: "geometry, mass, targets". "signals; fitted" if it is given nothing
+/// else and has a model.
+std::string given_text(const EstimatorEntry& entry);
 
 /// Whether both estimators use the same fit.
 bool share_model(const EstimatorEntry& one, const EstimatorEntry& other);

@@ -1,5 +1,3 @@
-#include <limits>
-
 #include <fmt/format.h>
 
 #include "core/error.hpp"
@@ -9,7 +7,6 @@
 #include "estimator/numerics/number_text.hpp"
 #include "experiments/batch/bayes.hpp"
 #include "experiments/batch/neural.hpp"
-#include "experiments/batch/phase.hpp"
 #include "experiments/estimators/entries.hpp"
 #include "experiments/estimators/fits.hpp"
 
@@ -58,27 +55,8 @@ std::optional<BatchedEstimator> batch_of_torques(const EstimatorEntry& entry,
       [batch](Side side) { return batch->p_contact(side); }, config.threshold};
 }
 
-std::optional<BatchedEstimator> phase_batch(const EstimatorEntry& entry,
-                                            const EstimatorSetup& setup, Levels levels) {
-  const auto batch = std::make_shared<BatchedPhaseFilter>(
-      setup.model->phase, configured<PhaseFilterConfig>(entry, setup.sample_rate),
-      batch_noise(levels));
-  // The batch applies the filter's two thresholds itself, so values are 0 or 1.
-  return BatchedEstimator{
-      [batch](const Signals& clean, const NoiseStep& draws) { batch->update(clean, draws); },
-      [batch](Side side) { return batch->contact(side); }, 0.5};
-}
-
 Model fit_measurement(const EstimatorEntry& entry, const FitRuns& runs) {
-  return {.grid = fit(runs.whole, *entry.fitting.torques, runs.scoring)};
-}
-
-/// Fits to the training segments if there are any, otherwise to the whole runs.
-Model fit_phase(const EstimatorEntry& entry, const FitRuns& runs) {
-  const PhaseFitConfig& config = *entry.fitting.phases;
-  return runs.segments.empty()
-             ? fit_phases(runs.whole, config, runs.scoring.skip, runs.before_density)
-             : fit_phases(runs.segments, config, 0.0, runs.before_density);
+  return {.grid = fit_torques(runs, *entry.fitting.torques)};
 }
 
 /// The network that comes with the project.
@@ -162,38 +140,6 @@ EstimatorEntry measurement_only_entry() {
   return entry;
 }
 
-EstimatorEntry phase_entry() {
-  const PhaseFilterConfig config;
-  return {
-      .name = "phase",
-      .title = "Phase filter",
-      .summary = "Filters by a hidden Markov model of the phases between rolling and falling",
-      .reason = "data: 6 to 20 s of labels, no geometry; it names the phases",
-      .sensors = {.knee_torque = true, .wheel_torque = true, .acceleration = true},
-      .hyperparameters = {fitted_with(around("torque_bandwidth", config.fit.torque_bandwidth, 4.0)),
-                          fitted_with(around("acceleration_bandwidth",
-                                             config.fit.acceleration_bandwidth, 4.0)),
-                          between("leave_below", config.leave_below, 0.05, 0.5),
-                          between("return_above", config.return_above, 0.5, 0.95)},
-      .configuration = text_of(config),
-      .fitting = {.fit = fit_phase, .learns_from_segments = true, .phases = config.fit},
-      .making = {.by_step = make_of_model},
-      .batching = phase_batch};
-}
-
-/// The phase filter without phases, with its inputs, bandwidths and hysteresis.
-EstimatorEntry hmm_entry() {
-  EstimatorEntry entry = phase_entry();
-  entry.name = "hmm";
-  entry.title = "Two-state HMM";
-  entry.summary = "Runs the phase filter without phases: each wheel is in contact or not";
-  entry.reason = "ablation of the phase filter";
-  PhaseLabelConfig& labels = entry.fitting.phases->labels;
-  labels.unloading = labels.impact = {0.0, 0.0, 0.0};
-  labels.held_margin = std::numeric_limits<double>::infinity();
-  return entry;
-}
-
 EstimatorEntry neural_entry() {
   return {.name = "nmn",
           .title = "NMN",
@@ -220,10 +166,6 @@ EstimatorEntry retrained_neural_entry() {
 
 }  // namespace
 
-PhaseFilter phase_filter(const EstimatorEntry& entry, const EstimatorSetup& setup) {
-  return PhaseFilter(setup.model->phase, configured<PhaseFilterConfig>(entry, setup.sample_rate));
-}
-
 TransitionConfig transition_of(const EstimatorEntry& entry) {
   return configured<BayesFilterConfig>(entry, BayesFilterConfig{}.sample_rate).transition;
 }
@@ -240,8 +182,6 @@ std::vector<EstimatorEntry> filter_entries() {
                   "Runs the paper's Bayes filter with the power read as a root mean square",
                   "history: another reading of the paper's filter", BayesFilterConfig::paper_rms()),
       measurement_only_entry(),
-      phase_entry(),
-      hmm_entry(),
       neural_entry(),
       retrained_neural_entry()};
 }

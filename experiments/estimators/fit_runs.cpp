@@ -12,20 +12,6 @@
 
 namespace touchdown::experiments {
 
-FitRuns FitRuns::together() const {
-  FitRuns all = *this;
-  all.whole.insert(all.whole.end(), segments.begin(), segments.end());
-  all.segments.clear();
-  return all;
-}
-
-LegGeometry legs_of(const FitRuns& runs) {
-  for (const auto* group : {&runs.whole, &runs.segments}) {
-    if (!group->empty()) return group->front()->legs;
-  }
-  return {};
-}
-
 std::string robot_of(const logs::RecordingInfo& info) {
   if (info.scenario_yaml.empty()) return info.robot;
   const YamlDocument scenario =
@@ -39,6 +25,22 @@ std::string robot_of(const logs::RecordingInfo& info) {
 void FittedTo::add(const logs::RecordingInfo& info) {
   if (sample_rate == 0.0) sample_rate = 1e6 / static_cast<double>(info.control_period_us);
   if (const std::string robot = robot_of(info); !robot.empty()) robots.insert(robot);
+  if (info.simulator.empty()) return;
+  scenarios.insert(info.scenario);
+  simulators.insert(info.simulator);
+  draws.insert(fmt::format("{}:{}", info.seed, info.run));
+}
+
+ModelArray FittedTo::provenance(std::string_view estimator) const {
+  std::string text = fmt::format("estimator: {}\nseconds: {:.3f}\n", estimator, seconds);
+  const auto add = [&](std::string_view key, const std::set<std::string>& values) {
+    if (!values.empty()) text += fmt::format("{}: {}\n", key, fmt::join(values, ", "));
+  };
+  add("scenarios", scenarios);
+  add("simulators", simulators);
+  add("seed:run", draws);
+  add("logs", logs);
+  return array_of_text(text);
 }
 
 std::size_t skipped_steps(const RunSignals& run, double skip) {
@@ -46,21 +48,13 @@ std::size_t skipped_steps(const RunSignals& run, double skip) {
   return std::min(run.steps(), static_cast<std::size_t>(std::llround(rest / run.period())));
 }
 
-ModelArray provenance_of(std::string_view estimator, std::span<const RunSignals* const> runs,
-                         double skip) {
-  std::set<std::string> scenarios;
-  std::set<std::string> simulators;
-  std::set<std::string> drawn;
-  double seconds = 0.0;
+FittedTo fitted_to(std::span<const RunSignals* const> runs, double skip) {
+  FittedTo fitted;
   for (const RunSignals* run : runs) {
-    scenarios.insert(run->info.scenario);
-    simulators.insert(run->info.simulator);
-    drawn.insert(fmt::format("{}:{}", run->info.seed, run->info.run));
-    seconds += static_cast<double>(run->steps() - skipped_steps(*run, skip)) * run->period();
+    fitted.add(run->info);
+    fitted.seconds += static_cast<double>(run->steps() - skipped_steps(*run, skip)) * run->period();
   }
-  return array_of_text(fmt::format(
-      "estimator: {}\nscenarios: {}\nseconds: {:.3f}\nseed:run: {}\nsimulators: {}\n", estimator,
-      fmt::join(scenarios, ", "), seconds, fmt::join(drawn, ", "), fmt::join(simulators, ", ")));
+  return fitted;
 }
 
 }  // namespace touchdown::experiments

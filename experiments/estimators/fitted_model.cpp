@@ -15,10 +15,7 @@ ModelMetadata new_metadata(const std::string& estimator, const FittedTo& fitted_
   return {.estimator = estimator,
           .sample_rate = fitted_to.sample_rate,
           .robot = fmt::format("{}", fmt::join(fitted_to.robots, ", ")),
-          .configuration = makes_estimator(estimator)
-                               ? default_configuration(estimator, fitted_to.sample_rate,
-                                                       fitted_to.legs, fitted_to.servo_load)
-                               : ConfigurationText{},
+          .configuration = default_configuration(estimator, fitted_to.sample_rate),
           .fingerprint = {}};
 }
 
@@ -29,7 +26,7 @@ HyperparameterValues hyperparameters_of(const std::vector<std::string>& assignme
     const std::optional<double> value =
         equals < one.size() ? number_of(one.substr(equals + 1)) : std::nullopt;
     if (equals == 0 || !value)
-      throw InputError(fmt::format("{}: expected name=number, as in leave_below=0.25", one));
+      throw InputError(fmt::format("{}: expected name=number, as in leave_below=0.05", one));
     hyperparameters[one.substr(0, equals)] = *value;
   }
   return hyperparameters;
@@ -37,9 +34,7 @@ HyperparameterValues hyperparameters_of(const std::vector<std::string>& assignme
 
 void put_into(ModelMetadata& metadata, const HyperparameterValues& hyperparameters) {
   for (const auto& [name, value] : hyperparameters) {
-    const bool is_known =
-        metadata.configuration.contains(name) || !makes_estimator(metadata.estimator);
-    if (is_known) metadata.configuration[name] = text_of(value);
+    if (metadata.configuration.contains(name)) metadata.configuration[name] = text_of(value);
   }
 }
 

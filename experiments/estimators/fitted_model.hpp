@@ -25,8 +25,7 @@ ModelMetadata new_metadata(const std::string& estimator, const FittedTo& fitted_
 /// Parses assignments of the form "name=number". Errors: `InputError` for anything else.
 HyperparameterValues hyperparameters_of(const std::vector<std::string>& assignments);
 
-/// Copies values into the configuration of the metadata. For an estimator that the library makes,
-/// it copies only those that the configuration has.
+/// Copies those values into the configuration of the metadata that it has.
 void put_into(ModelMetadata& metadata, const HyperparameterValues& hyperparameters);
 
 /// Models by the key of their fit (`model_key`), then by estimator. Estimators with the same fit

@@ -22,8 +22,8 @@ const EstimatorEntry* find(std::span<const EstimatorEntry> entries, std::string_
 std::span<const EstimatorEntry> estimator_entries() {
   static const std::vector<EstimatorEntry> entries = [] {
     std::vector<EstimatorEntry> all;
-    for (const auto& of_file : {filter_entries(), observer_entries(), force_entries(),
-                                evidence_entries(), boosted_entries(), reference_entries()}) {
+    for (const auto& of_file :
+         {force_entries(), filter_entries(), observer_entries(), reference_entries()}) {
       all.insert(all.end(), of_file.begin(), of_file.end());
     }
     return all;
@@ -47,11 +47,6 @@ const EstimatorEntry& estimator_entry(std::string_view name,
   throw InputError(fmt::format("unknown estimator '{}': expected one of {}{}", name,
                                fmt::join(names, ", "),
                                near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near)));
-}
-
-bool is_upper_bound(std::string_view estimator) {
-  const EstimatorEntry* const entry = find(estimator_entries(), estimator);
-  return entry != nullptr && entry->is_upper_bound;
 }
 
 void check_external_names(std::span<const EstimatorEntry> external) {

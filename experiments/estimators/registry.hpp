@@ -21,9 +21,6 @@ std::vector<std::string> estimator_names(std::span<const EstimatorEntry> externa
 const EstimatorEntry& estimator_entry(std::string_view name,
                                       std::span<const EstimatorEntry> external = {});
 
-/// Whether the estimator is a reference upper bound; false for unknown names.
-bool is_upper_bound(std::string_view estimator);
-
 /// Errors: `InputError` for an external estimator with the name of a built-in one.
 void check_external_names(std::span<const EstimatorEntry> external);
 

@@ -94,15 +94,14 @@ SceneCounts counts_on(const HeldOut& held_out, const EstimatorEntry& entry, cons
 std::vector<SceneCounts> run_fold(const FoldJob& job, const Fold& fold,
                                   std::span<const Trial> trials, const Experiment& experiment,
                                   const std::function<void()>& stop_if_asked) {
-  const FitRuns runs{fold.fitted, fold.segments, experiment.scoring, stop_if_asked,
-                     experiment.fit_servo_load};
+  const FitRuns runs{fold.fitted, experiment.scoring};
   HeldOut held_out{fold.held_out, {}};
   constexpr std::uint64_t tuning_stream = 0x74756e696e67;  // "tuning": no other run has its noise
   for (const RunSignals* run : fold.held_out) {
     const auto draws = draws_of(seed_of_fit(experiment), tuning_stream, 0, run->info.run);
     held_out.noise.push_back(noise_run(*run, draws));
   }
-  // Trials with one fit follow each other: a phase model takes tens of megabytes.
+  // Trials with one fit follow each other, so that one model at a time is in memory.
   std::map<HyperparameterValues, std::vector<std::size_t>> trials_of;
   for (std::size_t number = 0; number < trials.size(); ++number) {
     trials_of[fit_hyperparameters(*job.entry, trials[number].hyperparameters)].push_back(number);
@@ -115,7 +114,7 @@ std::vector<SceneCounts> run_fold(const FoldJob& job, const Fold& fold,
       const EstimatorEntry entry = with_hyperparameters(*job.entry, hyperparameters);
       if (entry.fits()) {
         if (number == numbers.front()) model = entry.fit(runs);
-        model.metadata = new_metadata(entry.name, runs, hyperparameters);
+        describe_fit(entry.name, runs, hyperparameters, model);
       }
       counts[number] = counts_on(held_out, entry, model, experiment, stop_if_asked);
     }
@@ -152,33 +151,23 @@ std::vector<HyperparameterValues> trial_hyperparameters(const EstimatorEntry& en
   return all;
 }
 
-std::vector<Fold> folds_of(std::span<const RunSignals* const> whole,
-                           std::span<const RunSignals* const> segments, std::size_t folds,
-                           bool drawn) {
+std::vector<Fold> folds_of(std::span<const RunSignals* const> runs, std::size_t folds, bool drawn) {
   std::map<std::pair<std::string, std::int64_t>, std::size_t> fold_of_draw;
-  const auto fold_of = [&](const RunSignals& run, bool is_drawn) {
-    const std::pair draw(run.info.scenario, is_drawn ? run.info.run : -1);
-    return fold_of_draw.try_emplace(draw, fold_of_draw.size() % folds).first->second;
-  };
   std::vector<Fold> all(folds);
-  for (const RunSignals* run : whole) {
-    const std::size_t own = fold_of(*run, drawn);
+  for (const RunSignals* run : runs) {
+    const std::pair draw(run->info.scenario, drawn ? run->info.run : -1);
+    const std::size_t own =
+        fold_of_draw.try_emplace(draw, fold_of_draw.size() % folds).first->second;
     for (std::size_t fold = 0; fold < folds; ++fold) {
       (fold == own ? all[fold].held_out : all[fold].fitted).push_back(run);
-    }
-  }
-  for (const RunSignals* segment : segments) {
-    const std::size_t own = fold_of(*segment, true);
-    for (std::size_t fold = 0; fold < folds; ++fold) {
-      if (fold != own) all[fold].segments.push_back(segment);
     }
   }
   return all;
 }
 
 std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
-                        const RunPointers& fit_runs, const RunPointers& segments,
-                        const std::function<bool()>& should_continue, const Store& store) {
+                        const RunPointers& fit_runs, const std::function<bool()>& should_continue,
+                        const Store& store) {
   const auto stop_if_asked = [&] {
     if (should_continue && !should_continue()) throw Stopped();
   };
@@ -187,14 +176,12 @@ std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
   std::vector<FoldJob> jobs;
   for (const std::string& simulator : experiment.simulators) {
     folds[simulator] =
-        folds_of(of_engine(fit_runs, simulator), of_engine(segments, simulator),
-                 static_cast<std::size_t>(experiment.tuning->folds), experiment.fit.perturbed);
+        folds_of(of_engine(fit_runs, simulator), static_cast<std::size_t>(experiment.tuning->folds),
+                 experiment.fit.perturbed);
     for (const std::string& name : experiment.estimators) {
       const EstimatorEntry& entry = estimator_entry(experiment, name);
       const std::vector<std::string>& fixed = experiment.tuning->fixed;
-      if (entry.is_upper_bound || std::find(fixed.begin(), fixed.end(), name) != fixed.end()) {
-        continue;
-      }
+      if (std::find(fixed.begin(), fixed.end(), name) != fixed.end()) continue;
       const std::vector<HyperparameterValues> tried =
           trial_hyperparameters(entry, seed_of_fit(experiment), experiment.tuning->trials);
       for (std::size_t fold = 0; fold < folds[simulator].size() && !tried.empty(); ++fold) {

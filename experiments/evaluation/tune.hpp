@@ -24,17 +24,13 @@ std::vector<HyperparameterValues> trial_hyperparameters(const EstimatorEntry& en
 
 /// One fold of a cross-validation over the fitted runs.
 struct Fold {
-  RunPointers fitted;    ///< training data: whole runs of all other folds
-  RunPointers segments;  ///< training data: segments of runs of all other folds
-  RunPointers held_out;  ///< validation data: whole runs of this fold
+  RunPointers fitted;    ///< training data: the runs of all other folds
+  RunPointers held_out;  ///< validation data: the runs of this fold
 };
 
-/// Assigns whole runs to folds in turn, so that each scene is spread over the folds, then the runs
-/// of segments. All whole runs and segments of one draw of a scene are in the same fold. A scene
-/// that is not `drawn` counts as one draw.
-std::vector<Fold> folds_of(std::span<const RunSignals* const> whole,
-                           std::span<const RunSignals* const> segments, std::size_t folds,
-                           bool drawn);
+/// Assigns runs to folds in turn, so that each scene is spread over the folds. All runs of one draw
+/// of a scene are in the same fold. A scene that is not `drawn` counts as one draw.
+std::vector<Fold> folds_of(std::span<const RunSignals* const> runs, std::size_t folds, bool drawn);
 
 /// One set of hyperparameters and its score.
 struct Trial {
@@ -50,14 +46,13 @@ struct Trial {
 };
 
 /// Runs the same number of trials for every estimator with hyperparameters, on each engine, in
-/// parallel. Those of `TuningConfig::fixed` and reference upper bounds, which are not ranked, keep
-/// their defaults. Returns trials by engine, estimator, then number. Whole runs and segments serve
-/// as training data, whole runs as validation data, with the sensor model and the tuning's noise.
+/// parallel. Those of `TuningConfig::fixed` keep their defaults. Returns trials by engine,
+/// estimator, then number. Validation runs have the sensor model and the tuning's noise.
 /// Trials in the store are not repeated. Errors: `InputError` when a fold leaves too little data
 /// for a fit; `Stopped`.
 std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
-                        const RunPointers& fit_runs, const RunPointers& segments,
-                        const std::function<bool()>& should_continue, const Store& store = {});
+                        const RunPointers& fit_runs, const std::function<bool()>& should_continue,
+                        const Store& store = {});
 
 /// The chosen values among the trials of one fit.
 TunedHyperparameters chosen_in(const std::vector<Trial>& trials);

@@ -1,7 +1,6 @@
 #include "experiments/fitting/fitting.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <utility>
 
 #include <fmt/format.h>
@@ -99,8 +98,7 @@ EstimatorSetup setup_of(const Experiment& experiment, const Condition& condition
           ? &models.at(model_key(condition.fit_simulator, condition.fit, condition.refit))
                  .at(condition.estimator)
           : nullptr;
-  return {run.sample_rate(),  model, run.legs, &run.contact, robot_of(run.info),
-          experiment.transfer};
+  return {run.sample_rate(), model, run.legs, &run.contact};
 }
 
 std::unique_ptr<ContactEstimator> make_estimator(const Experiment& experiment,
@@ -149,21 +147,16 @@ RunPointers of_engine(const RunPointers& runs, const std::string& simulator) {
   return own;
 }
 
-ModelMetadata new_metadata(const std::string& estimator, const FitRuns& runs,
-                           const HyperparameterValues& hyperparameters) {
-  FittedTo fitted_to;
-  fitted_to.legs = legs_of(runs);
-  fitted_to.servo_load = runs.servo_load;
-  for (const auto* group : {&runs.whole, &runs.segments}) {
-    for (const RunSignals* run : *group) fitted_to.add(run->info);
-  }
-  ModelMetadata metadata = new_metadata(estimator, fitted_to);
-  put_into(metadata, hyperparameters);
-  return metadata;
+void describe_fit(const std::string& estimator, const FitRuns& runs,
+                  const HyperparameterValues& hyperparameters, Model& model) {
+  const FittedTo fitted = fitted_to(runs.whole, runs.scoring.skip);
+  model.metadata = new_metadata(estimator, fitted);
+  put_into(*model.metadata, hyperparameters);
+  model.arrays[std::string(provenance_array)] = fitted.provenance(estimator);
 }
 
 FittedModels fit_models(const Experiment& experiment, const RunPointers& fit_runs,
-                        const RunPointers& segments, const std::function<bool()>& should_continue,
+                        const std::function<bool()>& should_continue,
                         const TunedHyperparameters& of_tuning) {
   const TunedHyperparameters chosen = or_given(of_tuning, experiment);
   std::vector<Job> jobs = jobs_of(experiment, chosen);
@@ -171,19 +164,12 @@ FittedModels fit_models(const Experiment& experiment, const RunPointers& fit_run
     if (should_continue && !should_continue()) throw Stopped();
   };
   const auto runs_of = [&](const std::string& simulator) {
-    return FitRuns{of_engine(fit_runs, simulator), of_engine(segments, simulator),
-                   experiment.scoring, stop_if_asked, experiment.fit_servo_load};
+    return FitRuns{of_engine(fit_runs, simulator), experiment.scoring};
   };
-  // Reference upper bounds take longest: they begin, so that no thread waits for them at the end.
-  std::vector<Job*> in_order;
-  for (Job& job : jobs) in_order.push_back(&job);
-  std::stable_partition(in_order.begin(), in_order.end(),
-                        [](const Job* job) { return job->entry.is_upper_bound; });
-  std::atomic<std::size_t> next = 0;
   Progress progress("fitting", "models", static_cast<std::int64_t>(jobs.size()));
-  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t /*number*/) {
+  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
     stop_if_asked();
-    Job& job = *in_order[next++];
+    Job& job = jobs[i];
     const std::string& simulator = job.simulator;
     try {
       job.model = job.entry.fit(runs_of(simulator));
@@ -202,7 +188,7 @@ FittedModels fit_models(const Experiment& experiment, const RunPointers& fit_run
     for (const std::string& name : job.estimators) {
       FittedModel& model = models[job.simulator][name];
       static_cast<Model&>(model) = job.model;
-      model.metadata = new_metadata(name, runs, model.hyperparameters);
+      describe_fit(name, runs, model.hyperparameters, model);
     }
   }
   return models;

@@ -22,17 +22,15 @@ TunedHyperparameters or_given(TunedHyperparameters chosen, const Experiment& exp
 /// The runs of one engine.
 RunPointers of_engine(const RunPointers& runs, const std::string& simulator);
 
-/// The metadata of an estimator's model that is fitted to these runs. Its configuration takes over
-/// chosen values as `put_into` does.
-ModelMetadata new_metadata(const std::string& estimator, const FitRuns& runs,
-                           const HyperparameterValues& hyperparameters);
+/// Adds the metadata and the provenance of an estimator's model that is fitted to these runs. Its
+/// configuration takes over chosen values as `put_into` does.
+void describe_fit(const std::string& estimator, const FitRuns& runs,
+                  const HyperparameterValues& hyperparameters, Model& model);
 
 /// Fits the models of the experiment's estimators, for each engine on its own runs, in parallel.
-/// Phase models are fitted to the engine's training segments, if it has any. Every model contains
-/// the chosen or given hyperparameters, also for estimators without a fit. `should_continue` is
-/// called before each density. Errors: `Stopped` when it returns false.
+/// Every model contains the chosen or given hyperparameters, also for estimators without a fit.
+/// `should_continue` is called before each fit. Errors: `Stopped` when it returns false.
 FittedModels fit_models(const Experiment& experiment, const RunPointers& fit_runs,
-                        const RunPointers& segments = {},
                         const std::function<bool()>& should_continue = {},
                         const TunedHyperparameters& chosen = {});
 

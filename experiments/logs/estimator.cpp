@@ -22,32 +22,12 @@ const EstimatorEntry& usual_estimator(const Model& model) {
   return estimator_entry(name.empty() ? "robust" : name);
 }
 
-/// Whether fits of the estimator give such numbers.
-bool fits_such(const EstimatorEntry& entry, const Model& model) {
-  const FitMethod& fitting = entry.fitting;
-  if (model.grid) return fitting.torques.has_value();
-  if (model.phase) return fitting.phases.has_value();
-  return entry.fits() && !fitting.torques && !fitting.phases;
-}
-
-std::string described(const Model& model, const EstimatorEntry& usual,
-                      const EstimatorEntry& entry) {
-  const bool is_densities = model.grid || model.phase;
-  if (!is_densities || (fits_such(entry, model) && model.metadata)) {
-    return fmt::format("a model of '{}'", usual.name);
-  }
-  if (model.phase) return "a phase model";
-  return entry.fitting.phases ? "no phase model" : "a model of torques' densities";
-}
-
 /// Errors: `InputError` that names the file, for numbers or a configuration that the estimator
 /// cannot be made with.
 void check_model(const EstimatorEntry& entry, const Model& model,
                  const std::filesystem::path& path) {
-  EstimatorSetup setup{.model = &model};
-  if (model.phase) setup.sample_rate = model.phase->sample_rate;
   try {
-    entry.make(setup);
+    entry.make({.model = &model});
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", path.string(), error.what()));
   }
@@ -57,14 +37,14 @@ void check_model(const EstimatorEntry& entry, const Model& model,
 void check_fit(const EstimatorEntry& entry, const Model& model, const std::filesystem::path& path) {
   const EstimatorEntry& usual = usual_estimator(model);
   if (!usual.fits()) {
-    throw InputError(
-        fmt::format("{}: is the model of '{}', which needs no --model", path.string(), usual.name));
+    throw InputError(fmt::format("{}: is the model of '{}', which needs no --model here",
+                                 path.string(), usual.name));
   }
-  const bool has_estimator = model.metadata || !(model.grid || model.phase);
-  if (has_estimator ? share_model(entry, usual) : fits_such(entry, model)) return;
-  throw InputError(fmt::format("{}: is {}, which '{}' cannot use (did you mean --estimator {}?)",
-                               path.string(), described(model, usual, entry), entry.name,
-                               usual.name));
+  // A grid without metadata serves every filter of torques.
+  if (model.metadata ? share_model(entry, usual) : entry.fitting.torques.has_value()) return;
+  throw InputError(
+      fmt::format("{}: is a model of '{}', which '{}' cannot use (did you mean --estimator {}?)",
+                  path.string(), usual.name, entry.name, usual.name));
 }
 
 void check_needs(const EstimatorEntry& entry, const std::filesystem::path& model) {
@@ -139,17 +119,7 @@ std::string LogEstimator::model_text() const {
 }
 
 LogEstimator log_estimator(LogEstimatorRequest request) {
-  const bool is_shipped = request.name.empty() || request.name.starts_with("shipped");
-  if (is_shipped && request.model.empty()) {
-    const EstimatorEntry& shipped =
-        estimator_entry(request.name.empty() ? "shipped" : request.name);
-    const std::string& file = shipped.making.model_file;
-    request.name.clear();  // the model's own
-    request.model = find_program_file(file);
-    LogEstimator estimator = log_estimator(std::move(request));
-    estimator.entry.title = fmt::format("{} ({})", shipped.title, file);
-    return estimator;
-  }
+  if (request.name.empty() && request.model.empty()) request.name = default_estimator;
   if (!request.name.empty()) check_needs(estimator_entry(request.name), request.model);
   if (request.model.empty()) {
     const EstimatorEntry& entry = estimator_entry(request.name);
@@ -171,9 +141,7 @@ LogEstimator log_estimator(LogEstimatorRequest request) {
                                  text_of(request.hyperparameters.at(name))));
   }
   if (model.metadata) put_into(*model.metadata, request.hyperparameters);
-  // Which model it is, its file shows: an experiment's "own fit" is the one that it makes.
-  own.title = fmt::format("{} ({})", own.title.substr(0, own.title.find(", own fit")),
-                          request.model.string());
+  own.title = fmt::format("{} ({})", own.title, request.model.string());
   return {with_hyperparameters(std::move(own), request.hyperparameters), std::move(model),
           std::move(request)};
 }

@@ -13,10 +13,13 @@
 
 namespace touchdown::experiments {
 
+/// The estimator that runs on logs if none is named: it needs the robot alone.
+inline constexpr const char* default_estimator = "load_filter";
+
 /// An estimator to run on logs, and its model.
 struct LogEstimatorRequest {
-  std::string name = {};             ///< empty: the one in the model's metadata
-  std::filesystem::path model = {};  ///< empty: none; the shipped one if the name is empty, too
+  std::string name = {};             ///< empty: the model's; without a model, `default_estimator`
+  std::filesystem::path model = {};  ///< empty: none
   /// Robot of the logs. Its legs, or those of a simulated log's own robot, replace the model's.
   LogRobot robot = {};
   /// Allows other rates and robots than those that the model was fitted for.
@@ -42,8 +45,8 @@ struct LogEstimator {
 };
 
 /// Makes the estimator of a request. The model may be one of the project's own
-/// (core/resources.hpp). Without a name, the model's metadata or parameters name the estimator;
-/// else it is `phase` for a phase model and `robust` for a grid. Errors: `InputError` for an
+/// (core/resources.hpp). Without a name, the model's metadata name the estimator; else it is
+/// `robust`. Errors: `InputError` for an
 /// unknown name (with the nearest one); for a model that is missing, not needed, unreadable or of
 /// another estimator; for an estimator that does not run on logs.
 LogEstimator log_estimator(LogEstimatorRequest request);
@@ -51,16 +54,11 @@ LogEstimator log_estimator(LogEstimatorRequest request);
 /// The estimator of a model that was fitted for it, at any rate and for any robot.
 LogEstimator log_estimator(const EstimatorEntry& entry, Model model, const LogRobot& robot);
 
-/// Contact of both wheels throughout a log, as labels to correct by hand: reads the log to its end
-/// and holds it in memory (0.5 MB/s at 1 kHz).
-///
-/// Evidence curves run over the log as it is, and over the same motion backwards: their low-passes
-/// then look ahead, and their delays have the other sign. The result is the most probable sequence
-/// of contact, given the mean of both logits, with a cost of each switch. An interval's `sure` is
-/// the lowest mean probability of a wheel's contact over 20 ms. Where neither pass has inputs for
-/// longer than a gap, no interval is. Errors: `InputError` for an estimator other than evidence
-/// curves; those of `LogEstimator::make`.
-logs::ContactIntervals smoothed_contact(LogSteps& log, const LogEstimator& chosen,
-                                        const logs::RecordingInfo& info);
+/// Contact of both wheels throughout a log by an estimator's decisions, as labels to correct by
+/// hand. An interval's `sure` is the lowest mean probability of a wheel's state over 20 ms in it.
+/// Where no step has usable signals for longer than a gap, no interval is. Errors: those of
+/// `LogEstimator::make`.
+logs::ContactIntervals proposed_labels(LogSteps& log, const LogEstimator& chosen,
+                                       const logs::RecordingInfo& info);
 
 }  // namespace touchdown::experiments

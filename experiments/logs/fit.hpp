@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "estimator/force/wheel_loads.hpp"
+#include "estimator/force/dynamic_loads.hpp"
 #include "experiments/estimators/entry.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
@@ -34,15 +34,6 @@ struct FitLog {
 };
 inline constexpr double part_length = 10.0;  // s
 
-/// A model of evidence curves that a fit starts from: the result is the mean of both.
-struct FitPrior {
-  std::string name;  ///< of its file
-  Model model;
-};
-
-/// The seconds of the rarer class, both wheels' mean, at which a fit weighs as much as its prior.
-inline constexpr double prior_seconds = 10.0;
-
 struct LogFitConfig {
   scoring::LabelConfig labels;  ///< of logs with ground truth
   double skip = 0.3;            ///< not used at the beginning of each log (s)
@@ -50,19 +41,13 @@ struct LogFitConfig {
   /// Upkie's.
   LogRobot robot = {};
   HyperparameterValues hyperparameters = {};  ///< replace the estimator's defaults
-  bool servo_load = false;                    ///< as in `FitRuns`
-  std::optional<FitPrior> prior = {};
   /// Stops with `Stopped` once true; may be null.
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Adds a line "key: value" to the model's provenance, if it has one.
-void add_to_provenance(const std::string& key, const std::string& value, Model& model);
-
 /// The data of a fit; index 0 is no contact, 1 is contact.
 struct LogFitReport {
-  double seconds = 0.0;                ///< of all logs, without skipped parts
-  FittedTo fitted_to;                  ///< for the model's metadata
+  FittedTo fitted_to;                  ///< for the model's metadata and provenance
   std::array<std::size_t, 2> samples;  ///< of both legs
   std::array<TorqueBandwidth, 2> bandwidth;
   std::map<std::string, std::string> digests;  ///< of the logs, with their names
@@ -73,21 +58,8 @@ struct LogFitReport {
     double count = 0.0;
   };
   std::array<DeclaredLoad, 2> declared_load = {};
-  double weight = 1.0;  ///< of these logs in the model, beside a prior
-  /// Of a wheel, in what is fitted; nothing if an estimator needs none.
-  std::optional<std::size_t> takeoffs = {};
-  bool replaced = false;  ///< by the estimator for logs without a takeoff
   std::vector<std::string> warnings;
 };
-
-/// Errors: `InputError` for an estimator, or a prior, that is none of evidence curves, and for a
-/// prior without the channels of the fit.
-void check_prior(const FitPrior& prior, const EstimatorEntry& entry, bool servo_load);
-
-/// Replaces fitted evidence curves by their mean with the prior's, which `prior_seconds` weighs,
-/// and notes this in the provenance. The thresholds are the same mean. Errors: `InputError` for a
-/// prior of another rate or without a channel of the model.
-void add_prior(const FitPrior& prior, LogFitReport& report, Model& model);
 
 /// Reads a log that a model is fitted to, step by step, and adds its source and its warnings to the
 /// report.
@@ -124,7 +96,7 @@ class FitLogSteps {
   logs::LogReader reader_;
   logs::CheckedRobot robot_;
   LogSteps steps_;
-  WheelLoads loads_;
+  DynamicLoads loads_;
   logs::RecordingInfo info_;
   const LogStep* step_ = nullptr;
   double last_time_ = 0.0;
@@ -133,28 +105,15 @@ class FitLogSteps {
   double first_contradiction_ = 0.0;  ///< s
 };
 
-/// Fits an estimator's model to logs, and adds the digests of their files to its provenance.
-/// Errors: `InputError` for unknown hyperparameters, and for logs that are unreadable, of reserved
-/// seeds, without ground truth or a declared class, with labels of other times, or copies of each
-/// other.
-///
-/// A measurement model is fitted as in experiments; only the torques of both legs are held in
-/// memory (32 kB/s at 1 kHz). A torque that is not finite, or beyond
-/// `SignalGuardConfig::largest_torque`, is left out with its leg's step. After a gap in time, or a
-/// step back, the torque's low-pass restarts, as in the filter. Errors: `InputError` for logs
-/// without one of the two classes.
-///
-/// A phase model is fitted to logs with ground truth, held in memory (0.25 MB/s at 1 kHz). Errors:
-/// `InputError` for values that are not finite, gaps in time, or logs without a takeoff.
-///
-/// Parameters are fitted to logs in memory, of one class or with ground truth. Unusable steps are
-/// left out as during estimation. Errors: `InputError` for logs without one of the classes.
-///
-/// `without_takeoffs` is fitted instead of an estimator that learns from both classes, if no wheel
-/// takes off in the logs; null: none is. Each log is read once.
+/// Fits an estimator's measurement model to logs, as experiments do, and records their digests in
+/// its provenance. Each log is read once; only the torques of both legs are held in memory (32 kB/s
+/// at 1 kHz). A torque that is not finite, or beyond `SignalGuardConfig::largest_torque`, is left
+/// out with its leg's step. After a gap in time, or a step back, the torque's low-pass restarts, as
+/// in the filter. Errors: `InputError` for unknown hyperparameters, for logs without one of the two
+/// classes, and for logs that are unreadable, of reserved seeds, without ground truth or a declared
+/// class, with labels of other times, or copies of each other.
 Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
-                  const LogFitConfig& config, LogFitReport& report,
-                  const EstimatorEntry* without_takeoffs = nullptr);
+                  const LogFitConfig& config, LogFitReport& report);
 
 /// Whether a model was fitted to a log that was read to its end: to a copy of it, or to the same
 /// run of the same scene.
@@ -168,15 +127,14 @@ struct FitAccuracy {
   /// logs by a model of the other parts. Nothing if neither suffices.
   std::optional<double> held_out = {};
   bool by_parts = false;
-  /// Of the shipped model on the same steps; nothing at a rate that it does not serve.
-  std::optional<double> shipped = {};
-  /// The flights of a wheel that the shipped model finds in logs declared in contact: one line per
-  /// log with some.
+  double load_filter = 0.0;  ///< of the filter of loads, without a fit, on the same steps
+  /// The flights of a wheel that the filter of loads finds in logs declared in contact: one line
+  /// per log with some.
   std::vector<std::string> flights = {};
 };
 
 /// Estimates the logs of a fit with its model, with models that are fitted again, and with the
-/// shipped one. Errors: as above.
+/// filter of loads. Errors: as above.
 FitAccuracy accuracy_of_fit(const EstimatorEntry& entry, std::span<const FitLog> logs,
                             const LogFitConfig& config, const Model& model);
 

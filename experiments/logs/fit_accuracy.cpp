@@ -116,25 +116,21 @@ FitAccuracy accuracy_of_fit(const EstimatorEntry& entry, std::span<const FitLog>
     accuracy.by_parts = accuracy.held_out.has_value();
   }
   accuracy.fitted = balanced(scores_on(logs, log_estimator(entry, model, config.robot), config));
-  try {
-    const std::vector<scoring::RobotScore> scores =
-        scores_on(logs, log_estimator({.robot = config.robot, .transfer = true}), config);
-    accuracy.shipped = balanced(scores);
-    for (std::size_t i = 0; i < logs.size(); ++i) {
-      const scoring::Score score = scores[i].wheels();
-      const double air =
-          1e-6 * static_cast<double>(score.scored_us) * (1.0 - score.points.contact_recall());
-      const auto takeoffs = static_cast<double>(score.takeoff.false_alarms);
-      const bool flies =
-          takeoffs > 0.0 && air >= scoring::ScoringConfig{}.minimum_flight * takeoffs;
-      if (!flies || !logs[i].contact.value_or(false)) continue;
-      accuracy.flights.push_back(fmt::format(
-          "{0}: is declared --contact, and the shipped model finds {1} of a wheel in it, {2:.2f} s "
-          "in all: look at `touchdown estimate {0}`, or give its intervals with --labels",
-          logs[i].path.string(),
-          takeoffs == 1.0 ? "a flight" : fmt::format("{:g} flights", takeoffs), air));
-    }
-  } catch (const InputError&) {  // a rate that it does not serve
+  const std::vector<scoring::RobotScore> scores =
+      scores_on(logs, log_estimator({.robot = config.robot}), config);
+  accuracy.load_filter = balanced(scores);
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const scoring::Score score = scores[i].wheels();
+    const double air =
+        1e-6 * static_cast<double>(score.scored_us) * (1.0 - score.points.contact_recall());
+    const auto takeoffs = static_cast<double>(score.takeoff.false_alarms);
+    const bool flies = takeoffs > 0.0 && air >= scoring::ScoringConfig{}.minimum_flight * takeoffs;
+    if (!flies || !logs[i].contact.value_or(false)) continue;
+    accuracy.flights.push_back(fmt::format(
+        "{0}: is declared --contact, and the loads of its wheels show {1} of a wheel, {2:.2f} s in "
+        "all: look at `touchdown estimate {0}`, or give its intervals with --labels",
+        logs[i].path.string(), takeoffs == 1.0 ? "a flight" : fmt::format("{:g} flights", takeoffs),
+        air));
   }
   return accuracy;
 }

@@ -4,7 +4,6 @@
 
 #include "core/error.hpp"
 #include "core/stop.hpp"
-#include "estimator/models/parameters.hpp"
 #include "experiments/logs/fit.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 #include "logs/log/recording_file.hpp"
@@ -35,12 +34,6 @@ bool names(const std::string& provenance, std::string_view key, const std::strin
 
 }  // namespace
 
-void add_to_provenance(const std::string& key, const std::string& value, Model& model) {
-  const auto found = model.arrays.find(std::string(provenance_array));
-  if (found == model.arrays.end()) return;
-  found->second = array_of_text(fmt::format("{}{}: {}\n", provenance_text(model), key, value));
-}
-
 bool was_fitted_to(const Model& model, const LogSteps& log, const logs::RecordingInfo& info) {
   const std::string provenance = provenance_text(model);
   const bool is_run = names(provenance, "scenarios", info.scenario) &&
@@ -56,7 +49,7 @@ FitLogSteps::FitLogSteps(const FitLog& log, const LogFitConfig& config, LogFitRe
       reader_(reader_of(log, config)),
       robot_(checked_robot(config.robot, reader_.info())),
       steps_(reader_, log.labels.get(), robot_),
-      loads_({.sample_rate = steps_.sample_rate(), .geometry = legs()}),
+      loads_(legs(), steps_.sample_rate()),
       info_(reader_.info()) {
   check_may_be_fitted(info_);
   info_.control_period_us = steps_.period_us();
@@ -94,11 +87,11 @@ void FitLogSteps::require_truth() const {
 
 void FitLogSteps::compare_with_declared_class() {
   if (!log_.contact) return;
-  const WheelLoads::Step measured = loads_.update(step_->signals);
+  const DynamicLoads::Loads measured = loads_.update(step_->signals);
   LogFitReport::DeclaredLoad& load = report_.declared_load.at(*log_.contact ? 1 : 0);
   for (std::size_t side = 0; side < models::wheel_count; ++side) {
-    if (!measured.is_measured[side]) continue;
-    load.sum += loads_.force(side);
+    if (!std::isfinite(measured[side].force)) continue;
+    load.sum += measured[side].force;
     load.count += 1.0;
   }
   if (!step_->normal_force || step_->signals.time < config_.skip) return;

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "estimator/force/wheel_loads.hpp"
+#include "estimator/force/dynamic_loads.hpp"
 #include "logs/sample_times.hpp"
 
 namespace touchdown::experiments {
@@ -48,16 +48,16 @@ std::optional<std::array<double, models::wheel_count>> forces(const logs::Contac
 class LogSteps::LabelCheck {
  public:
   LabelCheck(const logs::ContactIntervals& labels, double sample_rate, const LegGeometry& legs)
-      : labels_(labels), loads_({.sample_rate = sample_rate, .geometry = legs}) {}
+      : labels_(labels), loads_(legs, sample_rate) {}
 
   void add(const Signals& signals) {
-    const WheelLoads::Step step = loads_.update(signals);
+    const DynamicLoads::Loads loads = loads_.update(signals);
     if (!std::isfinite(signals.time)) return;
     last_ = std::max(last_, signals.time);
-    if (!(signals.time >= next_) || !step.is_measured[0] || !step.is_measured[1]) return;
+    if (!(signals.time >= next_) || !std::isfinite(loads[0].force + loads[1].force)) return;
     next_ = signals.time + interval_;
     for (std::size_t side = 0; side < models::wheel_count; ++side) {
-      samples_.push_back({loads_.force(side), signals.time, side});
+      samples_.push_back({loads[side].force, signals.time, side});
     }
     constexpr std::size_t most = std::size_t{1} << 15U;
     if (samples_.size() < most) return;
@@ -147,7 +147,7 @@ class LogSteps::LabelCheck {
   }
 
   const logs::ContactIntervals& labels_;
-  WheelLoads loads_;
+  DynamicLoads loads_;
   std::vector<Sample> samples_;
   double interval_ = 0.01;  ///< between samples (s)
   double next_ = -std::numeric_limits<double>::infinity();

@@ -155,45 +155,6 @@ void plan_runs(const RunRequest& request, RunRole role, const RobotAndSensors& s
   }
 }
 
-void plan_segment_runs(const RunRequest& request, const RobotAndSensors& setup, std::size_t entry,
-                       int first, int end, Plan& plan) {
-  const Experiment& experiment = request.experiment;
-  const std::uint64_t seed = seed_of_fit(experiment);
-  scenarios::Scenario scene =
-      scene_of(request, experiment.training_segments[entry].scenario, setup);
-  // Models are fitted at the control rate of the test runs.
-  scene.simulation.steps.control_us =
-      scenario_of(request, experiment.test.scenarios.front()).scenario.simulation.steps.control_us;
-  const std::string role = fmt::format("segment{}", entry + 1);
-  for (const std::string& simulator : experiment.simulators) {
-    for (int i = first; i < end; ++i) {
-      const std::int64_t run = first_fit_run + i;
-      plan.runs.push_back({.role = RunRole::fit,
-                           .simulator = simulator,
-                           .scenario = perturbed(scene, seed, run),
-                           .run = run,
-                           .file = recording_name(simulator, scene.name, role, i),
-                           .seed = seed,
-                           .group = segment_group(entry),
-                           .sensors = setup.sensors,
-                           .fit = setup.fit});
-    }
-  }
-}
-
-void plan_segments(const RunRequest& request, const RobotAndSensors& setup, Plan& plan) {
-  const Experiment& experiment = request.experiment;
-  const auto& names = experiment.estimators;
-  if (std::none_of(names.begin(), names.end(), [&](const std::string& name) {
-        return estimator_entry(experiment, name).fitting.learns_from_segments;
-      })) {
-    return;
-  }
-  for (std::size_t entry = 0; entry < experiment.training_segments.size(); ++entry) {
-    plan_segment_runs(request, setup, entry, 0, experiment.training_segments[entry].runs, plan);
-  }
-}
-
 Plan plan_of(const RunRequest& request) {
   const Experiment& experiment = request.experiment;
   require_distinct_scenes(request, RunRole::fit);
@@ -201,7 +162,6 @@ Plan plan_of(const RunRequest& request) {
   Plan plan;
   plan.sensors.front().profile = profile_of(request.sensors, experiment.sensors);
   plan_runs(request, RunRole::fit, {}, 0, plan);
-  plan_segments(request, {}, plan);
   plan_runs(request, RunRole::test, {}, 0, plan);
   plan.groups.push_back({"", own_engine_conditions(experiment),
                          noise::noise_cells(experiment.noise), experiment.highlights});
@@ -251,34 +211,6 @@ void plan_tasks(const Experiment& experiment, std::size_t first, Plan& plan) {
     if (plan.runs[run].role != RunRole::test) continue;
     for (int seed = 0; seed < experiment.noise.seeds; ++seed) {
       plan.tasks.push_back({run, seed, noise_key(experiment, seed, plan.runs[run].run)});
-    }
-  }
-}
-
-EstimatorSetup robot_setup(const Experiment& experiment, const scenarios::Scenario& scenario,
-                           scenarios::CompiledScenes& scenes) {
-  return {.sample_rate = 1e6 / static_cast<double>(scenario.simulation.steps.control_us),
-          .legs = scenarios::leg_geometry(*scenes.as_described(scenario)),
-          .robot = std::filesystem::path(scenario.robot).stem().string(),
-          .transfer = experiment.transfer};
-}
-
-void require_served(const Experiment& experiment, std::string_view estimator,
-                    const scenarios::Scenario& scenario, scenarios::CompiledScenes& scenes) {
-  const EstimatorEntry& entry = estimator_entry(experiment, estimator);
-  if (entry.making.require_served == nullptr || experiment.transfer) return;
-  entry.making.require_served(entry, robot_setup(experiment, scenario, scenes));
-}
-
-void require_served(const Experiment& experiment, const Plan& plan) {
-  scenarios::CompiledScenes scenes;
-  std::set<std::tuple<std::string, std::string, std::int64_t>> checked;
-  for (const PlannedRun& run : plan.runs) {
-    if (run.role != RunRole::test) continue;
-    for (const Condition& condition : plan.groups[run.group].conditions) {
-      const std::int64_t period = run.scenario.simulation.steps.control_us;
-      if (!checked.insert({condition.estimator, run.scenario.robot, period}).second) continue;
-      require_served(experiment, condition.estimator, run.scenario, scenes);
     }
   }
 }

@@ -106,15 +106,10 @@ struct PlannedRun {
   std::int64_t run = 0;          ///< its index, unique within an engine and group
   std::string file;              ///< name of its recording
   std::uint64_t seed = 1;        ///< of its perturbations
-  /// Of test runs: index in the plan's groups. Of fitted runs: 0 for fits to whole runs,
-  /// `segment_group` for fits to segments.
-  std::size_t group = 0;
-  std::size_t sensors = 0;  ///< of its signals: index in the plan's sensors
-  std::string fit = {};     ///< of fitted runs: the name of their fit
-  bool kept = true;         ///< whether its recording is kept
-
-  bool is_of_whole_fit() const { return role == RunRole::fit && group == 0; }
-  bool is_of_segments() const { return role == RunRole::fit && group > 0; }
+  std::size_t group = 0;         ///< of test runs: index in the plan's groups
+  std::size_t sensors = 0;       ///< of its signals: index in the plan's sensors
+  std::string fit = {};          ///< of fitted runs: the name of their fit
+  bool kept = true;              ///< whether its recording is kept
 };
 
 /// Test runs with the same evaluation. Counts are computed for all conditions; scores and measures
@@ -181,11 +176,8 @@ struct Plan {
   std::vector<Task> tasks;              ///< by test run in the order of the plan, then noise seed
   std::vector<ModelTasks> model_tasks;  ///< of studies
   std::map<std::string, int> refits;    ///< number of refits, by name of the fit
-  /// Fits to a part of the experiment's own training data: the size of the training set
-  /// (experiments/plan/training_data.hpp), by name of the fit. `refits` has an entry for each.
-  std::map<std::string, std::size_t> training_sets;
-  std::set<std::int64_t> pictured;  ///< indices of own test runs that pictures show
-  bool needs_motion = false;        ///< whether test runs keep their motion
+  std::set<std::int64_t> pictured;      ///< indices of own test runs that pictures show
+  bool needs_motion = false;            ///< whether test runs keep their motion
   KeptSignals kept_signals = KeptSignals::all;
   TaskRange all_tasks() const { return {0, tasks.size()}; }
   const RunGroup& group_of(const Task& task) const { return groups[runs[task.run].group]; }
@@ -202,9 +194,6 @@ struct Plan {
 /// them.
 bool is_streamed(const PlannedRun& run, const Plan& plan);
 
-/// The group of the fitted runs for one entry of `fit.segments`.
-constexpr std::size_t segment_group(std::size_t entry) { return 1 + entry; }
-
 /// The index of a test run's scenario in the experiment's test scenarios.
 std::size_t scene_of(const PlannedRun& run, const Experiment& experiment);
 
@@ -219,14 +208,6 @@ Plan plan_of(const RunRequest& request);
 void plan_runs(const RunRequest& request, RunRole role, const RobotAndSensors& setup,
                std::size_t group, Plan& plan);
 
-/// Adds the runs of training segments for one robot and its sensors, if an estimator learns from
-/// segments.
-void plan_segments(const RunRequest& request, const RobotAndSensors& setup, Plan& plan);
-
-/// Adds the fitted runs from `first` to `end` of one entry of `fit.segments`, in every engine.
-void plan_segment_runs(const RunRequest& request, const RobotAndSensors& setup, std::size_t entry,
-                       int first, int end, Plan& plan);
-
 /// The test runs of these tasks, and the runs of their estimators' fits.
 std::set<std::size_t> runs_for(const Plan& plan, const TaskRange& tasks);
 
@@ -235,19 +216,6 @@ void keep_recordings(const Experiment& experiment, Plan& plan);
 
 /// Adds the tasks of the test runs from index `first` on.
 void plan_tasks(const Experiment& experiment, std::size_t first, Plan& plan);
-
-/// The robot of a scenario as estimators know it: its name, its legs as its file describes them,
-/// and its rate.
-EstimatorSetup robot_setup(const Experiment& experiment, const scenarios::Scenario& scenario,
-                           scenarios::CompiledScenes& scenes);
-
-/// Errors: `InputError` for an estimator with a shipped model that does not serve the robot or the
-/// rate of a scenario, unless the experiment has `transfer`.
-void require_served(const Experiment& experiment, std::string_view estimator,
-                    const scenarios::Scenario& scenario, scenarios::CompiledScenes& scenes);
-
-/// The same for all test runs of a plan, before one of them is simulated.
-void require_served(const Experiment& experiment, const Plan& plan);
 
 /// Errors: `InputError` for a test run that is also a fitted run of the models it tests, and for a
 /// run that would count twice, whatever the names of its scenario and of its robot's file.

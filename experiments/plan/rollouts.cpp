@@ -241,4 +241,16 @@ bool has_stamp(const PlannedRun& run, const RunDirectory& directory) {
   return end && end->is_recorded;
 }
 
+RunPointers fit_runs_of(const Rollouts& runs, const std::string& simulator,
+                        const std::string& fit) {
+  RunPointers all;
+  for (const auto& [index, run] : runs) {
+    const PlannedRun& plan = run.plan;
+    const bool is_wanted =
+        plan.role == RunRole::fit && plan.fit == fit && plan.simulator == simulator;
+    if (is_wanted && !run.failed()) all.push_back(&run.signals);
+  }
+  return all;
+}
+
 }  // namespace touchdown::experiments

@@ -81,4 +81,8 @@ std::string failures_text(const std::map<std::string, std::string>& ending_by_fi
 /// recording, which has one line.
 std::string unused_runs_text(const std::vector<Rollout>& runs);
 
+/// The runs of one fit on one engine that did not fail. `runs` must outlive the result.
+RunPointers fit_runs_of(const Rollouts& runs, const std::string& simulator,
+                        const std::string& fit = {});
+
 }  // namespace touchdown::experiments

@@ -17,7 +17,6 @@
 #include "core/fingerprint.hpp"
 #include "core/machine.hpp"
 #include "core/resources.hpp"
-#include "estimator/evidence/channels.hpp"
 #include "experiments/estimators/entries.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/plan/condition.hpp"
@@ -76,86 +75,6 @@ Json failed_runs(const std::vector<Rollout>& runs) {
   return list;
 }
 
-/// The value of one evidence curve at one of its knots.
-struct EvidencePoint {
-  std::string simulator = {};
-  std::string estimator = {};
-  std::string targets = {};  ///< `targets_of` the set of curves
-  std::string channel = {};
-  std::string scale = {};  ///< ms; empty for noise levels
-  std::string unit = {};   ///< of the value
-  double value = 0.0;
-  double evidence = 0.0;  ///< nats
-};
-
-/// The ends of the range of fitted rows, and the knots inside it.
-std::set<float> knots_of(const std::array<float, 2>& seen) {
-  std::set<float> knots = {seen[0], seen[1]};
-  for (std::size_t k = 0; k < evidence_knots; ++k) {
-    const float x = evidence_reach * (2.0F * static_cast<float>(k) / (evidence_knots - 1) - 1.0F);
-    if (x > seen[0] && x < seen[1]) knots.insert(x);
-  }
-  return knots;
-}
-
-constexpr std::size_t first_noise = decision_channels * decision_scales;
-
-/// The channel of an input that is no noise level; inputs as `curve_of` numbers curves.
-const EvidenceChannel& channel_of(std::size_t input) {
-  return input < decision_inputs ? evidence_channels[input / decision_scales]
-                                 : servo_load_channels[(input - decision_inputs) / decision_scales];
-}
-
-bool is_noise_level(std::size_t input) { return input >= first_noise && input < decision_inputs; }
-
-/// An input of the network: its channel's name, time scale and unit.
-EvidencePoint input_of(std::size_t input) {
-  if (is_noise_level(input)) {
-    const std::size_t noise = input - first_noise;
-    return {.channel = evidence_noise_names[noise], .unit = noise == 0 ? "N·m" : "m/s²"};
-  }
-  const EvidenceChannel& channel = channel_of(input);
-  const std::size_t scale = input < decision_inputs ? input : input - decision_inputs;
-  return {.channel = channel.name,
-          .scale = std::to_string(1U << (scale % decision_scales)),
-          .unit = channel.unit};
-}
-
-/// An input in the unit of its channel.
-double in_unit(std::size_t input, double x) {
-  if (is_noise_level(input)) return std::exp(x);
-  return uncompressed(x, static_cast<double>(channel_of(input).softsign_scale));
-}
-
-/// Adds the points of one set of curves.
-void add_points(const EvidenceModel& model, const EvidencePoint& of_fit,
-                std::vector<EvidencePoint>& points) {
-  for (std::size_t input = 0; input < curve_count(model); ++input) {
-    for (const float x : knots_of(seen_by(model, input))) {
-      EvidencePoint& point = points.emplace_back(input_of(input));
-      point.simulator = of_fit.simulator;
-      point.estimator = of_fit.estimator;
-      point.targets = targets_of(model);
-      point.value = in_unit(input, static_cast<double>(x));
-      point.evidence = static_cast<double>(evidence_at(curve_of(model, input), x));
-    }
-  }
-}
-
-/// The columns of `evidence.csv`.
-Columns<EvidencePoint> evidence_columns() {
-  using Point = EvidencePoint;
-  return Columns<Point>()
-      .text("simulator", &Point::simulator)
-      .text("estimator", &Point::estimator)
-      .text("targets", &Point::targets)
-      .text("channel", &Point::channel)
-      .text("scale_ms", &Point::scale)
-      .text("unit", &Point::unit)
-      .metric("value", &Point::value)
-      .metric("evidence_nats", &Point::evidence);
-}
-
 void write_models(const FittedModels& models, const RunDirectory& directory) {
   for (const auto& [key, by_estimator] : models) {
     for (const auto& [estimator, model] : by_estimator) {
@@ -197,21 +116,6 @@ void write_text_tables(const ExperimentResult& result) {
 
 }  // namespace
 
-Table evidence_table(const FittedModels& models) {
-  std::vector<EvidencePoint> points;
-  for (const auto& [simulator, by_estimator] : models) {
-    if (is_of_refit(simulator)) continue;
-    for (const auto& [estimator, fitted] : by_estimator) {
-      const std::optional<EvidenceCurveSets> sets = evidence_in(fitted);
-      if (!sets) continue;
-      const EvidencePoint of_fit = {.simulator = simulator, .estimator = estimator};
-      add_points(sets->usual, of_fit, points);
-      if (sets->without_targets) add_points(*sets->without_targets, of_fit, points);
-    }
-  }
-  return evidence_columns().table(points);
-}
-
 void write_model_of(const std::string& key, const std::string& estimator, const Model& model,
                     const RunDirectory& directory) {
   if (is_of_refit(key) || !has_numbers(model)) return;
@@ -221,8 +125,6 @@ void write_model_of(const std::string& key, const std::string& estimator, const 
 void write_result_files(const ExperimentResult& result) {
   write_models(result.models, result.directory);
   const RunDirectory& directory = result.directory;
-  const Table evidence = evidence_table(result.models);
-  if (!evidence.rows.empty()) directory.write_table("evidence.csv", evidence);
   directory.write_table("runs.csv", run_columns().table(result.runs));
   write_score_tables(result.summaries, result.scores, result.differences, directory);
   write_text_tables(result);

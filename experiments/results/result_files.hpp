@@ -8,14 +8,9 @@
 
 namespace touchdown::experiments {
 
-/// Writes a model of the fit with this key into `models/`, unless it is that of a refit. The phase
-/// model of a model that was written before may be gone: its file then stays as it is.
+/// Writes a model of the fit with this key into `models/`, unless it is that of a refit.
 void write_model_of(const std::string& key, const std::string& estimator, const Model& model,
                     const RunDirectory& directory);
-
-/// `evidence.csv`: all curves of models that have any, in the units of their channels. The range is
-/// that of the fitted rows without the outermost two in a thousand.
-Table evidence_table(const FittedModels& models);
 
 /// Writes an experiment's result into its run directory: `tables/` and `models/`.
 void write_result_files(const ExperimentResult& result);

@@ -55,18 +55,8 @@ void describe(Fields& fields, AblationConfig& config, const Experiment& experime
                "expected an estimator after the first one of the row");
 }
 
-EstimatorEntry hmm_without_memory() {
-  EstimatorEntry entry = estimator_entry("hmm");
-  entry.name = "hmm_without_memory";
-  entry.title = entry.name;
-  entry.summary = "Runs the two-state HMM with uniform transition probabilities";
-  entry.reason = "ablation of the phase filter";
-  entry.fitting.phases->pseudo_count = 1e12;
-  return entry;
-}
-
 /// The estimators that only this study has: the configurations between `paper` and `robust`
-/// (estimator/bayes/ablation.hpp), and `hmm` without memory. Each differs from its neighbours by
+/// (estimator/bayes/ablation.hpp). Each differs from its neighbours by
 /// one change; none is meant for a robot.
 std::vector<EstimatorEntry> ablation_estimators() {
   std::vector<EstimatorEntry> entries;
@@ -80,7 +70,6 @@ std::vector<EstimatorEntry> ablation_estimators() {
     entries.back().title = step.name;  // as tables name estimators outside the registry
     before = step.name;
   }
-  entries.push_back(hmm_without_memory());
   return entries;
 }
 

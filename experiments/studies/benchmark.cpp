@@ -147,15 +147,14 @@ void add_transfers(const Experiment& experiment, const std::vector<BenchmarkSetu
   group.scores_transfer = true;
 }
 
-/// Adds the refits of the in-domain conditions of a group, after all others. Upper bounds, which
-/// are not ranked, are fitted once.
+/// Adds the refits of the in-domain conditions of a group, after all others.
 void add_refits(const Experiment& experiment, RunGroup& group) {
   const BenchmarkConfig& benchmark = experiment.studies.at<BenchmarkConfig>();
   const std::vector<Condition> all = group.conditions;
   for (const Condition& condition : all) {
     if (!condition.is_fitted_in_domain(group.fit)) continue;
     const EstimatorEntry& entry = estimator_entry(experiment, condition.estimator);
-    if (!entry.fits() || entry.is_upper_bound) continue;
+    if (!entry.fits()) continue;
     for (int refit = 1; refit <= refits_of(benchmark, group.fit); ++refit) {
       group.conditions.push_back(condition);
       group.conditions.back().refit = refit;
@@ -297,7 +296,6 @@ class BenchmarkStudy final : public SectionStudy<BenchmarkConfig> {
       if (benchmark.transfer) add_transfers(experiment, setups, group);
       add_refits(experiment, group);
       plan_runs(request, RunRole::fit, where, 0, plan);
-      plan_segments(request, where, plan);
       plan_runs(request, RunRole::test, where, plan.groups.size(), plan);
       plan.groups.push_back(std::move(group));
     }

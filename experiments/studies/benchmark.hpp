@@ -21,8 +21,7 @@ struct BenchmarkConfig {
   /// Whether estimators fitted on another robot, other sensors or the other engine are scored, too.
   bool transfer = false;
   /// How often every fit is repeated, each time with a bootstrap resample of the fitted runs.
-  /// Intervals then include the variation due to the choice of fitted runs. Reference upper bounds
-  /// are fitted once.
+  /// Intervals then include the variation due to the choice of fitted runs.
   int refits = 0;
   /// Whether refits cover all robots and sensors, or only the experiment's own.
   bool refits_everywhere = false;
@@ -105,16 +104,12 @@ struct Standings {
     double worst = 0.0;  ///< lowest balanced accuracy over scenes and engines
     std::string worst_scene;
     std::string worst_simulator;
-    /// Whether the simultaneous band of its difference from the best includes zero. Reference upper
-    /// bounds never count as the best.
+    /// Whether the simultaneous band of its difference from the best includes zero.
     bool is_not_significantly_worse = false;
     /// Mean over scenes and engines (1/min per wheel).
     double extra_switches = 0.0;
     /// Mean log loss over scenes and engines (bits per wheel and step).
     double log_loss = 0.0;
-    /// Log loss minus the least one of the reference upper bounds (bits per wheel and step). NaN
-    /// without an upper bound.
-    double excess_log_loss = 0.0;
     std::size_t scored = 0;   ///< pairs of scene and engine with a scored run
     std::size_t planned = 0;  ///< pairs of scene and engine
   };

@@ -21,9 +21,7 @@ namespace {
 
 bool is_fitted_scene(const Experiment& experiment, const std::string& file) {
   const std::vector<std::string>& fitted = experiment.fit.scenarios;
-  return std::find(fitted.begin(), fitted.end(), file) != fitted.end() ||
-         std::any_of(experiment.training_segments.begin(), experiment.training_segments.end(),
-                     [&](const TrainingSegments& segments) { return segments.scenario == file; });
+  return std::find(fitted.begin(), fitted.end(), file) != fitted.end();
 }
 
 std::string fitted_on(const Condition& condition, const BenchmarkSetup& here,
@@ -258,8 +256,6 @@ std::vector<Standings::Difference> all_pairs(const std::string& scene,
   return pairs;
 }
 
-bool is_upper_bound_entry(const Standings::Entry& entry) { return is_upper_bound(entry.estimator); }
-
 double bits_of(const BenchmarkRow& row) {
   return row.extended.log_loss / static_cast<double>(row.extended.steps) / std::numbers::ln2;
 }
@@ -287,11 +283,6 @@ std::vector<Standings::Entry> entries_of(const Rows& rows, const std::vector<Nam
     entry.extra_switches /= static_cast<double>(entry.scored);
     entries.push_back(std::move(entry));
   }
-  double least = std::numeric_limits<double>::quiet_NaN();  // of the upper bounds
-  for (const Standings::Entry& entry : entries) {
-    if (is_upper_bound_entry(entry)) least = std::fmin(least, entry.log_loss);
-  }
-  for (Standings::Entry& entry : entries) entry.excess_log_loss = entry.log_loss - least;
   std::stable_sort(entries.begin(), entries.end(), [](const auto& one, const auto& other) {
     return one.mean.estimate > other.mean.estimate;
   });
@@ -300,9 +291,8 @@ std::vector<Standings::Entry> entries_of(const Rows& rows, const std::vector<Nam
 
 void mark_not_significantly_worse(std::vector<Standings::Entry>& entries,
                                   const std::vector<Standings::Difference>& means) {
-  const auto first = std::find_if_not(entries.begin(), entries.end(), is_upper_bound_entry);
-  if (first == entries.end()) return;
-  const std::string& best = first->estimator;
+  if (entries.empty()) return;
+  const std::string& best = entries.front().estimator;
   for (Standings::Entry& entry : entries) {
     entry.is_not_significantly_worse =
         entry.estimator == best || std::any_of(means.begin(), means.end(), [&](const auto& pair) {

@@ -48,7 +48,7 @@ std::vector<std::string> estimators_of(const Standings& first, const Experiment&
   std::vector<std::string> all = experiment.studies.at<BenchmarkConfig>().table;
   if (!all.empty()) return all;
   for (const Standings::Entry& entry : first.entries) {
-    if (!is_upper_bound(entry.estimator)) all.push_back(entry.estimator);
+    all.push_back(entry.estimator);
   }
   return all;
 }
@@ -174,7 +174,6 @@ Columns<Standings::Entry> entry_columns() {
       .flag("is_not_significantly_worse", &Entry::is_not_significantly_worse)
       .metric("extra_switches_per_minute", &Entry::extra_switches)
       .metric("log_loss_bits", &Entry::log_loss)
-      .metric("excess_log_loss_bits", &Entry::excess_log_loss)
       .number("scored_scenes", &Entry::scored)
       .is(ColumnRole::note)
       .number("planned_scenes", &Entry::planned)
@@ -259,21 +258,18 @@ TextTable scene_table(const std::vector<BenchmarkRow>& rows, const Experiment& e
 std::string given_in(const Experiment& experiment, const std::string& estimator) {
   const EstimatorEntry* const own = find_estimator(estimator);
   if (find_estimator(estimator, experiment.external_estimators) != own) return "signals";
-  return own == nullptr ? "–" : given_text(*own, experiment.fit_servo_load);
+  return own == nullptr ? "–" : given_text(*own);
 }
 
 std::string standings_text(const Standings& standings, const Experiment& experiment) {
-  const bool has_upper_bound = !std::isnan(standings.entries.front().excess_log_loss);
   TextTable table{{"", "mean", "not significantly worse than the best", "worst", "in", "given"},
                   {}};
-  if (has_upper_bound) table.header.emplace_back("excess log loss (bits)");
   for (const Standings::Entry& entry : standings.entries) {
     table.rows.push_back({estimator_title_in(experiment, entry.estimator),
                           with_interval(entry.mean), entry.is_not_significantly_worse ? "yes" : "",
                           fmt::format("{:.3f}", entry.worst),
                           fmt::format("{}, {}", entry.worst_scene, entry.worst_simulator),
                           given_in(experiment, entry.estimator)});
-    if (has_upper_bound) table.rows.back().push_back(fmt::format("{:.3f}", entry.excess_log_loss));
   }
   const Standings::Entry& first = standings.entries.front();
   const std::string fewer =

@@ -171,7 +171,6 @@ void require_closed_loop(const RunRequest& request) {
   const auto& config = experiment.studies.at<ClosedLoopConfig>();
   const std::int64_t period =
       scenario_of(request, experiment.test.scenarios.front()).scenario.simulation.steps.control_us;
-  scenarios::CompiledScenes scenes;
   for (const ClosedLoopCell& cell : closed_loop_cells(experiment)) {
     const ClosedLoopScene& scene = config.scenes[cell.scene];
     if (scenario_of(request, cell).simulation.steps.control_us != period) {
@@ -185,9 +184,6 @@ void require_closed_loop(const RunRequest& request) {
       throw InputError(fmt::format(
           "closed_loop.contact: '{}' needs whole runs, but a policy gets contact step by step",
           cell.contact));
-    }
-    if (is_estimator) {
-      require_served(experiment, cell.contact, scenario_of(request, cell), scenes);
     }
   }
 }

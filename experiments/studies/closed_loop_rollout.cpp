@@ -18,6 +18,7 @@
 #include "noise/sensor_noise.hpp"
 #include "policies/wheel_contact.hpp"
 #include "scenarios/engine.hpp"
+#include "scenarios/leg_geometry.hpp"
 #include "scenarios/rollout.hpp"
 #include "scoring/score.hpp"
 #include "scoring/transitions.hpp"
@@ -136,8 +137,8 @@ ClosedLoopRun run_closed_loop(const RunRequest& request, const ClosedLoopCell& c
     undelayed.policy.delay = 0.0;
     source = recorded(scenarios::policy_contact(undelayed, *simulator), loop.trace);
   } else {
-    EstimatorSetup setup = robot_setup(experiment, scenario, scenes);
-    setup.sample_rate = 1.0 / period;
+    const EstimatorSetup setup{.sample_rate = 1.0 / period,
+                               .legs = scenarios::leg_geometry(*scenes.as_described(scenario))};
     const noise::SensorProfile profile = profile_of(request.sensors, experiment.sensors);
     const noise::NoiseKey draws = sensor_key(experiment, run);
     source = contact_source({estimator_of(experiment, cell, models, setup), profile, draws,

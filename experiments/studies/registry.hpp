@@ -13,10 +13,8 @@ std::unique_ptr<const Study> benchmark_study();
 std::unique_ptr<const Study> closed_loop_study();
 std::unique_ptr<const Study> cross_simulator_study();
 std::unique_ptr<const Study> labels_study();
-std::unique_ptr<const Study> learning_curve_study();
 std::unique_ptr<const Study> moments_study();
 std::unique_ptr<const Study> odometry_study();
-std::unique_ptr<const Study> operating_points_study();
 std::unique_ptr<const Study> sensor_sweep_study();
 
 /// Every study, in the order of planning, of texts and of their sections in written experiments.

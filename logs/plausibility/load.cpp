@@ -74,11 +74,16 @@ struct FootForce {
 
 FootForce foot_force(const LegGeometry& geometry, const Leg& leg, bool mirrored) {
   const FootJacobian foot = foot_jacobian(geometry, leg, mirrored);
-  const double vertical = vertical_force(geometry, leg, mirrored, 0.0);
-  // Jᵀ F = −τ + gravity's torques: the knee's line gives the forward force.
+  // Jᵀ F = −τ + gravity's torques, of the masses on each link's end.
   const double sign = mirrored ? -1.0 : 1.0;
-  const double below_knee = geometry.lower_centre * geometry.lower_mass + geometry.wheel_mass;
-  const double knee = -sign * leg.knee.torque + below_knee * foot.lower_z * gravity_at_rest;
+  const double on_axle = geometry.lower_centre * geometry.lower_mass + geometry.wheel_mass;
+  const double on_knee =
+      geometry.upper_centre * geometry.upper_mass + geometry.lower_mass + geometry.wheel_mass;
+  const double knee = -sign * leg.knee.torque + on_axle * foot.lower_z * gravity_at_rest;
+  const double hip =
+      -sign * leg.hip.torque + (on_knee * foot.upper_z + on_axle * foot.lower_z) * gravity_at_rest;
+  const double vertical =
+      ((foot.upper_x + foot.lower_x) * knee - foot.lower_x * hip) / foot.determinant();
   const double arms = std::abs(foot.upper_x + foot.lower_x) + std::abs(foot.lower_x);
   return {vertical, (knee - foot.lower_z * vertical) / foot.lower_x,
           torque_error * arms / std::abs(foot.determinant())};

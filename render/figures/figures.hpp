@@ -11,7 +11,6 @@
 
 #include "core/interval.hpp"
 #include "estimator/bayes/measurement_model.hpp"
-#include "estimator/evidence/curves.hpp"
 #include "experiments/results/drops.hpp"
 #include "experiments/results/result.hpp"
 #include "render/gnuplot/figure.hpp"
@@ -28,9 +27,6 @@ void draw_heatmaps(const experiments::ExperimentResult& result, const std::atomi
 /// Draws for every engine the measurement models that were fitted to its runs.
 void draw_densities(const experiments::ExperimentResult& result, const std::atomic<bool>* stop);
 
-/// Draws for every engine the evidence curves of its estimators.
-void draw_evidence(const experiments::ExperimentResult& result, const std::atomic<bool>* stop);
-
 /// Draws for every engine reliability diagrams and latencies at the highlighted noise settings,
 /// both wheels pooled.
 void draw_scores(const experiments::ExperimentResult& result, const std::atomic<bool>* stop);
@@ -39,11 +35,6 @@ void draw_scores(const experiments::ExperimentResult& result, const std::atomic<
 /// without such a drop gets no figure, and one line on the error stream states the reason; the
 /// experiment continues.
 void draw_drop_details(const experiments::ExperimentResult& result, const std::atomic<bool>* stop);
-
-/// Likewise the phase filter's posterior through the drop that the section `posterior` selects, for
-/// all engines in one figure.
-void draw_phase_posteriors(const experiments::ExperimentResult& result,
-                           const std::atomic<bool>* stop);
 
 // Success rates of good estimators are so close to 100 % that their colours would look alike, while
 // their distances from it differ by a factor of ten. The colours of all maps are therefore
@@ -160,28 +151,6 @@ DensityAxes axes_of(const LikelihoodGrids& grids);
 
 Figure draw_density_figure(const DensityFigure& figure, const FigureFile& target);
 
-/// The curves of a fitted additive model: the evidence of each channel for or against contact, at
-/// each time scale, and that of the noise levels. Each has a panel; all panels span the same range
-/// of nats. Curves end where the training data end.
-struct EvidenceFigure {
-  std::string title;
-  EvidenceModel model;
-  std::string caption;
-};
-
-/// A tick of an axis that is compressed like a channel's input.
-struct CompressedTick {
-  double value = 0.0;
-  double place = 0.0;  ///< position on the compressed axis
-};
-
-/// Round values between both ends of a compressed axis: 0, and 1 or 3 times powers of ten of either
-/// sign. Rounder values take precedence, so that labels do not touch. A `softsign_scale` of 0 means
-/// a logarithmic axis.
-std::vector<CompressedTick> compressed_ticks(double low, double high, double softsign_scale);
-
-Figure draw_evidence_figure(const EvidenceFigure& figure, const FigureFile& target);
-
 /// The calibration and the latencies of one estimator.
 struct ScoreRow {
   std::string name;
@@ -224,14 +193,5 @@ Figure draw_drop_detail(const experiments::DropDetail& detail,
 /// A spectrogram as a matrix for gnuplot, in dB of m²/s⁴: a row per eighth of an octave with the
 /// nearest frequency bin, and a column per `spectrum_stride`-th step.
 std::string spectrum_text(const experiments::SpectrumTrace& trace, double bin_width);
-
-/// Draws the phase filter's posterior through one drop, one column per engine: true contact of both
-/// wheels, the true phase, the likelihood of every phase from one step's signals, the
-/// log-likelihood error of each signal, the phase probabilities stacked in the order of `Phase`,
-/// and the resulting contact probability of each wheel. The data are
-/// `<stem>_<n>.dat`, as intervals `<stem>_truth_<n>.dat` and, as a matrix,
-/// `<stem>_likelihood_<n>.dat`.
-Figure draw_phase_posterior(const std::vector<experiments::DropPosterior>& drops,
-                            const FigureText& text, const FigureFile& target);
 
 }  // namespace touchdown::render

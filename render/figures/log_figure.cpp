@@ -30,11 +30,6 @@ struct Panel {
   const char* y_range;
 };
 
-LogCurve contribution(std::size_t wheel, std::size_t number) {
-  return static_cast<LogCurve>(static_cast<std::size_t>(LogCurve::contributions) +
-                               wheel * contribution_names.size() + number);
-}
-
 std::vector<Panel> panels_of(const LogTrace& trace) {
   std::vector<Panel> panels = {
       {"knee (N·m)",
@@ -62,15 +57,6 @@ std::vector<Panel> panels_of(const LogTrace& trace) {
                       {{LogCurve::p_takeoff, "takeoff", 4}, {LogCurve::p_landing, "landing", 3}},
                       "[-0.03:1.03]"});
   }
-  for (const std::size_t wheel : {0U, 1U}) {
-    if (!has_values(contribution(wheel, 0))) continue;
-    Panel panel = {wheel == 0 ? "left (nats)" : "right (nats)", {}, "[*:*]"};
-    for (std::size_t i = 0; i < contribution_names.size(); ++i) {
-      panel.curves.push_back(
-          {contribution(wheel, i), contribution_names[i], static_cast<int>(i) + 1});
-    }
-    panels.push_back(panel);
-  }
   return panels;
 }
 
@@ -96,10 +82,8 @@ std::string curve_commands(const Panel& panel, const std::string& file) {
     columns.push_back(fmt::format("1:{} with lines lt {} lw 1 dt 1 title {}", low + 1, line_type,
                                   gnuplot_text(name)));
   }
-  constexpr std::size_t roomy = 3;  // more entries need a denser key
-  return fmt::format("set ylabel {} offset -0.5,0\nset yrange {}\nset key maxrows {} {}\n",
-                     gnuplot_text(panel.label), panel.y_range, panel.curves.size(),
-                     panel.curves.size() > roomy ? "font ',9' spacing 0.85" : "font '' spacing 1") +
+  return fmt::format("set ylabel {} offset -0.5,0\nset yrange {}\nset key maxrows {}\n",
+                     gnuplot_text(panel.label), panel.y_range, panel.curves.size()) +
          plot(file, columns);
 }
 
@@ -152,13 +136,6 @@ LogTraceStep log_trace_step(const Signals& signals, const Belief& belief,
       signals.leg[1].wheel.torque, signals.vertical_acceleration, belief.wheel[0].p_contact,
       belief.wheel[1].p_contact,   evidence.transition.p_takeoff, evidence.transition.p_landing,
       belief.wheel[0].load.force,  belief.wheel[1].load.force};
-  std::size_t curve = static_cast<std::size_t>(LogCurve::contributions);
-  for (const Evidence::Contributions& wheel : evidence.contributions) {
-    for (const double nats : {wheel.load, wheel.ground_torque, wheel.axle_motion, wheel.torso,
-                              wheel.other_leg, wheel.offset}) {
-      step.value[curve++] = nats;
-    }
-  }
   step.contact = {belief.wheel[0].contact, belief.wheel[1].contact};
   step.status = is_used(belief.status) ? SignalStatus::good : belief.status;
   return step;
@@ -213,8 +190,7 @@ std::string LogTrace::table() const {
   std::string text =
       "# begin_s\tend_s\tlow and high of: left knee, right knee, left wheel, right wheel (N m), "
       "vertical acceleration (m/s2), p_contact left, right, p_takeoff, p_landing, load left, right "
-      "(N), contributions to "
-      "left and to right (nats)\tshare of steps "
+      "(N)\tshare of steps "
       "decided as contact: left, right\ttrue contact: left, right\tsteps good, invalid, gap, "
       "frozen\n";
   for (std::size_t i = 0; i < bins_.size(); ++i) {

@@ -26,14 +26,8 @@ enum class LogCurve : int {
   p_landing,
   load_left,
   load_right,
-  /// `Evidence::Contributions` of the left wheel, in its order, then those of the right one.
-  contributions,
 };
-/// The names of a wheel's contributions in files and legends.
-inline constexpr std::array<const char*, 6> contribution_names = {
-    "load", "ground torque", "axle motion", "torso", "other leg", "offset"};
-inline constexpr std::size_t log_curve_count =
-    static_cast<std::size_t>(LogCurve::contributions) + 2 * contribution_names.size();
+inline constexpr std::size_t log_curve_count = static_cast<std::size_t>(LogCurve::load_right) + 1;
 
 /// The drawn values of one step of a log.
 struct LogTraceStep {
@@ -85,10 +79,9 @@ class LogTrace {
 
 /// Draws a log with an estimator's output over time: torques, vertical acceleration, contact
 /// probability, decided contact and the signals' status; loads, takeoff and landing probability
-/// where the estimator has them; contributions to each wheel's log-odds if the estimator is an
-/// additive model; true contact where it is known. Each curve fills the space between its lowest
-/// and highest value. Files as `draw_figure`. Errors: `InputError` for a trace without steps;
-/// `Error` as `draw_figure`.
+/// where the estimator has them; true contact where it is known. Each curve fills the space between
+/// its lowest and highest value. Files as `draw_figure`. Errors: `InputError` for a trace without
+/// steps; `Error` as `draw_figure`.
 Figure draw_log(const LogTrace& trace, const std::string& title, const std::filesystem::path& stem);
 
 }  // namespace touchdown::render

@@ -94,11 +94,9 @@ void draw_pictures(experiments::ExperimentResult& result, const std::vector<Film
     if (result.cells.size() > 1) draw_heatmaps(result, stop);
     progress.advance();
     draw_densities(result, stop);
-    draw_evidence(result, stop);
     draw_scores(result, stop);
     progress.advance();
     draw_drop_details(result, stop);
-    draw_phase_posteriors(result, stop);
     for (const StudyPictures& study : studies) {
       stop_if_asked(stop);
       if (study.draw && study.is_requested(result.experiment)) study.draw(result);

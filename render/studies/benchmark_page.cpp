@@ -206,15 +206,7 @@ std::string card(const BenchmarkTables& tables, const std::string& estimator,
   const TableRow* best = &standings.front();
   const TableRow* worst = best;
   std::size_t not_worse = 0;
-  std::string excess;
   for (const TableRow& standing : standings) {
-    const double excess_log_loss = standing.number("excess_log_loss_bits");
-    if (excess.empty() && !std::isnan(excess_log_loss) && !experiments::is_upper_bound(estimator)) {
-      excess = fmt::format(
-          " Its log loss exceeds that of the best reference upper bound by {:.3f} bits per wheel "
-          "and step ({}, {}).",
-          excess_log_loss, setting_of(standing), noise_of(standing));
-    }
     not_worse += standing.text("is_not_significantly_worse") == "1" ? 1U : 0U;
     if (mean_of(standing) > mean_of(*best)) best = &standing;
     if (mean_of(standing) < mean_of(*worst)) worst = &standing;
@@ -250,10 +242,10 @@ std::string card(const BenchmarkTables& tables, const std::string& estimator,
           : "";
   return fmt::format(
       "<article class=\"card\">\n<h3>{}</h3>\n<p>{}. Not significantly worse than the best in {} "
-      "of {} settings. Mean balanced accuracy: {} to {}.{}</p>\n{}{}</article>\n",
+      "of {} settings. Mean balanced accuracy: {} to {}.</p>\n{}{}</article>\n",
       escaped(experiments::estimator_title(estimator, tables.external)),
       escaped(summary_of(estimator, tables.external)), not_worse, standings.size(),
-      escaped(standing_text(*worst)), escaped(standing_text(*best)), escaped(excess),
+      escaped(standing_text(*worst)), escaped(standing_text(*best)),
       items.empty() ? fmt::format("<p>At least {:.2f} in every scene.</p>\n", failure)
                     : "<ul>\n" + items + "</ul>\n",
       film_html);

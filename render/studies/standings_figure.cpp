@@ -22,7 +22,6 @@ constexpr double worst_width = 230.0, words_width = 170.0, gap_y = 84.0;
 /// One noise setting.
 struct Panel {
   std::vector<TableRow> standings;
-  std::vector<TableRow> upper_bounds = {};  ///< without ranks
 };
 
 /// The ranks of neighbours that do not differ significantly.
@@ -96,33 +95,10 @@ std::string data_of(const std::vector<Panel>& panels, const BenchmarkTables& tab
   return text;
 }
 
-/// The lines of the reference upper bounds, in turn.
-struct BoundLine {
-  int dash_type;  ///< gnuplot's number
-  const char* text;
-};
-constexpr std::array<BoundLine, 2> bound_lines = {{{2, "dashed"}, {3, "dotted"}}};
-
-const BoundLine& line_of(std::size_t bound) { return bound_lines[bound % bound_lines.size()]; }
-
-/// A sentence about the lines of the reference upper bounds; empty without any.
-std::string legend_of(const std::vector<TableRow>& upper_bounds, const BenchmarkTables& tables) {
-  std::string text;
-  for (std::size_t i = 0; i < upper_bounds.size(); ++i) {
-    text += fmt::format("{}{}, {}", i > 0 ? "; " : " Reference upper bounds: ", line_of(i).text,
-                        title_of(upper_bounds[i], tables));
-  }
-  return text.empty() ? text : text + ".";
-}
-
 std::string described(const std::vector<Panel>& panels, const BenchmarkTables& tables) {
   std::string text = "Mean balanced accuracy, the best first.";
   for (const Panel& panel : panels) {
     fmt::format_to(std::back_inserter(text), " {}:", noise_of(panel.standings.front()));
-    for (const TableRow& bound : panel.upper_bounds) {
-      fmt::format_to(std::back_inserter(text), " reference upper bound, {}, {:.3f};",
-                     title_of(bound, tables), mean_of(bound));
-    }
     for (const TableRow& standing : panel.standings) {
       fmt::format_to(std::back_inserter(text), " {} {:.3f} (worst {:.3f}, {});",
                      title_of(standing, tables), mean_of(standing), worst_of(standing),
@@ -149,10 +125,6 @@ Figure draw_standings_figure(const BenchmarkTables& tables, const std::string& s
     if (setting_of(standing) != setting) continue;
     if (panels.empty() || noise != noise_of(standing)) panels.emplace_back();
     noise = noise_of(standing);
-    if (experiments::is_upper_bound(estimator_of(standing))) {
-      panels.back().upper_bounds.push_back(standing);
-      continue;
-    }
     panels.back().standings.push_back(standing);
     const double low = standing.interval("mean_balanced_accuracy").low;
     lowest = std::fmin(lowest, std::isnan(low) ? mean_of(standing) : low);
@@ -176,8 +148,8 @@ Figure draw_standings_figure(const BenchmarkTables& tables, const std::string& s
            "Balanced accuracy, averaged over all scenes and engines, with {:.0f} % intervals over "
            "runs, and over fits where these were repeated. A bar joins estimators that do not "
            "differ significantly: the simultaneous bands of their paired differences include zero. "
-           "On the right, the worst scene of each estimator.{}",
-           100.0 * level, legend_of(panels.front().upper_bounds, tables)),
+           "On the right, the worst scene of each estimator.",
+           100.0 * level),
        described(panels, tables)},
       is_stacked ? names_width + part + words_width : wide,
       static_cast<double>(panels.size()) * step);
@@ -189,11 +161,6 @@ Figure draw_standings_figure(const BenchmarkTables& tables, const std::string& s
     for (const TableRow& standing : standings) estimators.push_back(title_of(standing, tables));
     const double top = 24.0 + static_cast<double>(p) * step;
     commands += frame.panel(names_width, top, part, height);
-    for (std::size_t i = 0; i < panels[p].upper_bounds.size(); ++i) {
-      commands += fmt::format(
-          "set arrow {0} from {1},graph 0 to {1},graph 1 nohead dt {2} lw 1.4 lc rgb '#22262b'\n",
-          i + 1, number(mean_of(panels[p].upper_bounds[i])), line_of(i).dash_type);
-    }
     commands += fmt::format(
         "set border 1\nset title {0} offset 0,-0.6\nset yrange [-0.6:{1}]\nset xrange [{2:.2f}:1]\n"
         "set xtics nomirror autofreq\nset ytics scale 0 ({3})\n"

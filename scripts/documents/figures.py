@@ -15,19 +15,11 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 IMAGES = ROOT / 'docs' / 'images'
 RUNS = ROOT / 'runs' / 'figures'
 
-PUSH_OFFS = '--set=fit.segments.1={scenario: scenarios/push_off.yaml, runs: 6, after: 0.3, length: 3.0, offsets: 3}'
 STAIRS = ['experiments/stairs.yaml']
 NOISE = ['experiments/noise_study.yaml']
 KERB = ['experiments/causes.yaml']
-WASHBOARD = [*KERB, PUSH_OFFS, '--set=test.scenarios=[scenarios/washboard.yaml]', '--set=posterior.at=4.0',
-             '--set=posterior.before=0.15', '--set=posterior.after=0.6', '--set=detail.at=4.0']
 SQUAT = [*KERB, '--set=test.scenarios=[scenarios/squat.yaml]', '--set=detail.at=2.5', '--set=detail.before=1.0',
-         '--set=detail.after=0.8', '--set=posterior.enabled=false']
-
-# The fit of this experiment; the picture needs no more than one test run.
-CURVES = ['experiments/drawn_scenes.yaml', '--set=estimators=[evidence_curves]', '--set=simulators=[mujoco]',
-          '--set=benchmark.robots=[]', '--set=test.scenarios=[scenarios/stairs.yaml]', '--set=noise.torque=[0]',
-          '--set=noise.accelerometer=[0]', '--set=highlights=[{torque: 0, accelerometer: 0}]']
+         '--set=detail.after=0.8']
 
 # image: (arguments of `touchdown run`, file in the run directory)
 OF_RUNS = {
@@ -40,14 +32,9 @@ OF_RUNS = {
     'noise_study_knee_wheel_mujoco.png': (NOISE, 'figures/knee_wheel_mujoco.png'),
     'noise_study_detail_mujoco.png': (NOISE, 'figures/detail_mujoco.png'),
     'noise_study_detail_bullet.png': (NOISE, 'figures/detail_bullet.png'),
-    'phase_posterior.png': (NOISE, 'figures/phase_posterior.png'),
     'drop_overlay.png': (['experiments/cross_simulator.yaml'], 'figures/drop_overlay.png'),
     'causes_robust_kerb.png': (KERB, 'figures/detail_mujoco.png'),
-    'causes_phase_blind.png': (KERB, 'figures/phase_posterior.png'),
-    'causes_phase_repaired.png': ([*KERB, PUSH_OFFS], 'figures/phase_posterior.png'),
-    'causes_phase_washboard.png': (WASHBOARD, 'figures/phase_posterior.png'),
     'causes_robust_squat.png': (SQUAT, 'figures/detail_mujoco.png'),
-    'evidence_curves.png': (CURVES, 'figures/evidence_curves_mujoco.png'),
 }
 
 # image: (scenario, moment in seconds, more arguments of `touchdown simulate`)
@@ -102,10 +89,10 @@ class Painter:
             row = ''.join(f'[robot{number}]' for number in range(len(pictures))) + f'hstack=inputs={len(pictures)}'
             call('ffmpeg', '-y', '-loglevel', 'error', *inputs, '-filter_complex', crops + row, image)
 
-    def log(self, image, *part):
+    def log(self, image):
         with tempfile.TemporaryDirectory() as folder:
             call(self.program, 'simulate', ROOT / 'scenarios/stairs.yaml', '--run', 3, '-o', 'robot.mpack', folder=folder)
-            call(self.program, 'estimate', 'robot.mpack', '--figure', 'log.png', *part, folder=folder)
+            call(self.program, 'estimate', 'robot.mpack', '--figure', 'log.png', folder=folder)
             shutil.copyfile(pathlib.Path(folder, 'log.png'), image)
 
     def draw(self, name):
@@ -117,8 +104,6 @@ class Painter:
             self.scene(image, *OF_SCENES[name])
         elif name == 'robot_log.png':
             self.log(image)
-        elif name == 'evidence_inputs.png':
-            self.log(image, '--from', 3.0, '--to', 3.5)
         elif name == 'robots.png':
             self.robots(image)
         elif name == 'stairs_both_engines.jpg':
@@ -133,7 +118,7 @@ class Painter:
             sys.exit(f'{name}: no recipe')
 
 
-OTHERS = {'evidence_inputs.png', 'robot_log.png', 'robots.png', 'stairs_both_engines.jpg', 'closed_loop.jpg', 'performance.png'}
+OTHERS = {'robot_log.png', 'robots.png', 'stairs_both_engines.jpg', 'closed_loop.jpg', 'performance.png'}
 
 
 def names():

@@ -12,10 +12,12 @@
 
 #include "core/files.hpp"
 #include "core/table.hpp"
+#include "estimator/models/make_estimator.hpp"
 #include "estimator/npz/load_estimator.hpp"
 #include "estimator/signal_assembler.hpp"
 #include "estimator/touchdown.h"
 #include "logs/log/recording_file.hpp"
+#include "logs/model_file.hpp"
 #include "logs/signals_from.hpp"
 #include "program.hpp"
 #include "tests/bag_writer.hpp"
@@ -27,7 +29,6 @@ namespace {
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr double rpm = 360.0 * degree / 60.0;
 constexpr double g = 9.80665;
-const std::string model = TOUCHDOWN_SOURCE_DIR "/models/evidence_curves.npz";
 
 constexpr std::array<const char*, 6> joint_names = {"lh", "lk", "lw", "rh", "rk", "rw"};
 /// Its software lists the joints from right to left, wheels first.
@@ -162,7 +163,7 @@ std::array<double, 6> numbers_of(const Belief& belief) {
 }
 
 /// Of the run that the robot's numbers come from, without its servos' commands.
-Beliefs beliefs_of_run(const logs::Recording& run) {
+Beliefs beliefs_of_run(const logs::Recording& run, const std::string& model) {
   const auto estimator = load_estimator(model);
   Beliefs beliefs;
   for (const models::Observation& o : run.observation) {
@@ -171,7 +172,7 @@ Beliefs beliefs_of_run(const logs::Recording& run) {
   return beliefs;
 }
 
-Beliefs beliefs_of_cpp(const std::vector<Step>& steps) {
+Beliefs beliefs_of_cpp(const std::vector<Step>& steps, const std::string& model) {
   AssemblyConfig config;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const std::size_t joint = order.at(i);
@@ -203,7 +204,7 @@ Beliefs beliefs_of_cpp(const std::vector<Step>& steps) {
   return beliefs;
 }
 
-Beliefs beliefs_of_c(const std::vector<Step>& steps) {
+Beliefs beliefs_of_c(const std::vector<Step>& steps, const std::string& model) {
   std::array<char, 200> error{};
   touchdown_estimator* const estimator =
       touchdown_create(model.c_str(), nullptr, error.data(), error.size());
@@ -281,15 +282,17 @@ TEST(Doors, GiveTheSameBeliefsAboutARobotWithConventionsOfItsOwn) {
                    "/scenarios/hop.yaml --set end.duration=3.2 -o run.mpack");
   const logs::Recording run = logs::read_recording(folder / "run.mpack");
   const std::vector<Step> steps = steps_of(run);
-  const Beliefs expected = beliefs_of_cpp(steps);
+  const std::string model = folder / "m.npz";
+  logs::save_model(load_filter_model({}, 1000.0, "upkie"), model);
+  const Beliefs expected = beliefs_of_cpp(steps, model);
 
-  const Beliefs of_run = beliefs_of_run(run);  // the same but for rounding
+  const Beliefs of_run = beliefs_of_run(run, model);  // the same but for rounding
   ASSERT_EQ(of_run.size(), expected.size());
   for (std::size_t k = 0; k < expected.size(); ++k) {
     for (std::size_t i = 0; i < 6; ++i) ASSERT_NEAR(expected[k].at(i), of_run[k].at(i), 1e-6) << k;
   }
 
-  EXPECT_EQ(beliefs_of_c(steps), expected);
+  EXPECT_EQ(beliefs_of_c(steps, model), expected);
   folder.write("robot.yaml", mapping());
   folder.write("robot.csv", csv_of(steps));
   std::ofstream(folder / "robot.mcap", std::ios::binary) << test::mcap_bytes(bag_of(steps));

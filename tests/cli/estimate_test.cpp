@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "estimator/bayes/filter.hpp"
+#include "estimator/models/metadata.hpp"
 #include "experiments/estimators/fits.hpp"
 #include "experiments/logs/summary.hpp"
 #include "experiments/signals/estimator_runner.hpp"
@@ -57,10 +58,10 @@ class Estimate : public InFolder {
     const logs::Recording fitted = test::synthetic_log(3.0);
     const experiments::RunSignals run =
         experiments::signals_of(fitted, {}, {}, scoring::SampleUnit::run);
-    const std::vector<const experiments::RunSignals*> runs = {&run};
     MeasurementConfig config = BayesFilterConfig::robust().measurement;
     config.fit.knee_count = config.fit.wheel_count = 60;
-    logs::save_model({.grid = experiments::fit(runs, config, {})}, folder_ / "m.npz");
+    logs::save_model({.grid = experiments::fit_torques({.whole = {&run}}, config)},
+                     folder_ / "m.npz");
   }
 
   void log(const std::string& name, const logs::Recording& recording) const {
@@ -301,28 +302,39 @@ TEST_F(Estimate, OfSeveralLogsNamesEachResultAfterItsLog) {
 
 TEST_F(Estimate, RecognizesTheEstimatorOfAModel) {
   log("a.mpack", test::synthetic_log(3.0));
-  folder_.output_of("fit a.mpack -o p.npz --estimator phase");
-  EXPECT_THAT(estimate("a.mpack --model p.npz -o b.csv"), HasSubstr("Phase filter"));
-  EXPECT_EQ(table("b.csv").back()[7], "nan");
-  folder_.output_of("fit a.mpack -o l.npz --estimator force_kinematics");
-  EXPECT_THAT(estimate("a.mpack --model l.npz"), HasSubstr("Force and kinematics"));
-  EXPECT_THAT(estimate("a.mpack --model l.npz --estimator force_kinematics"), HasSubstr("truth"));
-  logs::write_npz(arrays_of(Parameters{{"force_mean", {1.0, 2.0}}}, "force_kinematics"),
-                  folder_ / "few.npz");
-  logs::write_npz(arrays_of(Parameters{{"slope", {1.0}}}, "lode"), folder_ / "lode.npz");
-  std::vector<Refusal> refusals = {
-      {"--model p.npz --estimator paper", {"did you mean --estimator phase?"}},
-      {"--model m.npz --estimator phase", {"did you mean --estimator robust?"}},
-      {"--model m.npz --estimator force_kinematics", {"m.npz: is a model of torques' densities"}},
-      {"--model few.npz", {"few.npz: parameter 'force_deviation'"}},
-      {"--model lode.npz", {"unknown estimator 'lode'"}}};
-  for (const std::string other : {"robust", "phase", "decision_network"}) {
-    refusals.push_back({"--model l.npz --estimator " + other,
-                        {"l.npz: is a model of 'force_kinematics', which '" + other,
-                         "did you mean --estimator force_kinematics?"}});
+  folder_.output_of("fit a.mpack -o p.npz --estimator paper --grid 60 60 --no-accuracy");
+  EXPECT_THAT(estimate("a.mpack --model p.npz"), HasSubstr("Bayes filter (paper)"));
+  EXPECT_THAT(estimate("a.mpack --model p.npz --estimator paper_rms"), HasSubstr("truth"));
+  for (const std::string name : {"lode", "evidence_curves"}) {
+    logs::write_npz({{std::string(estimator_array), array_of_text(name)}, {"slope", {{1}, {1.0}}}},
+                    folder_ / (name + ".npz"));
   }
+  std::vector<Refusal> refusals = {
+      {"--model p.npz --estimator robust",
+       {"p.npz: is a model of 'paper', which 'robust' cannot use", "--estimator paper?"}},
+      {"--model m.npz --estimator load_filter", {"'load_filter'", "takes none"}},
+      {"--model lode.npz", {"lode.npz: ", "'lode'"}},
+      {"--model evidence_curves.npz", {"was fitted for 'evidence_curves'", "load_filter"}}};
   for (Refusal& refusal : refusals) refusal.arguments.insert(0, "estimate a.mpack ");
   folder_.expect_refusals(refusals);
+}
+
+/// Without a model, an estimator's name, or targets of joints in the log.
+TEST_F(Estimate, IsByTheLoadFilterUnlessAnotherIsNamed) {
+  log("a.mpack", test::synthetic_log(3.0));
+  const std::string summary = estimate("a.mpack -o b.csv");
+  EXPECT_THAT(summary, AllOf(HasSubstr("at 1000 Hz, Load filter"), HasSubstr("6 of 6 found"),
+                             HasSubstr("load         median error")));
+  const Lines lines = table("b.csv");
+  EXPECT_EQ(lines.back()[7], "nan") << "it has no transition model";
+  // Upkie stands on both wheels at 0.5 s and flies at 0.7 s.
+  for (const auto& [step, load] : {std::pair{500U, test::half_weight}, {700U, 0.0}}) {
+    for (const std::size_t wheel : {0U, 1U}) {
+      EXPECT_NEAR(std::stod(lines[step][10 + wheel]), load, 3.0) << step;
+    }
+  }
+  EXPECT_EQ(estimate("a.mpack --estimator load_filter"), estimate("a.mpack"));
+  EXPECT_NE(estimate("a.mpack --set lead=0"), estimate("a.mpack"));
 }
 
 TEST_F(Estimate, DrawsTheRequestedPartOfTheLog) {

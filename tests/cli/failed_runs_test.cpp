@@ -95,9 +95,8 @@ TEST_F(FailedRuns, AreNamedWithReasonAndTimeAndAreInNoScore) {
 TEST_F(FailedRuns, OfAWholeEngineLeaveTablesReportAndFiguresOfTheOther) {
   for (const std::string scene : {"sinks_in_bullet", "sinks_in_mujoco"}) {
     const bool is_bullet = scene == "sinks_in_bullet";
-    const Ended tables = run_experiment("good", scene + ".yaml",
-                                        "operating_points: {}\nbenchmark: {refits: 0, clips: "
-                                        "false}");
+    const Ended tables =
+        run_experiment("good", scene + ".yaml", "benchmark: {refits: 0, clips: false}");
     if (is_bullet) {
       EXPECT_THAT(tables.output,
                   AllOf(HasSubstr("mujoco: 2 test runs"),

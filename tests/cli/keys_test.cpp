@@ -115,7 +115,7 @@ TEST_F(Manual, BashOffersCommandsFlagsAndKnownNames) {
   EXPECT_EQ(offered(share, "touchdown simulate --sim"), "--simulator");
   EXPECT_EQ(offered(share, "touchdown simulate --simulator bu"), "bullet");
   EXPECT_EQ(offered(share, "touchdown render --layout = side"), "side-by-side");
-  EXPECT_EQ(offered(share, "touchdown fit --estimator pha"), "phase");
+  EXPECT_EQ(offered(share, "touchdown fit --estimator mea"), "measurement_only");
   EXPECT_EQ(offered(share, "touchdown keys sc"), "scenario");
   EXPECT_EQ(offered(share, "touchdown run experi"), "") << "bash itself completes files";
 }

@@ -53,7 +53,7 @@ TEST_F(Mcap, HoldsSignalsAndBeliefsOfEveryStep) {
   logs::Recording log = test::synthetic_log(1.5);
   for (models::Observation& o : log.observation) o.time += 0.25;
   logs::write_recording(log, folder_ / "log.mpack");
-  ran("estimate log.mpack --estimator support_force -o with.mpack -o beliefs.csv");
+  ran("estimate log.mpack -o with.mpack -o beliefs.csv");
   EXPECT_THAT(ran("export with.mpack -o with.mcap"), HasSubstr("with.mcap, 1500 records"));
   ran("export with.mpack -o again.mcap");
   EXPECT_EQ(folder_.text("with.mcap"), folder_.text("again.mcap"));

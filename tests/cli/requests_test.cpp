@@ -81,8 +81,6 @@ TEST_F(WrongRequest, AboutAFileNamesItsOptionOrThePlaceInIt) {
          {verb + "--robot none.xml", {"touchdown: --robot: none.xml: no such"}}});
   }
   folder_.expect_refusals({
-      {"fit log.mpack -o x.npz --prior bad.npz", {"touchdown: --prior: bad.npz: "}},
-      {"fit log.mpack -o x.npz --prior none.npz", {"touchdown: --prior: none.npz: no such file"}},
       {"fit log.mpack -o x.npz --labels none.csv", {"touchdown: --labels: none.csv: no such file"}},
       {"fit log.mpack -o x.npz --labels bad.csv", {"touchdown: bad.csv:1:1: "}},
       {"fit log.mpack -o x.npz --contact none.mpack",

@@ -24,21 +24,19 @@ namespace fs = std::filesystem;
 using Studies = InFolder;
 
 /// An experiment with every study with numbers from tasks: labels, odometry with its
-/// trajectories, operating points, runs in closed loop.
+/// trajectories, runs in closed loop.
 TEST_F(Studies, EndInTheSameBytesAfterKillsAndFromShards) {
-  folder_.write("studies.yaml",
-                folder_.text(write_tiny_experiment(folder_)) +
-                    "paper_tables: true\n"
-                    "odometry: {delay: [0.02]}\n"
-                    "operating_points: {leave_below: [0.25], return_above: [0.75]}\n"
-                    "closed_loop: {contact: [truth, robust, always], runs: 2,\n"
-                    "              scenes: [{scenario: step.yaml}]}\n");
+  folder_.write("studies.yaml", folder_.text(write_tiny_experiment(folder_)) +
+                                    "paper_tables: true\n"
+                                    "odometry: {delay: [0.02]}\n"
+                                    "closed_loop: {contact: [truth, robust, always], runs: 2,\n"
+                                    "              scenes: [{scenario: step.yaml}]}\n");
   const std::string run = "run studies.yaml --no-pictures --out ";
   folder_.output_of(run + "whole");
   const auto expected = result_files(folder_ / "whole");
   for (const char* file :
-       {"tables/labels.csv", "tables/odometry.csv", "tables/operating_points.csv",
-        "tables/survival.csv", "trajectories/mujoco_step_ground_truth.tum",
+       {"tables/labels.csv", "tables/odometry.csv", "tables/survival.csv",
+        "trajectories/mujoco_step_ground_truth.tum",
         "trajectories/bullet_step_truth_delayed_20ms.tum", "trajectories/bullet_step_robust.tum"}) {
     EXPECT_EQ(expected.count(file), 1U) << file;
   }
@@ -88,7 +86,7 @@ TEST_F(CrossSimulator, ExitsWithOneWhenADemandedVerdictFailsAndKeepsItsTables) {
 
 const std::string small =
     " --set test.runs=1 --set noise.seeds=1 --set noise.torque=[1] --set noise.accelerometer=[5]"
-    " --set estimators=[robust,phase]";
+    " --set estimators=[load_filter,robust]";
 
 /// Data and scripts of the drop figures.
 std::map<std::string, std::string> data_in(const fs::path& run_directory) {
@@ -96,9 +94,7 @@ std::map<std::string, std::string> data_in(const fs::path& run_directory) {
   for (const auto& entry : fs::directory_iterator(run_directory / "figures")) {
     const std::string name = entry.path().filename().string();
     const bool is_data = name.ends_with(".dat") || name.ends_with(".gp");
-    if (is_data && (name.starts_with("detail_") || name.starts_with("phase_posterior"))) {
-      files[name] = read_file(entry.path());
-    }
+    if (is_data && name.starts_with("detail_")) files[name] = read_file(entry.path());
   }
   return files;
 }
@@ -108,17 +104,16 @@ struct DropFigures : InFolder {
 };
 
 TEST_F(DropFigures, AreTheSameForARunAndForItsShards) {
-  const std::string drops = " --set detail.seed=0 --set posterior.drop=0";
+  const std::string drops = " --set detail.seed=0";
   EXPECT_THAT(folder_.messages_of(run + "a" + drops), Not(HasSubstr("not drawn")));
   EXPECT_TRUE(folder_.has("a/figures/detail_bullet.png"));
   const auto files = data_in(folder_ / "a");
   for (const char* name : {"detail_mujoco_1.dat", "detail_mujoco_2.dat", "detail_bullet_2.dat",
-                           "detail_bullet_spectrum_0.dat", "detail_mujoco.gp",
-                           "phase_posterior_1.dat", "phase_posterior_truth_2.dat"}) {
+                           "detail_bullet_spectrum_0.dat", "detail_mujoco.gp"}) {
     EXPECT_EQ(files.count(name), 1U) << name;
   }
-  for (const char* text : {"One drop in detail: tiny, Bullet", "The phase filter through one drop",
-                           "href=\"figures/detail_bullet_spectrum_2.dat\""}) {
+  for (const char* text :
+       {"One drop in detail: tiny, Bullet", "href=\"figures/detail_bullet_spectrum_2.dat\""}) {
     EXPECT_THAT(folder_.text("a/report.html"), HasSubstr(text));
   }
   for (const char* shard : {"1/2", "2/2"}) {
@@ -130,12 +125,11 @@ TEST_F(DropFigures, AreTheSameForARunAndForItsShards) {
 }
 
 TEST_F(DropFigures, AMissingDropIsReportedAndTheExperimentCompletes) {
-  const std::string messages =
-      folder_.messages_of(run + "a --set detail.drop=9 --set posterior.drop=9");
+  const std::string messages = folder_.messages_of(run + "a --set detail.drop=9");
   for (const char* place :
        {"detail.drop: run 0 in mujoco has 1 drop of both wheels, counted from 0; none is "
         "number 9",
-        "detail.drop: run 0 in bullet", "posterior.drop: run 0 in bullet"}) {
+        "detail.drop: run 0 in bullet"}) {
     EXPECT_THAT(messages, HasSubstr(place));
   }
   EXPECT_TRUE(data_in(folder_ / "a").empty());

@@ -20,7 +20,7 @@ using ::testing::ThrowsMessage;
 std::string missing_in(YamlDocument document, const std::string& assignment = "") {
   if (!assignment.empty()) document.override_value(assignment);
   return complaint_of([&] {
-    require_resources(document, {"robot", "fit.scenarios", "fit.segments.scenario"},
+    require_resources(document, {"robot", "fit.scenarios", "closed_loop.scenes.scenario"},
                       [](const std::string& name) { (void)find_resource(name); });
   });
 }
@@ -33,7 +33,8 @@ TEST(RequiredResources, ThatAreThereOrNotAskedForAreNoComplaint) {
   EXPECT_EQ(missing_in("fit: {scenarios: [scenarios/stairs.yaml, scenarios/roam.yaml]}\n"
                        "robot: models/upkie_actuated.yaml\n"),
             "no complaint");
-  EXPECT_EQ(missing_in("fits: {scenarios: [nowhere.yaml]}\nfit: {segments: []}\n"), "no complaint");
+  EXPECT_EQ(missing_in("fits: {scenarios: [nowhere.yaml]}\nclosed_loop: {scenes: []}\n"),
+            "no complaint");
 }
 
 TEST(RequiredResources, OfAFolderThatIsGoneAreSuggestedByTheirName) {
@@ -50,8 +51,9 @@ TEST(RequiredResources, ThatAreMissingAreNamedWhereTheyStand) {
               AllOf(StartsWith("x.yaml:2:36: fit.scenarios.1: scenarios/stiars.yaml: no such file"),
                     EndsWith("(did you mean 'scenarios/stairs.yaml'?)")));
   EXPECT_THAT(
-      missing_in("fit:\n  segments:\n    - {runs: 1}\n    - {scenario: scenarios/hnag.yaml}\n"),
-      StartsWith("x.yaml:4:18: fit.segments.1.scenario: scenarios/hnag.yaml: no such file"));
+      missing_in(
+          "closed_loop:\n  scenes:\n    - {runs: 1}\n    - {scenario: scenarios/hnag.yaml}\n"),
+      StartsWith("x.yaml:4:18: closed_loop.scenes.1.scenario: scenarios/hnag.yaml: no such file"));
 }
 
 TEST(RequiredFile, ThatIsNotThereBringsTheNearestOfItsKindToMind) {

@@ -120,7 +120,7 @@ struct Score {
 };
 
 const std::vector<Score> scores = {
-    {"mujoco", "phase", 1}, {"bullet", "phase", 2}, {"mujoco", "bayes", 3}, {"mujoco", "phase", 4}};
+    {"mujoco", "paper", 1}, {"bullet", "paper", 2}, {"mujoco", "bayes", 3}, {"mujoco", "paper", 4}};
 
 std::string text_of(const Score& score) { return std::to_string(score.value); }
 
@@ -139,7 +139,7 @@ TEST(Where, KeepsTheRowsThatMeetThePredicate) {
 TEST(GroupBy, CollectsInterleavedRowsInOrder) {
   const auto groups = group_by(scores, &Score::estimator);
   ASSERT_EQ(groups.size(), 2U);
-  EXPECT_EQ(groups[0].key, "phase");
+  EXPECT_EQ(groups[0].key, "paper");
   EXPECT_THAT(unique(groups[0].rows, &Score::value), ElementsAre(1, 2, 4));
   EXPECT_EQ(groups[1].key, "bayes");
   EXPECT_THAT(unique(groups[1].rows, &Score::value), ElementsAre(3));
@@ -150,7 +150,7 @@ TEST(Pivot, PutsADashWhereNoRowIs) {
   const TextTable table = pivot(without_repetition, &Score::estimator, &Score::engine, text_of);
   EXPECT_THAT(table.header, ElementsAre("", "mujoco", "bullet"));
   EXPECT_THAT(table.rows,
-              ElementsAre(ElementsAre("phase", "1", "2"), ElementsAre("bayes", "3", "–")));
+              ElementsAre(ElementsAre("paper", "1", "2"), ElementsAre("bayes", "3", "–")));
 }
 
 }  // namespace

@@ -98,12 +98,12 @@ row: *
     def test_of_the_benchmarks_table_agree_with_its_markdown(self):
         printed = """| estimator | no added noise | 1 N·m, 5 m/s² | extra switches a minute |
 |---|---|---|---|
-| `hmm` | .999 [.998, 1] | 1 | 0.0 / 12.5 |
+| `load_filter` | .999 [.998, 1] | 1 | 0.0 / 12.5 |
 """
         quiet, noisy = '0 N·m, 0 m/s²', '1 N·m, 5 m/s²'
         page = f'<!-- results: touchdown run experiments/benchmark.yaml\ncolumns: unseen\n-->\n\n{printed}'
         rows = [{'study': 'benchmark_unseen', 'robot': 'upkie', 'sensors': 'upkie', 'metric': metric,
-                 'estimator': 'hmm', 'noise': noise, 'estimate': estimate, 'low': low, 'high': high}
+                 'estimator': 'load_filter', 'noise': noise, 'estimate': estimate, 'low': low, 'high': high}
                 for metric, noise, estimate, low, high in
                 (('mean_balanced_accuracy', quiet, '0.99904', '0.99823', '1'),
                  ('mean_balanced_accuracy', noisy, '0.9997', '', ''),

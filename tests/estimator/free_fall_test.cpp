@@ -60,6 +60,11 @@ TEST(FreeFall, FadesToThePriorWithoutAnAcceleration) {
   EXPECT_TRUE(fall.update(0.0, 100).wheel[0].contact);
 }
 
+TEST(FreeFall, KnowsNoLoads) {
+  Fall fall;
+  EXPECT_TRUE(std::isnan(fall.update(0.0, 100).wheel[0].load.force));
+}
+
 TEST(FreeFall, RefusesInvalidValues) {
   EXPECT_THROW(FreeFall({.width = 0.0}), InputError);
   EXPECT_THROW(FreeFall({.low_pass = -1.0}), InputError);

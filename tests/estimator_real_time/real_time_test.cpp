@@ -11,20 +11,13 @@
 
 #include "estimator/bayes/filter.hpp"
 #include "estimator/bayes/measurement_only.hpp"
-#include "estimator/decision/filter.hpp"
-#include "estimator/evidence/filter.hpp"
-#include "estimator/force/force_kinematics.hpp"
-#include "estimator/force/support_force.hpp"
+#include "estimator/force/load_filter.hpp"
 #include "estimator/free_fall.hpp"
 #include "estimator/odometry/filter.hpp"
-#include "estimator/phase/filter.hpp"
 #include "estimator/signal_assembler.hpp"
 #include "estimator/upkie_observer.hpp"
 #include "experiments/batch/bayes.hpp"
-#include "tests/estimator/decision/random_model.hpp"
-#include "tests/estimator/evidence/random_curves.hpp"
 #include "tests/estimator/named_config.hpp"
-#include "tests/estimator/phase/synthetic.hpp"
 #include "tests/estimator/synthetic.hpp"
 
 namespace {
@@ -111,11 +104,9 @@ TEST_F(RealTime, UpdateAndResetAllocateNothing) {
     MeasurementOnly ablation(model, config);
     UpkieObserver observer;
     FreeFall free_fall;
-    SupportForce support_force;
     for (ContactEstimator* const estimator :
          {static_cast<ContactEstimator*>(&filter), static_cast<ContactEstimator*>(&ablation),
-          static_cast<ContactEstimator*>(&observer), static_cast<ContactEstimator*>(&free_fall),
-          static_cast<ContactEstimator*>(&support_force)}) {
+          static_cast<ContactEstimator*>(&observer), static_cast<ContactEstimator*>(&free_fall)}) {
       EXPECT_EQ(allocations_of([&] {
                   for (const Signals& s : stream) {
                     estimator->update(s);
@@ -128,7 +119,7 @@ TEST_F(RealTime, UpdateAndResetAllocateNothing) {
   }
 }
 
-TEST_F(RealTime, EstimatorsFromForcesAllocateNothing) {
+TEST_F(RealTime, TheLoadFilterAllocatesNothing) {
   auto stream = test::drops(3000);
   for (Signals& s : stream) {
     for (const double sign : {1.0, -1.0}) {  // bent legs, which have observable forces
@@ -141,9 +132,6 @@ TEST_F(RealTime, EstimatorsFromForcesAllocateNothing) {
   stream[200].leg[0].knee.torque = HUGE_VAL;
   stream[300].leg[1].knee.velocity = std::nan("");
   stream[400].time = 1e9;
-  SupportForce support_force;
-  ForceKinematics force_kinematics({.air = {}, .contact = {.force_mean = 26.0}});
-  DecisionNetwork decision_network(test::random_model(1));
   for (std::size_t k = 500; k < 1500; ++k) {  // targets come and go
     for (std::size_t side = 0; side < 2; ++side) {
       const LegSignals& leg = stream[k].leg[side];
@@ -151,21 +139,16 @@ TEST_F(RealTime, EstimatorsFromForcesAllocateNothing) {
       stream[k].target[side].knee = {leg.knee.position, 0.0, 0.1, 40.0, 2.0};
     }
   }
-  EvidenceCurves evidence_curves(test::random_curve_sets(1));
-  for (ContactEstimator* const estimator : {static_cast<ContactEstimator*>(&support_force),
-                                            static_cast<ContactEstimator*>(&force_kinematics),
-                                            static_cast<ContactEstimator*>(&decision_network),
-                                            static_cast<ContactEstimator*>(&evidence_curves)}) {
-    estimator->update(stream.front());
-    EXPECT_NE(estimator->update(stream[1]).wheel[0].p_contact, 0.5);
-    EXPECT_EQ(allocations_of([&] {
-                for (const Signals& s : stream) {
-                  estimator->update(s);
-                }
-                estimator->reset();
-              }),
-              0);
-  }
+  LoadFilter filter;
+  filter.update(stream.front());
+  EXPECT_NE(filter.update(stream[1]).wheel[0].p_contact, 0.5);
+  EXPECT_EQ(allocations_of([&] {
+              for (const Signals& s : stream) {
+                filter.update(s);
+              }
+              filter.reset();
+            }),
+            0);
 }
 
 TEST_F(RealTime, BatchesAllocateNothing) {
@@ -186,22 +169,6 @@ TEST_F(RealTime, BatchesAllocateNothing) {
               0)
         << name;
   }
-}
-
-TEST_F(RealTime, ThePhaseFilterAllocatesNothing) {
-  PhaseFilter filter(test::small_phase_model());
-  std::vector<Signals> stream = test::phase_run(2, 3, 20, 0.5).signals;
-  stream[100].vertical_acceleration = std::nan("");
-  stream[200].leg[0].knee.torque = HUGE_VAL;
-  stream[300].time = -5.0;
-  stream[400].time = 1e9;
-  EXPECT_EQ(allocations_of([&] {
-              for (const Signals& s : stream) {
-                filter.update(s);
-              }
-              filter.reset();
-            }),
-            0);
 }
 
 TEST_F(RealTime, TheAssemblerAllocatesNothing) {

@@ -13,7 +13,6 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "estimator/models/parameters.hpp"
 #include "estimator/npz/npz.hpp"
 #include "tests/complaint.hpp"
 #include "tests/python_with_numpy.hpp"
@@ -43,37 +42,6 @@ ModelArrays small_grid() {
   return arrays;
 }
 
-PhaseModel small_phase_model() {
-  PhaseModel m;
-  m.sample_rate = 500.0;
-  for (std::size_t i = 0; i < phase_count; ++i) {
-    m.transition[i] = {};
-    m.transition[i][i] = 0.75;
-    m.transition[i][(i + 1) % phase_count] = 0.25;
-    m.seconds[i] = 0.5 + static_cast<double>(i);
-  }
-  for (const double noise : {0.0, 0.5}) {
-    for (const double wheel_noise : {0.0, 0.5}) {
-      PhaseTorqueDensity torque{{noise, wheel_noise},
-                                {std::hypot(0.1, noise), std::hypot(0.1, wheel_noise)},
-                                {-2.0, 5.0, 4},
-                                {-1.0, 1.0, 3},
-                                {}};
-      for (int i = 0; i < 4 * 3 * static_cast<int>(torque_density_count); ++i) {
-        torque.log_density.push_back(-0.1F * static_cast<float>(i) -
-                                     static_cast<float>(noise + 3.0 * wheel_noise));
-      }
-      m.torque.push_back(torque);
-    }
-    PhaseAccelerationDensity acceleration{noise, std::hypot(1.0, noise), {-30.0, 100.0, 5}, {}};
-    for (int i = 0; i < 5 * static_cast<int>(acceleration_density_count); ++i) {
-      acceleration.log_density.push_back(-0.3F * static_cast<float>(i));
-    }
-    m.acceleration.push_back(acceleration);
-  }
-  return m;
-}
-
 /// Random bits that are finite floats: denormals, tiny and huge numbers among them.
 NeuralNetwork odd_network() {
   std::mt19937 engine(1);
@@ -101,11 +69,12 @@ NeuralNetwork odd_network() {
   return n;
 }
 
-ModelArrays parameters() {
-  ModelArrays arrays =
-      arrays_of(Parameters{{"slope", {0.1 + 0.2}}, {"mean", {1e-300, -2.0}}}, "force_kinematics");
-  arrays["provenance"] = array_of_text("seconds: 3.5\nseed:run: 1:0, 1:1\n");
-  return arrays;
+/// A model that names its estimator.
+ModelArrays named_model() {
+  return {{"estimator", array_of_text("load_filter")},
+          {"slope", {{1}, {0.1 + 0.2}}},
+          {"mean", {{2}, {1e-300, -2.0}}},
+          {"provenance", array_of_text("seconds: 3.5\nseed:run: 1:0, 1:1\n")}};
 }
 
 class ModelFile : public ::testing::Test {
@@ -119,9 +88,7 @@ class ModelFile : public ::testing::Test {
 };
 
 TEST_F(ModelFile, KeepsEveryKindOfModelToTheBit) {
-  ModelArrays phases = arrays_of(small_phase_model());
-  phases["provenance"] = array_of_text("scenario: stairs, hang\n");
-  for (const ModelArrays& arrays : {small_grid(), phases, arrays_of(odd_network()), parameters()}) {
+  for (const ModelArrays& arrays : {small_grid(), arrays_of(odd_network()), named_model()}) {
     write_npz(arrays, path_);
     const Model model = load_model(path_);
     save_model(model, folder_ / "again.npz");
@@ -152,17 +119,17 @@ TEST_F(ModelFile, HasARowOfAGridForEachWheelTorque) {
 }
 
 TEST_F(ModelFile, KeepsTheMetadata) {
-  Model model = model_of(parameters());
-  model.metadata = ModelMetadata{.estimator = "force_kinematics",
+  Model model = model_of(named_model());
+  model.metadata = ModelMetadata{.estimator = "load_filter",
                                  .sample_rate = 1000.0,
                                  .robot = "upkie",
-                                 .configuration = {{"threshold", "0.5"}},
+                                 .configuration = {{"lead", "0.004"}},
                                  .fingerprint = {}};
   save_model(model, path_);
   const Model read = load_model(path_);
   EXPECT_EQ(read.arrays, model.arrays);
   EXPECT_EQ(read.metadata->configuration, model.metadata->configuration);
-  EXPECT_EQ(estimator_of(read), "force_kinematics");
+  EXPECT_EQ(estimator_of(read), "load_filter");
 }
 
 TEST_F(ModelFile, OfTheAuthorsComesBackAsItWas) {
@@ -252,14 +219,6 @@ TEST_F(ModelFile, IsRefusedWhereverItIsCutOffOrSpoilt) {
   spoilt[200] = static_cast<char>(spoilt[200] ^ 0x10);  // within the first array
   std::ofstream(path_, std::ios::binary) << spoilt;
   EXPECT_THAT(message(), AllOf(HasSubstr(path_.string()), Not(HasSubstr("\n"))));
-}
-
-TEST(Parameter, IsNamedIfItIsMissingOrHasAnotherSize) {
-  const Parameters parameters = {{"slope", {2.0}}, {"mean", {1.0, 2.0}}};
-  EXPECT_EQ(parameter(parameters, "slope"), 2.0);
-  EXPECT_EQ(parameter(parameters, "mean", 2)[1], 2.0);
-  EXPECT_THROW(parameter(parameters, "mean"), InputError);
-  EXPECT_THROW(parameter(parameters, "intercept"), InputError);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ namespace touchdown {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 class CInterface : public ::testing::Test {
  protected:
@@ -50,6 +51,20 @@ touchdown_record record_of(const Signals& s) {
   return record;
 }
 
+/// A run on bent legs, of which no servo repeats itself.
+std::vector<Signals> moving(std::size_t steps) {
+  std::vector<Signals> all = test::drops_on_bent_legs(steps);
+  for (Signals& s : all) {
+    s.linear_acceleration.z() = -s.vertical_acceleration;
+    for (LegSignals& leg : s.leg) {
+      leg.hip.position += 1e-3 * std::sin(9.0 * s.time);
+      leg.knee.position += 1e-3 * std::sin(9.0 * s.time);
+      leg.hip.torque += 1e-3 * s.time;
+    }
+  }
+  return all;
+}
+
 TEST_F(CInterface, BelievesWhatTheLibraryBelieves) {
   std::array<char, 200> error{};
   const touchdown_use use = {"robust", 1000.0, "upkie"};
@@ -77,15 +92,11 @@ TEST_F(CInterface, BelievesWhatTheLibraryBelieves) {
 }
 
 TEST_F(CInterface, HasTheLoadsOfTheLibrary) {
-  logs::write_npz(test::fitted_model("evidence_curves"), folder_ / "curves.npz");
+  logs::write_npz(test::fitted_model("load_filter"), folder_ / "loads.npz");
   touchdown_estimator* const estimator =
-      touchdown_create((folder_ / "curves.npz").c_str(), nullptr, nullptr, 0);
-  const auto expected = make_estimator(test::fitted_model("evidence_curves"));
-  for (Signals s : test::drops(500)) {
-    for (std::size_t side = 0; side < 2; ++side) {
-      s.leg[side].hip.position = (side == 0 ? 0.455 : -0.455) + 1e-3 * std::sin(9.0 * s.time);
-      s.leg[side].knee.position = (side == 0 ? -0.791 : 0.791) + 1e-3 * std::sin(9.0 * s.time);
-    }
+      touchdown_create((folder_ / "loads.npz").c_str(), nullptr, nullptr, 0);
+  const auto expected = make_estimator(test::fitted_model("load_filter"));
+  for (const Signals& s : moving(500)) {
     const touchdown_record record = record_of(s);
     const touchdown_belief found = touchdown_update(estimator, &record);
     const Belief& belief = expected->update(s);
@@ -110,8 +121,17 @@ TEST_F(CInterface, ReportsErrorsInAnyRoom) {
   EXPECT_EQ(touchdown_create("none.npz", nullptr, shorter.data(), shorter.size()), nullptr);
   EXPECT_STREQ(shorter.data(), "none.");
   EXPECT_EQ(touchdown_create("none.npz", nullptr, nullptr, 0), nullptr);
-  EXPECT_EQ(touchdown_create(nullptr, nullptr, error.data(), error.size()), nullptr);
+  const touchdown_use other = {nullptr, 1000.0, "another_robot"};
+  EXPECT_EQ(touchdown_create(nullptr, &other, error.data(), error.size()), nullptr);
+  EXPECT_STREQ(error.data(), "was fitted to the robot 'upkie', not to 'another_robot'");
   touchdown_destroy(nullptr);
+}
+
+TEST_F(CInterface, IsTheFilterOfLoadsOfUpkieWithoutAFile) {
+  touchdown_estimator* const estimator = touchdown_create(nullptr, nullptr, nullptr, 0);
+  ASSERT_NE(estimator, nullptr);
+  EXPECT_THAT(touchdown_model_text(estimator), StartsWith("load_filter, 1000 Hz, robot upkie"));
+  touchdown_destroy(estimator);
 }
 
 TEST_F(CInterface, ReportsFaultsOfARecord) {
@@ -192,14 +212,8 @@ TEST_F(CInterface, RefusesConventionsThatAreNoneAndKeepsTheOnesBefore) {
 }
 
 TEST_F(CInterface, TakesTheTargetsOfServos) {
-  ModelArrays arrays = test::fitted_arrays("decision_network");
-  arrays["servo_weight"] = {{servo_weights}, std::vector<double>(servo_weights, 0.05)};
-  add_metadata(arrays, {.estimator = "decision_network",
-                        .sample_rate = 1000.0,
-                        .robot = "upkie",
-                        .configuration = default_configuration("decision_network", 1000.0),
-                        .fingerprint = {}});
-  const auto path = folder_ / "servo.npz";
+  const ModelArrays arrays = test::fitted_model("load_filter");
+  const auto path = folder_ / "loads.npz";
   logs::write_npz(arrays, path);
   std::array<char, 200> error{};
   touchdown_estimator* const estimator =
@@ -208,10 +222,7 @@ TEST_F(CInterface, TakesTheTargetsOfServos) {
   const auto expected = make_estimator(arrays);
   std::array<touchdown_target, 6> targets{};
   int seen = 0;
-  std::vector<Signals> steps = test::drops(301);
-  for (std::size_t k = 0; k < steps.size(); ++k) {  // servos never repeat themselves
-    for (LegSignals& leg : steps[k].leg) leg.hip.torque += 1e-6 * static_cast<double>(k);
-  }
+  std::vector<Signals> steps = moving(301);
   const Signals last_step = steps.back();
   steps.pop_back();
   for (const Signals& s : steps) {

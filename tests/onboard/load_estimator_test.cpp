@@ -31,7 +31,7 @@ class LoadEstimator : public ::testing::Test {
 
 std::vector<double> beliefs_of(ContactEstimator& estimator) {
   std::vector<double> all;
-  for (const Signals& s : test::drops(1200)) {
+  for (const Signals& s : test::drops_on_bent_legs(1200)) {
     const Belief& b = estimator.update(s);
     all.insert(all.end(), {b.wheel[0].p_contact, b.wheel[1].p_contact});
   }
@@ -39,8 +39,7 @@ std::vector<double> beliefs_of(ContactEstimator& estimator) {
 }
 
 TEST_F(LoadEstimator, BelievesWhatWasFitted) {
-  for (const std::string name :
-       {"robust", "phase", "decision_network", "evidence_curves", "evidence_curves_quiet"}) {
+  for (const std::string name : {"robust", "nmn", "load_filter"}) {
     const ModelArrays arrays = test::fitted_model(name);
     EXPECT_EQ(beliefs_of(*load_estimator(file("m.npz", arrays), {.robot = "upkie"})),
               beliefs_of(*make_estimator(arrays)))
@@ -72,10 +71,10 @@ TEST_F(LoadEstimator, IgnoresOtherArraysBesideAGrid) {
 }
 
 TEST_F(LoadEstimator, LoadsTheMetadata) {
-  const ModelMetadata metadata = load_metadata(file("m.npz", test::fitted_model("phase", "tall")));
-  EXPECT_EQ(metadata.estimator, "phase");
+  const ModelMetadata metadata = load_metadata(file("m.npz", test::fitted_model("nmn", "tall")));
+  EXPECT_EQ(metadata.estimator, "nmn");
   EXPECT_EQ(metadata.robot, "tall");
-  EXPECT_EQ(metadata.configuration, default_configuration("phase", 1000.0));
+  EXPECT_EQ(metadata.configuration, default_configuration("nmn", 1000.0));
 }
 
 TEST_F(LoadEstimator, HeadersOfModelsAlwaysHaveMetadata) {

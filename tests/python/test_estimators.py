@@ -13,6 +13,9 @@ from scene import HOP, SHORT, InFolder, hop, program
 
 NAMES = ("time", "position", "velocity", "torque", "linear_acceleration", "angular_velocity", "vertical_acceleration",
          "ground_velocity_command")
+TARGETS = ("target_position", "target_velocity", "target_torque", "target_kp", "target_kd")
+# What the load filter uses, which is the default.
+ALL = NAMES + TARGETS + ("orientation",)
 
 
 def steps_of(run):
@@ -40,14 +43,13 @@ class Fit(InFolder):
     def test_writes_the_program_s_bytes(self):
         run = hop()
         run.save("hop.mpack")
-        for estimator in ("robust", "force_kinematics"):
-            program("fit", "hop.mpack", "--estimator", estimator, "-o", "program.npz")
-            for source in (run, "hop.mpack"):
-                model = touchdown.fit(source, estimator)
-                model.save("python.npz")
-                self.assert_same_bytes("python.npz", "program.npz")
-                self.assertEqual(model.estimator, estimator)
-            self.assertAlmostEqual(model.seconds, run.steps * 0.001 - 0.3)
+        program("fit", "hop.mpack", "-o", "program.npz")
+        for source in (run, "hop.mpack"):
+            model = touchdown.fit(source)
+            model.save("python.npz")
+            self.assert_same_bytes("python.npz", "program.npz")
+            self.assertEqual(model.estimator, "robust")
+        self.assertAlmostEqual(model.seconds, run.steps * 0.001 - 0.3)
 
     def test_takes_runs_of_one_class(self):
         run = hop()
@@ -62,7 +64,7 @@ class Fit(InFolder):
         run.info = {**run.info, "seed": 900_000_001}
         self.assert_refused([
             (lambda: touchdown.fit(run, "robust"), "reserved for reporting and must not be fitted to"),
-            (lambda: touchdown.fit(hop(), "free_fall"), "'free_fall' is not fitted"),
+            (lambda: touchdown.fit(hop(), "load_filter"), "'load_filter' is not fitted"),
             (lambda: touchdown.fit(dict(hop())), "expected a Recording")])
 
 
@@ -82,32 +84,24 @@ class Run(InFolder):
             with self.subTest(name):
                 beliefs = touchdown.Estimator(name, options[1] if options else None).run(run)
                 self.assert_program_believes(beliefs, "hop.mpack", "--estimator", name, *options)
-        self.assertGreater(len(fitted), 10)
+        self.assertGreater(len(fitted), 3)
 
     def test_takes_the_targets_of_servos(self):
         run = hop()
         run.save("hop.mpack")
-        program("fit", "hop.mpack", "--servo-load", "-o", "m.npz")
-        estimator = touchdown.Estimator(model="m.npz")
+        estimator = touchdown.Estimator()
         beliefs = estimator.run(run)
         self.assertEqual([touchdown.STATUS[k] for k in beliefs["status"][:2]], ["degraded", "good"])
         self.assertNotIn(4, beliefs["status"][1:])
-        targets = ("target_position", "target_velocity", "target_torque", "target_kp", "target_kd")
-        self.assert_program_believes(beliefs, "hop.mpack", "--model", "m.npz")
+        self.assert_program_believes(beliefs, "hop.mpack")
         estimator.reset()
         for k in range(100):
-            belief = estimator.update({name: run[name][k] for name in NAMES + targets})
+            belief = estimator.update({name: run[name][k] for name in ALL})
             self.assertEqual(belief.p_contact[0], beliefs["p_contact"][k, 0])
         without = estimator.run({name: run[name] for name in NAMES})
         self.assertEqual({touchdown.STATUS[k] for k in without["status"]}, {"degraded"})
         np.testing.assert_array_equal(run["target_position"][1:, 1], run["command_position"][:-1, 1])
         np.testing.assert_array_equal(run["target_kp"][1:, 3], 20.0 * run["command_kp_scale"][:-1, 3])
-        for name in ("evidence_curves", "decision_network"):  # a fit in Python equals that of the program
-            program("fit", "hop.mpack", "--servo-load", "--estimator", name, "-o", "of_program.npz")
-            expected = touchdown.Estimator(model="of_program.npz").run(run)
-            fitted = touchdown.Estimator(model=touchdown.fit(run, name, servo_load=True)).run(run)
-            np.testing.assert_array_equal(fitted["p_contact"], expected["p_contact"])
-            np.testing.assert_array_equal(fitted["status"], expected["status"])
         self.assertTrue(np.isnan(run["target_kp"][0]).all())
 
     def test_names_the_signal_that_no_sensor_reports(self):
@@ -128,34 +122,28 @@ class Run(InFolder):
         for robot in ("upkie_heavy", "knee_and_wheel"):
             run = touchdown.simulate(HOP, overrides={**SHORT, "robot": f"models/{robot}.yaml"})
             run.save("own.mpack")
-            beliefs = touchdown.Estimator("support_force").run(run)
-            self.assert_program_believes(beliefs, "own.mpack", "--estimator", "support_force")
+            beliefs = touchdown.Estimator().run(run)
+            self.assert_program_believes(beliefs, "own.mpack")
             plain = {key: np.asarray(value) for key, value in run.items()}
-            self.assertFalse(np.array_equal(touchdown.Estimator("support_force").run(plain)["p_contact"],
-                                            beliefs["p_contact"]))
-            with self.assertRaisesRegex(touchdown.InputError, f"not to '{robot}'"):
-                touchdown.Estimator().run(run)
-            model = touchdown.fit(run, "force_kinematics")
-            program("fit", "own.mpack", "--estimator", "force_kinematics", "-o", "program.npz")
-            model.save("python.npz")
+            self.assertFalse(np.array_equal(touchdown.Estimator().run(plain)["p_contact"], beliefs["p_contact"]))
+            program("fit", "own.mpack", "-o", "program.npz")
+            touchdown.fit(run).save("python.npz")
             self.assert_same_bytes("python.npz", "program.npz")
 
     def test_has_loads_of_estimators_with_legs(self):
         run = hop()
         run.save("hop.mpack")
-        program("fit", "hop.mpack", "--estimator", "force_kinematics", "-o", "m.npz")
-        program("estimate", "hop.mpack", "--model", "m.npz", "-o", "hop.csv")
+        program("estimate", "hop.mpack", "-o", "hop.csv")
         rows = np.genfromtxt("hop.csv", delimiter=",", names=True)
-        estimator = touchdown.Estimator(model="m.npz")
+        estimator = touchdown.Estimator()
         whole_run = estimator.run(run)
         for name in ("load", "load_deviation"):
             expected = np.column_stack([rows[f"{name}_left_n"], rows[f"{name}_right_n"]])
             np.testing.assert_array_equal(whole_run[name], expected)
         self.assertGreater(np.isfinite(whole_run["load"]).mean(), 0.9)
         estimator.reset()
-        names = NAMES + ("target_position", "target_velocity", "target_torque", "target_kp", "target_kd")
         for k in range(100):
-            belief = estimator.update({name: run[name][k] for name in names})
+            belief = estimator.update({name: run[name][k] for name in ALL})
             np.testing.assert_array_equal(belief.load, whole_run["load"][k])
             np.testing.assert_array_equal(belief.load_deviation, whole_run["load_deviation"][k])
         beliefs = touchdown.Estimator("free_fall").run(run)
@@ -176,14 +164,13 @@ class Run(InFolder):
 
     def test_reads_changed_arrays_of_any_layout(self):
         run = hop()
-        falling = {name: np.asfortranarray(run[name]) for name in NAMES}
+        falling = {name: np.asfortranarray(run[name]) for name in ALL}
         # These estimators use every joint: torques, and a leg's geometry.
-        for model in (touchdown.fit(run, "robust"), touchdown.fit(run, "force_kinematics"), touchdown.fit(run, "decision_network")):
-            estimator = touchdown.Estimator(model=model)
+        for estimator in (touchdown.Estimator(model=touchdown.fit(run)), touchdown.Estimator()):
             expected = estimator.run(run)["p_contact"]
-            np.testing.assert_array_equal(estimator.run(falling)["p_contact"], expected, err_msg=model.estimator)
+            np.testing.assert_array_equal(estimator.run(falling)["p_contact"], expected, err_msg=estimator.name)
             shifted = {**run, "torque": np.ascontiguousarray(run["torque"]) + 0.5}
-            self.assertFalse(np.array_equal(estimator.run(shifted)["p_contact"], expected), model.estimator)
+            self.assertFalse(np.array_equal(estimator.run(shifted)["p_contact"], expected), estimator.name)
         falling["vertical_acceleration"] = np.full(run.steps, -9, dtype=np.int16)
         self.assertFalse(touchdown.Estimator("free_fall").run(falling)["contact"][100:].any())
 
@@ -239,10 +226,7 @@ class OwnArrays(InFolder):
     def test_need_only_the_signals_that_the_estimator_uses(self):
         run = hop()
         for name, model, used in (("free_fall", None, ("vertical_acceleration",)),
-                                  ("robust", touchdown.fit(run, "robust"), ("torque", "vertical_acceleration")),
-                                  ("evidence_curves", touchdown.fit(run),
-                                   ("position", "velocity", "torque", "angular_velocity",
-                                    "vertical_acceleration"))):
+                                  ("robust", touchdown.fit(run), ("torque", "vertical_acceleration"))):
             estimator = touchdown.Estimator(name, model)
             few = {key: run[key] for key in ("time", *used)}
             np.testing.assert_array_equal(estimator.run(few)["p_contact"], estimator.run(run)["p_contact"])
@@ -251,6 +235,11 @@ class OwnArrays(InFolder):
                     estimator.run({key: few[key] for key in few if key != missing})
             estimator.reset()
             self.assertEqual(estimator.update({key: few[key][0] for key in few}).status, "good")
+        needed = ("time", "position", "velocity", "torque", "angular_velocity", "vertical_acceleration")
+        touchdown.Estimator().run({key: run[key] for key in needed})
+        for missing in needed:
+            with self.assertRaisesRegex(touchdown.InputError, f"'{missing}' is missing"):
+                touchdown.Estimator().run({key: run[key] for key in needed if key != missing})
 
     def test_have_gravity_taken_out_by_the_orientation(self):
         run = hop()
@@ -265,23 +254,26 @@ class OwnArrays(InFolder):
             estimator.run(arrays, gravity_included=True)
 
 
-class Shipped(InFolder):
-    def test_is_used_without_a_name_and_a_model(self):
+class Default(InFolder):
+    def test_is_the_load_filter(self):
         run = hop()
-        expected = touchdown.Estimator("evidence_curves", "models/evidence_curves.npz").run(run)["p_contact"]
-        for estimator in (touchdown.Estimator(), touchdown.Estimator("shipped")):
-            np.testing.assert_array_equal(estimator.run(run)["p_contact"], expected)
+        self.assertEqual(touchdown.Estimator().name, "load_filter")
+        np.testing.assert_array_equal(touchdown.Estimator().run(run)["p_contact"],
+                                      touchdown.Estimator("load_filter").run(run)["p_contact"])
 
-    def test_serves_other_rates_and_refuses_other_robots_without_transfer(self):
-        for rate in (200.0, 400.0, 600.0, 1000.0):
+    def test_serves_every_rate_and_robot_but_a_fitted_model_its_own_without_transfer(self):
+        run = hop()
+        plain = {name: run[name] for name in ALL}
+        for rate in (100.0, 200.0, 1000.0, 2000.0):
             touchdown.Estimator(sample_rate=rate)
-        with self.assertRaisesRegex(touchdown.InputError, "serves 200 to 1000 Hz, not at 100 Hz"):
-            touchdown.Estimator(sample_rate=100.0)
-        touchdown.Estimator(sample_rate=100.0, transfer=True)
-        for robot in ("mine", "models/upkie_heavy.yaml"):
-            with self.assertRaisesRegex(touchdown.InputError, "was fitted to the robot 'upkie', not to"):
-                touchdown.Estimator(robot=robot)
-            touchdown.Estimator(robot=robot, transfer=True)
+        heavy = touchdown.Estimator(robot="models/upkie_heavy.yaml").run(plain)
+        self.assertFalse(np.array_equal(heavy["p_contact"], touchdown.Estimator().run(plain)["p_contact"]))
+        fitted = touchdown.fit(run)
+        for options, words in (({"sample_rate": 200.0}, "was fitted at 1000 Hz, not at 200 Hz"),
+                               ({"robot": "models/upkie_heavy.yaml"}, "was fitted to the robot 'upkie', not to")):
+            with self.assertRaisesRegex(touchdown.InputError, words):
+                touchdown.Estimator(model=fitted, **options)
+            touchdown.Estimator(model=fitted, transfer=True, **options)
 
 
 class Check(InFolder):

@@ -63,7 +63,7 @@ class LongCalls(InFolder):
     def test_of_an_experiment_end_by_ctrl_c_and_report_what_is_saved(self):
         call = ('touchdown.run("experiments/stairs.yaml", out="out", '
                 'overrides={"estimators": ["robust"], "recordings": "none", "video.enabled": False, '
-                '"posterior.enabled": False, "detail.enabled": False, "video.estimators": ["robust"], '
+                '"detail.enabled": False, "video.estimators": ["robust"], '
                 '"detail.estimators": ["robust"]})')
         seconds, note = self.interrupted(call, 1.5)
         self.assertLess(seconds, 6.0)

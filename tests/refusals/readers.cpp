@@ -104,7 +104,7 @@ using Message = std::array<char, 300>;
 /// KEY: NUMBER for the sample rate or a convention, of the C interface.
 void set_by_c_interface(const fs::path& file) {
   const fs::path model = file.parent_path() / "m.npz";
-  logs::write_npz(test::fitted_model("force_kinematics"), model);
+  logs::write_npz(test::fitted_model("nmn"), model);
   const YAML::Node keys = YAML::LoadFile(file.string());
   const touchdown_use use = {nullptr, keys["rate"].as<double>(1000.0), nullptr};
   Message message{};

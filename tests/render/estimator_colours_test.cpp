@@ -23,7 +23,7 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::vector<std::string> estimators = {"robust", "paper", "phase"};
+const std::vector<std::string> estimators = {"robust", "paper", "load_filter"};
 
 /// A figure with a curve for each of these estimators of an experiment that has all.
 std::string script_of(const std::vector<std::string>& shown, const ScratchFolder& folder,
@@ -45,31 +45,31 @@ std::string script_of(const std::vector<std::string>& shown, const ScratchFolder
 
 TEST(EstimatorColours, AreTheSameInFiguresOfDifferentSubsets) {
   const ScratchFolder folder;
-  // In the experiment, the phase filter is the third estimator.
+  // In the experiment, the load filter is the third estimator.
   EXPECT_THAT(script_of(estimators, folder, "all"),
-              ContainsRegex("lt 3 lw [0-9.]+ title 'Phase filter'"));
-  EXPECT_THAT(script_of({"phase", "robust"}, folder, "two"),
-              ContainsRegex("lt 3 lw [0-9.]+ title 'Phase filter'"));
-  EXPECT_THAT(script_of({"phase"}, folder, "alone"),
+              ContainsRegex("lt 3 lw [0-9.]+ title 'Load filter'"));
+  EXPECT_THAT(script_of({"load_filter", "robust"}, folder, "two"),
+              ContainsRegex("lt 3 lw [0-9.]+ title 'Load filter'"));
+  EXPECT_THAT(script_of({"load_filter"}, folder, "alone"),
               AllOf(HasSubstr("with yerrorlines lt 3 "), Not(HasSubstr("with yerrorlines lt 1 "))));
 }
 
 TEST(EstimatorColours, AreThoseOfTheScoresAndFilms) {
   const ScratchFolder folder;
   ScoreRow row;
-  row.name = "Phase filter";
-  row.line_type = line_type_of(estimators, "phase");
+  row.name = "Load filter";
+  row.line_type = line_type_of(estimators, "load_filter");
   for (int i = 0; i < 10; ++i) row.calibration.add(true, 0.9);
   row.contact_frequency.resize(scoring::Calibration::bins);
   const ScoreFigure figure{"Reliability", {{"no noise", {row}}}, ""};
   draw_reliability_figure(figure, folder / "reliability");
   EXPECT_THAT(read_file(folder / "reliability.gp"),
-              ContainsRegex("with linespoints lt 3 lw [0-9.]+ title 'Phase filter'"));
+              ContainsRegex("with linespoints lt 3 lw [0-9.]+ title 'Load filter'"));
 
   const models::RobotModel robot = models::compile_robot_model(upkie_mjcf, staged_terrain());
   const logs::Recording run = staged_run(0.5);
   const std::vector<BeliefTrack> beliefs = {
-      staged_beliefs(run, "Phase filter", line_type_of(estimators, "phase"))};
+      staged_beliefs(run, "Load filter", line_type_of(estimators, "load_filter"))};
   const std::vector<StripRow> rows = strip_rows({{robot, run, beliefs}}, {});
   ASSERT_EQ(rows.front().curves.size(), models::wheel_count);
   for (const StripCurve& curve : rows.front().curves) {

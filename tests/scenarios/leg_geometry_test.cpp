@@ -1,9 +1,6 @@
 #include "scenarios/leg_geometry.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <memory>
 #include <string>
 
 #include <fmt/format.h>
@@ -11,8 +8,6 @@
 
 #include "core/files.hpp"
 #include "core/resources.hpp"
-#include "estimator/decision/feature_extractor.hpp"
-#include "logs/signals_from.hpp"
 #include "tests/scratch_folder.hpp"
 #include "tests/simulators/upkie.hpp"
 
@@ -82,51 +77,6 @@ TEST(LegGeometry, OfLongerAndHeavierLegsFollowsTheirFiles) {
   EXPECT_NEAR(heavy.wheel_mass, 1.5 * upkie.wheel_mass, 1e-6);
   EXPECT_NEAR(heavy.robot_mass, 1.5 * upkie.robot_mass, 1e-6);
   EXPECT_EQ(heavy.lower_length, upkie.lower_length);
-}
-
-/// The estimators' ground reaction on wheels that spin to and fro in the air.
-TEST(LegGeometry, GivesNoGroundReactionForFreelySpinningWheels) {
-  const ScratchFolder folder;
-  const auto with_rotors = folder.write(
-      "rotors.yaml",
-      fmt::format("mjcf: {}\nactuators: {{wheel: {{armature: 0.0005, torque_lag: "
-                  "0.001}}}}\n",
-                  std::filesystem::absolute(find_resource("models/upkie.xml")).string()));
-  for (const auto& file : {find_resource("models/upkie.xml"),
-                           find_resource("models/upkie_large_wheels.yaml"), with_rotors}) {
-    const auto robot =
-        std::make_shared<const models::RobotModel>(models::compile_robot_model(file, {}));
-    for (const std::string& engine : simulators::simulator_names()) {
-      const auto simulator = simulators::make_simulator(engine, robot, {});
-      const simulators::RobotState start = simulators::at_height(5.0);
-      simulator->reset(start);
-      const LegGeometry geometry = leg_geometry(*robot);
-      LegFeatureExtractor extractor({.geometry = geometry}, false);
-      models::Action action = simulators::stiff_legs(start);
-      double largest_torque = 0.0;
-      double largest_reaction = 0.0;
-      for (int step = 0; step < 200; ++step) {
-        const double torque = 0.2 * std::sin(60.0 * 0.001 * step);
-        // The wheels are mirrored joints: equal torques spin them in opposite directions, and the
-        // robot does not turn.
-        for (const models::Servo wheel : models::wheel_servos) {
-          action.servo[models::index(wheel)].feedforward_torque = torque;
-        }
-        simulator->step(action);
-        const Signals signals = logs::signals_from(simulator->observation(), 0.0);
-        const LegSignals& leg = signals.leg[0];
-        const double reaction = extractor
-                                    .update(leg, foot_jacobian(geometry, leg, false),
-                                            signals.vertical_acceleration, 0.0)
-                                    .reaction;
-        largest_torque = std::max(largest_torque, std::abs(leg.wheel.torque));
-        if (step > 10) largest_reaction = std::max(largest_reaction, std::abs(reaction));
-      }
-      EXPECT_GT(largest_torque, 0.19) << file << ' ' << engine;
-      // The difference over 5 ms lags the torque by 2.5 ms: a seventh of its amplitude.
-      EXPECT_LT(largest_reaction, 0.17 * largest_torque) << file << ' ' << engine;
-    }
-  }
 }
 
 /// A leg made of rods of known mass. The thigh is .3 m long, with its mass in the middle and a

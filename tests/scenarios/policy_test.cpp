@@ -33,7 +33,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, Policies, ::testing::ValuesIn(simulators::simu
 TEST_P(Policies, ASoftLanderDescendsStepsThatTheBalancerFallsFrom) {
   Scenario steps = high_steps(0.7);
   EXPECT_EQ(play(steps, GetParam()).info.outcome, Outcome::fell);
-  for (const PolicyConfig& policy : {soft("truth"), soft("truth", 0.08), soft("support_force")}) {
+  for (const PolicyConfig& policy : {soft("truth"), soft("truth", 0.08), soft("load_filter")}) {
     steps.policy = policy;
     EXPECT_EQ(play(steps, GetParam()).info.outcome, Outcome::finished) << policy.contact;
   }

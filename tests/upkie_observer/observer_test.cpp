@@ -159,7 +159,7 @@ TEST_F(UpkiesObserver, LoadsAModelFromTheConfigurationOrCompiledIn) {
   TouchdownObserver compiled(params_,
                              TouchdownObserver::Estimator(compiled_model(&use, nullptr, 0)));
   compiled.reset(Dictionary());
-  EXPECT_THAT(compiled.model(), HasSubstr("force_kinematics, 1000 Hz, robot upkie"));
+  EXPECT_THAT(compiled.model(), HasSubstr("load_filter, 1000 Hz, robot upkie"));
   char error[200];  // NOLINT: C's
   const touchdown_use other = {nullptr, 0.0, "tall"};
   EXPECT_EQ(compiled_model(&other, error, sizeof error), nullptr);

@@ -21,8 +21,8 @@ LiveScene standing(const std::string& engine) {
 
 std::vector<experiments::LogEstimator> some_estimators() {
   std::vector<experiments::LogEstimator> estimators;
-  for (const char* const name : {"shipped", "support_force", "free_fall"}) {
-    estimators.push_back(experiments::log_estimator({.name = name, .transfer = true}));
+  for (const char* const name : {"load_filter", "upkie_observer", "free_fall"}) {
+    estimators.push_back(experiments::log_estimator({.name = name}));
   }
   return estimators;
 }
@@ -50,7 +50,7 @@ void use(LiveRun& run, std::uint64_t step) {
       run.change(settings);
       break;
     case 600:
-      settings.contact_source = 2;  // the shipped model
+      settings.contact_source = 2;  // the load filter
       settings.contact_delay = 0.03;
       run.change(settings);
       break;

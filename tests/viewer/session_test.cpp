@@ -47,7 +47,7 @@ TEST(WatchSession, LiftsDrivesAndSwitchesAndTheRecordingsRepeat) {
       "for i in $(seq 15); do xdotool mousemove_relative -- 0 -8; sleep 0.1; done; sleep 0.5; "
       "xdotool mouseup 1; sleep 0.5; xdotool key r; sleep 1; "
       "xdotool key h; sleep 0.5; xdotool key h; "
-      "xdotool key t t p o o b; "  // noise, sensors; the policy gets the shipped model's contact
+      "xdotool key t t p o o b; "  // noise, sensors; the policy gets the load filter's contact
       "xdotool key Up Up Left; sleep 2; xdotool key c j; sleep 1.5; xdotool key v v v v; "
       "sleep 0.5; xdotool key e; sleep 2; xdotool key Up Up Up; sleep 2; xdotool key space; "
       "sleep 0.5; xdotool key period period; sleep 0.5; xdotool key q";
@@ -55,7 +55,7 @@ TEST(WatchSession, LiftsDrivesAndSwitchesAndTheRecordingsRepeat) {
   const auto driven = folder / "run_2.mpack";
   const auto in_bullet = folder / "run_3.mpack";
   ASSERT_EQ(watch(folder, script,
-                  "scenarios/flat.yaml --estimator shipped --estimator support_force "
+                  "scenarios/flat.yaml --estimator load_filter --estimator free_fall "
                   "--record " +
                       quoted(lifted)),
             0)
@@ -258,7 +258,7 @@ TEST(WatchSession, RefusesWhatCannotBeWatched) {
                          {"models/upkee.xml", "upkie.xml"},
                          {"experiments/stairs.yaml", "an experiment"},
                          {quoted(folder / "empty.mpack"), "empty.mpack"},
-                         {"scenarios/flat.yaml --estimator evidence_curvs", "evidence_curves"},
+                         {"scenarios/flat.yaml --estimator lode_filter", "load_filter"},
                          {"scenarios/flat.yaml --estimator robust", "--model"},
                          {"scenarios/flat.yaml --estimator oracle", "oracle"},
                          {"scenarios/flat.yaml --simulator bulet", "bulet"},

@@ -135,8 +135,8 @@ def check(log: Any, *, robot: str = "", mapping: Path | None = None) -> list[str
     return _touchdown.check(log, robot, mapping)
 
 
-def fit(runs: Any = (), estimator: str = "evidence_curves", *, contact: Any = (), no_contact: Any = (), skip: float = 0.3,
-        force_threshold: float = 1.0, debounce: float = 0.005, servo_load: bool = False) -> Model:
+def fit(runs: Any = (), estimator: str = "robust", *, contact: Any = (), no_contact: Any = (), skip: float = 0.3,
+        force_threshold: float = 1.0, debounce: float = 0.005) -> Model:
     """Fit an estimator's model, as `touchdown fit` does.
 
     runs: a `Recording` with ground truth, or a path to one, or several
@@ -144,8 +144,6 @@ def fit(runs: Any = (), estimator: str = "evidence_curves", *, contact: Any = ()
     contact, no_contact: the same, for runs in which both wheels, or neither, are in contact all the time
     skip: time at the beginning of each run that is not used (s)
     force_threshold, debounce: definition of contact (`contact_labels`)
-    servo_load: whether networks and evidence curves also get the load by the laws of the servos, as with
-        `touchdown fit --servo-load`; the runs need joint targets
     """
     declared = [(one, None) for one in _several(runs)]
     declared += [(one, True) for one in _several(contact)]
@@ -153,7 +151,7 @@ def fit(runs: Any = (), estimator: str = "evidence_curves", *, contact: Any = ()
     for one, _ in declared:
         if isinstance(one, dict) and not isinstance(one, Recording):
             raise InputError("fit: expected a Recording, which has scenario and seed, or a path; found a dict")
-    return _touchdown.fit(declared, estimator, skip, force_threshold, debounce, servo_load)
+    return _touchdown.fit(declared, estimator, skip, force_threshold, debounce)
 
 
 def score(beliefs: Any, recording: Mapping[str, np.ndarray], *, skip: float = 0.3, hold_off: float = 0.25,

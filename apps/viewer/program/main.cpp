@@ -65,7 +65,7 @@ constexpr const char* usual_robot = "models/upkie.xml";
 /// The estimators that are named NAME or NAME=MODEL. They may be used with any robot and rate.
 std::vector<experiments::LogEstimator> estimators_of(const std::vector<std::string>& words,
                                                      const experiments::LogRobot& robot) {
-  const std::vector<std::string> usual = {"shipped", "upkie_observer"};
+  const std::vector<std::string> usual = {experiments::default_estimator, "upkie_observer"};
   std::vector<experiments::LogEstimator> estimators;
   for (const std::string& word : words.empty() ? usual : words) {
     const auto split = word.find('=');
@@ -73,7 +73,7 @@ std::vector<experiments::LogEstimator> estimators_of(const std::vector<std::stri
         .name = word.substr(0, split), .robot = robot, .transfer = true};
     if (split != std::string::npos) request.model = word.substr(split + 1);
     experiments::LogEstimator estimator = experiments::log_estimator(std::move(request));
-    // The title of the shipped model ends with its file, for which there is no room.
+    // The title of a model ends with its file, for which there is no room.
     estimator.entry.title.resize(
         std::min(estimator.entry.title.size(), estimator.entry.title.find(" (")));
     estimators.push_back(std::move(estimator));
@@ -253,7 +253,7 @@ int watch(const WatchRequest& request, const std::atomic<bool>& stop) {
 int run_program(int argc, char** argv) {
   CLI::App program(
       "touchdown watch scenarios/stairs.yaml\n"
-      "touchdown watch my_robot.xml --estimator shipped --estimator support_force\n"
+      "touchdown watch my_robot.xml --estimator load_filter --estimator robust=mine.npz\n"
       "touchdown watch run.mpack\n"
       "touchdown watch robot.mpack --labels labels.csv --film robot.mp4 --film-offset 2.5\n\n"
       "Shows a robot in a window while estimators run on it. A scenario or a robot is simulated "
@@ -269,8 +269,8 @@ int run_program(int argc, char** argv) {
       ->required();
   program
       .add_option("--estimator", request.estimators,
-                  "Estimator to show, or NAME=MODEL; several are possible (default: the shipped "
-                  "model and Upkie's observer)")
+                  "Estimator to show, or NAME=MODEL; several are possible (default: the filter "
+                  "of loads and Upkie's observer)")
       ->type_name("NAME[=MODEL]")
       ->allow_extra_args(false);
   program.add_option("--simulator", request.engine, "Physics engine (default: mujoco)")

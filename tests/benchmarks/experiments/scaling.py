@@ -15,7 +15,7 @@ import tempfile
 program, stem = os.path.abspath(sys.argv[1]), sys.argv[2]
 
 EXPERIMENT = """name: scaling
-estimators: [robust, reference, paper, measurement_only, phase, upkie_observer, nmn, free_fall]
+estimators: [robust, reference, paper, measurement_only, load_filter, upkie_observer, nmn, free_fall]
 fit: {{scenarios: [scenarios/stairs.yaml], runs: 1, perturbed: false}}
 test: {{scenarios: [{scenario}], runs: 2}}
 noise: {{torque: {torque}, accelerometer: {accelerometer}, seeds: {seeds}}}

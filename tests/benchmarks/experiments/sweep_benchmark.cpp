@@ -87,7 +87,7 @@ const bool registered = [] {
     benchmark::RegisterBenchmark(("batch/" + name).c_str(), one_task, name, &sweep_run)
         ->Unit(benchmark::kMillisecond);
   }
-  for (const char* name : {"robust", "measurement_only", "phase", "nmn"}) {
+  for (const char* name : {"robust", "measurement_only", "nmn"}) {
     benchmark::RegisterBenchmark((std::string("one_by_one/") + name).c_str(), one_task,
                                  std::string(name), &sweep_run_one_by_one)
         ->Unit(benchmark::kMillisecond);

@@ -1,5 +1,6 @@
 #include "estimator/force/leg_geometry.hpp"
 
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -9,52 +10,46 @@
 namespace touchdown {
 namespace {
 
-using test::gravity;
-using test::holding;
+using test::leg_positions;
 using test::mirrored;
 
-TEST(VerticalForce, ExplainsTheTorques) {
+LegSignals posed(double hip, double knee) {
+  LegSignals leg;
+  leg.hip.position = hip;
+  leg.knee.position = knee;
+  return leg;
+}
+
+TEST(FootJacobian, IsTheDerivativeOfTheFootsPosition) {
+  constexpr double step = 1e-6;
   for (const LegGeometry& leg :
-       {LegGeometry(),
-        LegGeometry{
-            .upper_length = 0.3, .lower_length = 0.2, .upper_mass = 1.5, .wheel_mass = 0.4}}) {
-    for (const double hip : {-0.2, 0.1, 0.455, 1.0}) {
-      for (const double knee : {-1.5, -0.791, -0.17}) {
-        for (const double force : {0.0, 26.2, 120.0}) {
-          for (const double acceleration : {-gravity, 0.0, 7.0}) {
-            const LegSignals held = holding(leg, hip, knee, 3.0, force, acceleration);
-            EXPECT_NEAR(vertical_force(leg, held, false, acceleration), force, 1e-6);
-            EXPECT_NEAR(vertical_force(leg, mirrored(held), true, acceleration), force, 1e-6);
-          }
+       {LegGeometry{}, LegGeometry{.upper_length = 0.3, .lower_length = 0.2}}) {
+    for (const double hip : {-0.2, 0.455, 1.0}) {
+      for (const double knee : {-1.5, -0.791, 0.3}) {
+        const auto slope = [&](double along_hip, double along_knee,
+                               double test::LegPositions::*of) {
+          const double up = leg_positions(leg, hip + along_hip, knee + along_knee).*of;
+          const double down = leg_positions(leg, hip - along_hip, knee - along_knee).*of;
+          return (up - down) / (2.0 * step);
+        };
+        const LegSignals left = posed(hip, knee);
+        const std::array<FootJacobian, 2> both = foot_jacobians(leg, {left, mirrored(left)});
+        for (const FootJacobian& foot :
+             {foot_jacobian(leg, left, false), foot_jacobian(leg, mirrored(left), true), both[0],
+              both[1]}) {
+          EXPECT_NEAR(foot.upper_x + foot.lower_x, slope(step, 0.0, &test::LegPositions::x), 1e-8);
+          EXPECT_NEAR(foot.upper_z + foot.lower_z, slope(step, 0.0, &test::LegPositions::z), 1e-8);
+          EXPECT_NEAR(foot.lower_x, slope(0.0, step, &test::LegPositions::x), 1e-8);
+          EXPECT_NEAR(foot.lower_z, slope(0.0, step, &test::LegPositions::z), 1e-8);
         }
       }
     }
   }
 }
 
-TEST(VerticalForce, OfAStraightLegIsUnknown) {
-  LegSignals straight;
-  straight.hip.torque = 1.0;
-  EXPECT_FALSE(std::isfinite(vertical_force({}, straight, false, 0.0)));
-}
-
-TEST(AxleVelocity, IsTheDerivativeOfItsHeight) {
-  const LegGeometry leg;
-  for (const double hip : {-0.2, 0.455, 1.0}) {
-    for (const double knee : {-1.5, -0.791, 0.3}) {
-      LegSignals moving;
-      moving.hip = {hip, 1.3, 0.0};
-      moving.knee = {knee, -2.1, 0.0};
-      constexpr double step = 1e-6;
-      const auto height = [&](double time) {
-        return test::leg_positions(leg, hip + 1.3 * time, knee - 2.1 * time).z;
-      };
-      const double expected = (height(step) - height(-step)) / (2.0 * step);
-      EXPECT_NEAR(axle_velocity(leg, moving), expected, 1e-8);
-      LegSignals right = mirrored(moving);
-      EXPECT_NEAR(axle_velocity(leg, right), expected, 1e-8);
-    }
-  }
+TEST(FootJacobian, OfAStraightLegHasNoDeterminant) {
+  EXPECT_NEAR(foot_jacobian({}, posed(0.4, 0.0), false).determinant(), 0.0, 1e-15);
+  EXPECT_GT(std::abs(foot_jacobian({}, posed(0.4, -0.3), false).determinant()), 1e-3);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 #include "estimator/bayes/filter.hpp"
-#include "estimator/evidence/filter.hpp"
+#include "estimator/force/load_filter.hpp"
 #include "estimator/models/configuration.hpp"
 #include "tests/complaint.hpp"
 #include "tests/estimator/models/models.hpp"
@@ -26,7 +26,7 @@ std::string complaint_about(const ModelArrays& arrays, const ModelUse& use = {})
 /// The probabilities and decisions of an estimator for a run with flights.
 std::vector<double> beliefs_of(ContactEstimator& estimator, std::size_t steps = 1500) {
   std::vector<double> all;
-  for (const Signals& s : test::drops(steps)) {
+  for (const Signals& s : test::drops_on_bent_legs(steps)) {
     const Belief& b = estimator.update(s);
     for (const WheelBelief& wheel : b.wheel) {
       all.push_back(wheel.p_contact);
@@ -75,29 +75,30 @@ TEST(MakeEstimator, AcceptsAModelWithoutMetadataIfTheCallerNamesTheRest) {
             "has no metadata, being older or from another program: name the estimator that it was "
             "fitted for, and its sample_rate (Hz)");
   EXPECT_THAT(complaint_about(grid, {.sample_rate = 1000.0}), HasSubstr("name the estimator"));
-  EXPECT_THAT(complaint_about(test::fitted_arrays("force_kinematics")),
-              HasSubstr("name its sample_rate (Hz)"));
-  EXPECT_THAT(complaint_about(test::fitted_arrays("phase"), {.estimator = "robust"}),
-              HasSubstr("was fitted for 'phase'"));
+  for (const std::string name : {"load_filter", "nmn"}) {
+    const ModelArrays arrays = test::fitted_arrays(name);
+    EXPECT_THAT(complaint_about(arrays), HasSubstr("name its sample_rate (Hz)"));
+    EXPECT_THAT(complaint_about(arrays, {.estimator = "robust", .sample_rate = 1000.0}),
+                HasSubstr("was fitted for '" + name + "'"));
+    make_estimator(arrays, {.sample_rate = 1000.0});
+  }
   BayesFilter expected(measurement_model_of(grid), BayesFilterConfig::reference());
   EXPECT_EQ(beliefs_of(*make_estimator(grid, {.estimator = "reference", .sample_rate = 1000.0})),
             beliefs_of(expected));
-  make_estimator(test::fitted_arrays("phase"));  // its arrays imply its name and rate
-  make_estimator(test::fitted_arrays("nmn"), {.sample_rate = 1000.0});
 }
 
 TEST(MakeEstimator, RefusesChangedNumbers) {
-  ModelArrays arrays = test::fitted_model("force_kinematics");
-  arrays["force_mean"].data[0] += 1e-9;
+  ModelArrays arrays = test::fitted_model("robust");
+  arrays["contact_likelihood"].data[0] += 1e-9;
   EXPECT_THAT(complaint_about(arrays), HasSubstr("its numbers are not those that were fitted"));
-  arrays = test::fitted_model("force_kinematics");
+  arrays = test::fitted_model("load_filter");
   arrays["new"] = {{1}, {0.0}};
   EXPECT_THAT(complaint_about(arrays), HasSubstr("not those that were fitted"));
 }
 
 TEST(MakeEstimator, RefusesInvalidMetadata) {
   const auto with = [](const std::string& from, const std::string& to) {
-    ModelArrays arrays = test::fitted_model("force_kinematics");
+    ModelArrays arrays = test::fitted_model("load_filter");
     const std::string name(metadata_array);
     std::string text = text_of_array(arrays.at(name), name);
     text.replace(text.find(from), from.size(), to);
@@ -111,16 +112,16 @@ TEST(MakeEstimator, RefusesInvalidMetadata) {
   EXPECT_THAT(with("sample_rate: 1000", "sample_rate: fast"), HasSubstr("is not understood"));
   EXPECT_THAT(with("sample_rate: 1000", "sample_rate: -1"), HasSubstr("positive sample_rate"));
   EXPECT_THAT(with("robot: upkie", "robot: other"), HasSubstr("fingerprint"));
-  ModelArrays arrays = test::fitted_arrays("force_kinematics");
-  add_metadata(arrays, {"force_kinematics", 1000.0, "", {{"speed", "1"}}, ""});
+  ModelArrays arrays = test::fitted_arrays("load_filter");
+  add_metadata(arrays, {"load_filter", 1000.0, "", {{"speed", "1"}}, ""});
   EXPECT_THAT(complaint_about(arrays), HasSubstr("configuration.speed: is not known"));
-  add_metadata(arrays, {"force_kinematics", 1000.0, "", {{"threshold", "high"}}, ""});
+  add_metadata(arrays, {"load_filter", 1000.0, "", {{"leave_below", "high"}}, ""});
   EXPECT_THAT(complaint_about(arrays),
-              HasSubstr("configuration.threshold: 'high' is no value for it"));
+              HasSubstr("configuration.leave_below: 'high' is no value for it"));
 }
 
 TEST(MakeEstimator, RefusesARobotNameOfSeveralLines) {
-  EXPECT_THAT(complaint_of([] { test::fitted_model("force_kinematics", "a\nunits: kgf"); }),
+  EXPECT_THAT(complaint_of([] { test::fitted_model("load_filter", "a\nunits: kgf"); }),
               HasSubstr("expected a name of one line"));
 }
 
@@ -153,21 +154,17 @@ TEST(MakeEstimator, CallersConfigurationReplacesThatOfTheMetadata) {
 }
 
 TEST(MakeEstimator, UsesTheLegsOfAnotherRobot) {
-  const ModelArrays arrays = test::fitted_model("force_kinematics");
+  const ModelArrays arrays = test::fitted_model("load_filter");
   LegGeometry longer;
   longer.upper_length = 0.3;
-  std::vector<Signals> stream = test::drops(200);
-  const auto left = [&](const ModelUse& use) {
+  const auto load = [&](const ModelUse& use) {
     const auto estimator = make_estimator(arrays, use);
-    for (Signals& s : stream) {
-      s.leg[0].hip = {0.4, 0.0, 0.5};
-      s.leg[0].knee.position = -0.8;
-      estimator->update(s);
-    }
-    return estimator->update(stream.back()).wheel[0].p_contact;
+    Belief belief;
+    for (const Signals& s : test::drops_on_bent_legs(200)) belief = estimator->update(s);
+    return belief.wheel[0].load.force;
   };
-  EXPECT_NE(left({.geometry = longer}), left({}));
-  EXPECT_EQ(left({.geometry = LegGeometry{}}), left({}));
+  EXPECT_NE(load({.geometry = longer}), load({}));
+  EXPECT_EQ(load({.geometry = LegGeometry{}}), load({}));
 }
 
 TEST(Configuration, ReadsBackFromItsText) {
@@ -179,33 +176,21 @@ TEST(Configuration, ReadsBackFromItsText) {
     configure(read, text_of(expected));
     EXPECT_EQ(read, expected) << name;
   }
-  PhaseFilterConfig phase;
-  phase.torque_exponent = 0.1 + 0.2;
-  phase.noise_floor = {1.0 / 3.0, 0.5, 0.7};
-  PhaseFilterConfig phase_read;
-  configure(phase_read, text_of(phase));
-  EXPECT_EQ(phase_read, phase);
-  DecisionConfig decision;
-  decision.geometry.wheel_inertia = 1.0 / 3e4;
-  decision.point.leave_below = 0.6;
-  decision.point.settle_after = 0.03;
-  decision.geometry.upper_mass = 0.7;
-  decision.geometry.robot_mass = 8.1;
-  decision.guard.frozen_after = 0.0;
-  DecisionConfig decision_read;
-  configure(decision_read, text_of(decision));
-  EXPECT_EQ(decision_read, decision);
-}
-
-TEST(Configuration, ReadsOlderFilesOfDecisionNetworks) {
-  DecisionConfig read;
-  configure(read, {{"wheel_inertia", "0.125"}});
-  EXPECT_EQ(read.geometry.wheel_inertia, 0.125);
-  EXPECT_EQ(text_of(read).at("wheel_inertia"), "0.125");
-  EXPECT_EQ(read.geometry.robot_mass, LegGeometry{}.robot_mass) << "which they do not contain";
-  // Configurations of other estimators contain neither the wheel's inertia nor the robot's mass.
-  EXPECT_FALSE(text_of(ForceKinematicsConfig{}).contains("geometry.wheel_inertia"));
-  EXPECT_FALSE(text_of(ForceKinematicsConfig{}).contains("robot_mass"));
+  LoadFilterConfig loads;
+  loads.geometry.upper_length = 0.1 + 0.2;
+  loads.geometry.wheel_inertia = 1.0 / 3e4;
+  loads.geometry.robot_mass = 8.1;
+  loads.lead = 1.0 / 300.0;
+  loads.leave_below = 0.3;
+  loads.return_above = 0.6;
+  loads.guard.frozen_after = 0.0;
+  LoadFilterConfig loads_read;
+  configure(loads_read, text_of(loads));
+  EXPECT_EQ(loads_read.geometry, loads.geometry);
+  EXPECT_EQ(loads_read.lead, loads.lead);
+  EXPECT_EQ(loads_read.leave_below, loads.leave_below);
+  EXPECT_EQ(loads_read.return_above, loads.return_above);
+  EXPECT_EQ(loads_read.guard, loads.guard);
 }
 
 TEST(MakeEstimator, MakesALoadFilterOfARobotsGeometryAlone) {
@@ -237,8 +222,7 @@ TEST(Configuration, KeepsTheWindowsLengthAtAnotherRate) {
 }
 
 TEST(CompiledModel, BelievesTheSameToTheBit) {
-  for (const std::string name : {"robust", "phase", "nmn", "force_kinematics", "decision_network",
-                                 "evidence_curves", "evidence_curves_quiet"}) {
+  for (const std::string name : {"robust", "nmn", "load_filter"}) {
     const ModelArrays arrays = test::fitted_model(name);
     std::vector<std::vector<float>> floats;
     std::vector<std::string> texts;
@@ -253,7 +237,7 @@ TEST(CompiledModel, BelievesTheSameToTheBit) {
         texts.push_back(text_of_array(array, key));
         entry.doubles = nullptr;
         entry.text = texts.back().c_str();
-      } else if (key.ends_with("log_density")) {
+      } else if (name == "nmn" && key.ends_with("_weight")) {
         floats.emplace_back(array.data.begin(), array.data.end());
         entry.doubles = nullptr;
         entry.floats = floats.back().data();
@@ -297,82 +281,32 @@ TEST(MakeEstimator, TakesTheBoundsOfSignalsFromMetadataAndUse) {
       HasSubstr("has no 'bounds.speed'"));
 }
 
-TEST(Configuration, HasTheServoLoadOnlyWhereTheModelHasIt) {
-  LegGeometry legs;
-  legs.hip_friction = 0.06;
-  legs.knee_friction = 0.07;
-  legs.position_resolution = 1e-3;
-  for (const char* const name : {"evidence_curves_quiet", "decision_network", "evidence_curves"}) {
-    const ConfigurationText without = default_configuration(name, 1000.0, legs);
-    for (const char* const key :
-         {"servo_load", "hip_friction", "knee_friction", "position_resolution"}) {
-      EXPECT_FALSE(without.contains(key)) << name << key;
+/// Files of earlier versions, with a few of their arrays.
+TEST(MakeEstimator, RefusesModelsOfEstimatorsThatAreNoMore) {
+  const auto expect_refusal = [](const ModelArrays& arrays, const std::string& name) {
+    for (const ModelUse& use : {ModelUse{}, ModelUse{.sample_rate = 1000.0, .robot = "upkie"},
+                                ModelUse{.estimator = "load_filter", .sample_rate = 1000.0}}) {
+      EXPECT_THAT(complaint_about(arrays, use),
+                  AllOf(HasSubstr("was fitted for '" + name + "', which this version"),
+                        HasSubstr("load_filter")));
     }
-    DecisionConfig read;
-    configure(read, default_configuration(name, 1000.0, legs, true));
-    EXPECT_TRUE(read.servo_load);
-    EXPECT_EQ(read.geometry, legs);
+  };
+  const auto with_metadata = [](ModelArrays arrays, const std::string& name) {
+    add_metadata(arrays, {name, 1000.0, "upkie", {{"leave_below", "0.6"}}, ""});
+    return arrays;
+  };
+  for (const std::string name :
+       {"evidence_curves", "evidence_curves_quiet", "decision_network", "force_kinematics"}) {
+    const ModelArrays arrays = {{std::string(estimator_array), array_of_text(name)},
+                                {"bias", {{1}, {0.5}}}};
+    expect_refusal(arrays, name);
+    expect_refusal(with_metadata(arrays, name), name);
   }
-  // Other estimators have no such channel.
-  EXPECT_EQ(default_configuration("phase", 1000.0, legs, true),
-            default_configuration("phase", 1000.0, legs));
-}
-
-TEST(Parameters, OfModelsWithTheServoLoadReadBack) {
-  EvidenceModel curves = test::random_curves(5);
-  DecisionModel network = test::random_model(6);
-  for (const Parameters& without : {parameters_of(curves), parameters_of(network)}) {
-    for (const auto& [name, values] : without) EXPECT_EQ(name.find("servo"), std::string::npos);
-  }
-  network.servo_weight.assign(servo_weights, 0.25F);
-  curves.servo_curve.resize(2 * decision_scales);
-  curves.servo_seen.resize(2 * decision_scales);
-  for (std::size_t i = 0; i < curves.servo_curve.size(); ++i) {
-    curves.servo_curve[i].fill(static_cast<float>(i));
-    curves.servo_seen[i] = {-1.0F, static_cast<float>(i)};
-  }
-  EXPECT_EQ(decision_model_of(parameters_of(network)), network);
-  Parameters parameters = parameters_of(curves);
-  EXPECT_EQ(evidence_curve_sets_of(parameters), curves);
-  EXPECT_TRUE(parameters.contains("curves_servo_load"));
-  EXPECT_TRUE(parameters.contains("curves_other_servo_load"));
-  // One part without the other is refused.
-  parameters.erase("curves_other_servo_load");
-  EXPECT_THROW(static_cast<void>(evidence_curve_sets_of(parameters)), InputError);
-}
-
-OperatingPoint point_in(const ConfigurationText& configuration) {
-  DecisionConfig config;
-  configure(config, configuration);
-  return config.point;
-}
-
-TEST(EvidenceCurves, OfFilesWithoutATimeDecideByThresholdsAlone) {
-  ConfigurationText older = default_configuration("evidence_curves", 1000.0);
-  older.erase("settle_at");
-  older.erase("settle_after");
-  EXPECT_EQ(point_in(older).settle_after, 0.0);
-  EXPECT_EQ(point_in(older).return_above, balanced_point.return_above);
-}
-
-TEST(EvidenceCurves, HaveTwoOperatingPointsOfOneModel) {
-  EXPECT_EQ(point_in(default_configuration("evidence_curves", 1000.0)), balanced_point);
-  EXPECT_EQ(point_in(default_configuration("evidence_curves_quiet", 1000.0)), quiet_point);
-  EXPECT_TRUE(share_fit("evidence_curves", "evidence_curves_quiet"));
-
-  // Each makes the other from its model, which keeps the rest of the configuration.
-  LegGeometry legs;
-  legs.upper_length = 0.2;
-  for (const std::string name : {"evidence_curves", "evidence_curves_quiet"}) {
-    ModelArrays arrays = test::fitted_arrays(name);
-    add_metadata(arrays, {name, 1000.0, "", default_configuration(name, 1000.0, legs), ""});
-    const EvidenceCurveSets model = evidence_curve_sets_of(parameters_of(arrays));
-    for (const std::string made : {"evidence_curves", "evidence_curves_quiet"}) {
-      const OperatingPoint& point = made == "evidence_curves" ? balanced_point : quiet_point;
-      EvidenceCurves expected(model, {.geometry = legs, .point = point});
-      EXPECT_EQ(beliefs_of(*make_estimator(arrays, {.estimator = made})), beliefs_of(expected))
-          << name << " as " << made;
-    }
+  const ModelArrays phases = {{"sample_rate", {{1}, {1000.0}}},
+                              {"transition", {{2, 2}, {0.9, 0.1, 0.1, 0.9}}}};
+  expect_refusal(phases, "phase");
+  for (const std::string name : {"phase", "hmm", "hmm_without_memory"}) {
+    expect_refusal(with_metadata(phases, name), name);
   }
 }
 

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -15,18 +16,15 @@ using ::testing::HasSubstr;
 
 const LegGeometry long_legs = {.upper_length = 0.25, .lower_mass = 0.5, .robot_mass = 7.0};
 
-/// P(contact) of both wheels at every step of a run with flights, on bent legs.
+/// P(contact) and the known loads of both wheels at every step of a run.
 std::vector<double> beliefs_of(const ModelArrays& arrays, const ModelUse& use = {}) {
   const auto estimator = make_estimator(arrays, use);
   std::vector<double> all;
-  for (Signals s : test::drops(800)) {
-    for (LegSignals& leg : s.leg) {
-      const double sign = &leg == &s.leg[0] ? 1.0 : -1.0;
-      leg.hip = {sign * 0.4, 0.0, sign * 0.5};
-      leg.knee.position = -sign * 0.8;
+  for (const Signals& s : test::drops_on_bent_legs(1100)) {
+    for (const WheelBelief& wheel : estimator->update(s).wheel) {
+      all.push_back(wheel.p_contact);
+      if (std::isfinite(wheel.load.force)) all.push_back(wheel.load.force);
     }
-    const Belief& belief = estimator->update(s);
-    all.insert(all.end(), {belief.wheel[0].p_contact, belief.wheel[1].p_contact});
   }
   return all;
 }
@@ -40,23 +38,19 @@ std::string complaint(const ModelArrays& arrays, const ModelUse& use) {
 }
 
 TEST(ModelFor, AnotherRobotStoresItsLegs) {
-  for (const char* name :
-       {"evidence_curves_quiet", "decision_network", "evidence_curves", "force_kinematics"}) {
-    SCOPED_TRACE(name);
-    const ModelArrays upkies = test::fitted_model(name);
-    const ModelArrays own = adapted(upkies, {.robot = "stilts", .geometry = long_legs});
-    EXPECT_EQ(beliefs_of(own), beliefs_of(upkies, {.geometry = long_legs}));
-    EXPECT_NE(beliefs_of(own), beliefs_of(upkies));
-    EXPECT_EQ(beliefs_of(own, {.robot = "stilts"}), beliefs_of(own));
-    EXPECT_THROW(make_estimator(own, {.robot = "upkie"}), InputError);
-    EXPECT_NE(metadata_of(own)->fingerprint, metadata_of(upkies)->fingerprint);
-    EXPECT_EQ(beliefs_of(adapted(own, {.robot = "upkie", .geometry = LegGeometry{}})),
-              beliefs_of(upkies));
-  }
+  const ModelArrays upkies = test::fitted_model("load_filter");
+  const ModelArrays own = adapted(upkies, {.robot = "stilts", .geometry = long_legs});
+  EXPECT_EQ(beliefs_of(own), beliefs_of(upkies, {.geometry = long_legs}));
+  EXPECT_NE(beliefs_of(own), beliefs_of(upkies));
+  EXPECT_EQ(beliefs_of(own, {.robot = "stilts"}), beliefs_of(own));
+  EXPECT_THROW(make_estimator(own, {.robot = "upkie"}), InputError);
+  EXPECT_NE(metadata_of(own)->fingerprint, metadata_of(upkies)->fingerprint);
+  EXPECT_EQ(beliefs_of(adapted(own, {.robot = "upkie", .geometry = LegGeometry{}})),
+            beliefs_of(upkies));
 }
 
 TEST(ModelFor, AnotherConfigurationKeepsTheRest) {
-  const ModelArrays usual = test::fitted_model("evidence_curves");
+  const ModelArrays usual = test::fitted_model("load_filter");
   const ModelUse use = {.configuration = {{"leave_below", "0.25"}}};
   const ModelArrays quiet = adapted(usual, use);
   const ModelMetadata metadata = *metadata_of(quiet);
@@ -68,9 +62,9 @@ TEST(ModelFor, AnotherConfigurationKeepsTheRest) {
 }
 
 TEST(ModelFor, NoRequirementIsTheModel) {
-  const ModelArrays arrays = test::fitted_model("phase");
+  const ModelArrays arrays = test::fitted_model("robust");
   EXPECT_EQ(metadata_of(adapted(arrays, {})), metadata_of(arrays));
-  EXPECT_EQ(metadata_of(adapted(arrays, {"phase", 1000.0, "upkie"})), metadata_of(arrays));
+  EXPECT_EQ(metadata_of(adapted(arrays, {"robust", 1000.0, "upkie"})), metadata_of(arrays));
 }
 
 TEST(ModelFor, AModelWithoutMetadataAddsThem) {
@@ -84,20 +78,20 @@ TEST(ModelFor, AModelWithoutMetadataAddsThem) {
 }
 
 TEST(ModelFor, AMismatchIsAnError) {
-  const ModelArrays network = test::fitted_model("evidence_curves");
-  EXPECT_THAT(complaint(test::fitted_model("phase"), {.robot = "stilts", .geometry = long_legs}),
-              HasSubstr("'phase' uses no kinematics"));
-  EXPECT_THAT(complaint(network, {.robot = "stilts"}), HasSubstr("not to 'stilts'"))
+  const ModelArrays loads = test::fitted_model("load_filter");
+  EXPECT_THAT(complaint(test::fitted_model("robust"), {.robot = "stilts", .geometry = long_legs}),
+              HasSubstr("'robust' uses no kinematics"));
+  EXPECT_THAT(complaint(loads, {.robot = "stilts"}), HasSubstr("not to 'stilts'"))
       << "the legs of that robot are unknown";
-  EXPECT_THAT(complaint(network, {.sample_rate = 100.0}),
-              HasSubstr("was fitted at 1000 Hz and serves 200 to 1000 Hz, not at 100 Hz"));
-  EXPECT_THAT(complaint(network, {.configuration = {{"leave_bellow", "0.25"}}}),
+  EXPECT_THAT(complaint(loads, {.sample_rate = 50.0}),
+              HasSubstr("serves 100 to 20000 Hz, not at 50 Hz"));
+  EXPECT_THAT(complaint(loads, {.configuration = {{"leave_bellow", "0.25"}}}),
               HasSubstr("has no 'leave_bellow': expected one of"));
-  EXPECT_THAT(complaint(network, {.configuration = {{"leave_below", "often"}}}),
+  EXPECT_THAT(complaint(loads, {.configuration = {{"leave_below", "often"}}}),
               HasSubstr("leave_below: 'often' is no value"));
-  EXPECT_THAT(complaint(network, {.geometry = LegGeometry{.robot_mass = 0.0}}),
-              HasSubstr("robot_mass"));
-  EXPECT_THAT(complaint(network, {.robot = "two\nlines", .geometry = long_legs}),
+  EXPECT_THAT(complaint(loads, {.geometry = LegGeometry{.robot_mass = 0.0}}),
+              HasSubstr("mass (kg) must be positive"));
+  EXPECT_THAT(complaint(loads, {.robot = "two\nlines", .geometry = long_legs}),
               HasSubstr("expected a name of one line"));
 }
 

@@ -9,7 +9,6 @@
 #include "estimator/bayes/measurement_only.hpp"
 #include "tests/estimator/named_config.hpp"
 #include "tests/estimator/synthetic.hpp"
-#include "tests/experiments/batch/noise.hpp"
 
 namespace touchdown::experiments {
 namespace {
@@ -34,6 +33,24 @@ std::vector<BatchNoise> bayes_levels() {
   levels.push_back({0.5, 0.0, 3.0});
   levels.push_back({0.0, 0.5, 0.01});
   return levels;
+}
+
+/// Unit noise on all signals of a batch.
+NoiseStep draw(test::Normal& normal) {
+  NoiseStep draws;
+  draws.acceleration = normal();
+  for (TorqueSample& torque : draws.torque) torque = {normal(), normal()};
+  return draws;
+}
+
+/// The signals of one batch element, for a scalar estimator.
+Signals noisy(Signals s, const NoiseStep& draws, const BatchNoise& level) {
+  s.vertical_acceleration += level.acceleration * draws.acceleration;
+  for (std::size_t side = 0; side < 2; ++side) {
+    s.leg[side].knee.torque += level.knee_torque * draws.torque[side].knee;
+    s.leg[side].wheel.torque += level.wheel_torque * draws.torque[side].wheel;
+  }
+  return s;
 }
 
 class NamedBatch : public testing::TestWithParam<const char*> {};

@@ -13,14 +13,13 @@
 namespace touchdown::experiments {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
 const char* const head = R"(name: study
 simulators: [mujoco]
-estimators: [robust, phase, measurement_only, reference, paper]
+estimators: [robust, load_filter, measurement_only, reference, paper]
 fit: {scenarios: [scenarios/stairs.yaml]}
 test: {scenarios: [scenarios/stairs.yaml], runs: 4}
 noise:
@@ -57,26 +56,22 @@ TEST(ExperimentFile, HasTheDocumentedDefaults) {
 }
 
 TEST(ExperimentFile, HasNoFiguresOfDropsByDefaultOrWhereTheyAreSwitchedOff) {
-  for (const char* tail :
-       {"", "detail: {drop: 3, enabled: false}\nposterior: {enabled: false}\n"}) {
+  for (const char* tail : {"", "detail: {drop: 3, enabled: false}\n"}) {
     const Experiment experiment = read(tail);
     EXPECT_FALSE(experiment.detail.has_value());
-    EXPECT_FALSE(experiment.posterior.has_value());
-    EXPECT_THAT(to_yaml(experiment), AllOf(Not(HasSubstr("detail")), Not(HasSubstr("posterior"))));
+    EXPECT_THAT(to_yaml(experiment), Not(HasSubstr("detail")));
   }
 }
 
 TEST(ExperimentFile, TakesDefaultsForEmptySections) {
   const Experiment experiment =
-      read("detail: {}\nposterior:\nvideo: {}\n",
-           {"fit.runs=4", "fit.perturbed=true", "fit.tuning={trials: 2}"});
-  ASSERT_TRUE(experiment.detail && experiment.posterior && experiment.tuning);
+      read("detail:\nvideo: {}\n", {"fit.runs=4", "fit.perturbed=true", "fit.tuning={trials: 2}"});
+  ASSERT_TRUE(experiment.detail && experiment.tuning);
   EXPECT_THAT(experiment.detail->estimators,
-              ElementsAre("robust", "measurement_only", "reference", "phase", "paper"));
+              ElementsAre("robust", "measurement_only", "reference", "load_filter", "paper"));
   EXPECT_THAT(experiment.detail->noise,
               ElementsAre(noise::NoiseCell{0.25, 1.0}, noise::NoiseCell{1.0, 5.0}));
-  EXPECT_EQ(experiment.posterior->noise, (noise::NoiseCell{1.0, 5.0}));
-  EXPECT_EQ(experiment.posterior->choice.drop, 0);
+  EXPECT_EQ(experiment.detail->choice.drop, 0);
   EXPECT_EQ(experiment.video.estimators, experiment.estimators);
   EXPECT_EQ(experiment.video.noise, experiment.highlights.front());
   EXPECT_EQ(experiment.video.noise.torque, 0.0);  // the first cell of the grid
@@ -86,33 +81,31 @@ TEST(ExperimentFile, TakesDefaultsForEmptySections) {
 
 /// The user's own estimators come after the known ones, up to six.
 TEST(ExperimentFile, ShowsTheUsersEstimatorsOfADropUpToSix) {
-  EXPECT_THAT(read("detail: {}\n", {"estimators=[free_fall, phase, upkie_observer, robust]"})
+  EXPECT_THAT(read("detail: {}\n", {"estimators=[free_fall, load_filter, upkie_observer, robust]"})
                   .detail->estimators,
-              ElementsAre("robust", "phase", "free_fall", "upkie_observer"));
-  EXPECT_THAT(read("detail: {}\n", {"estimators=[oracle, nmn, free_fall, upkie_observer, phase, "
-                                    "measurement_only, robust]"})
-                  .detail->estimators,
-              ElementsAre("robust", "measurement_only", "phase", "oracle", "nmn", "free_fall"));
+              ElementsAre("robust", "load_filter", "free_fall", "upkie_observer"));
+  EXPECT_THAT(
+      read("detail: {}\n", {"estimators=[oracle, nmn, free_fall, upkie_observer, "
+                            "load_filter, measurement_only, robust]"})
+          .detail->estimators,
+      ElementsAre("robust", "measurement_only", "load_filter", "oracle", "nmn", "free_fall"));
 }
 
 TEST(ExperimentFile, ReadsFiguresOfDropsBackUnchanged) {
   const Experiment first = read(
       "detail: {run: 3, wheels: right, drop: 2, seed: 1, before: 0.2, after: 0.3,\n"
-      "         noise: [{torque: 2, accelerometer: 0}], estimators: [phase]}\n"
-      "posterior: {at: 2.5, noise: {torque: 0, accelerometer: 7}}\n");
+      "         noise: [{torque: 2, accelerometer: 0}], estimators: [load_filter]}\n");
   const Experiment again = read_again(first);
   EXPECT_EQ(to_yaml(again), to_yaml(first));
-  ASSERT_TRUE(again.detail && again.posterior);
+  ASSERT_TRUE(again.detail.has_value());
   EXPECT_EQ(again.detail->choice.run, 3);
   EXPECT_EQ(again.detail->choice.seed, 1);
   EXPECT_EQ(again.detail->choice.wheels, DropWheels::right);
-  EXPECT_EQ(again.posterior->choice.wheels, DropWheels::both);
   EXPECT_EQ(again.detail->choice.at, std::nullopt);
-  EXPECT_EQ(again.posterior->choice.at, 2.5);
+  EXPECT_EQ(read_again(read("detail: {at: 2.5}\n")).detail->choice.at, 2.5);
   EXPECT_EQ(again.detail->choice.before, 0.2);
   EXPECT_EQ(again.detail->noise[0].wheel, 2.0);
   EXPECT_EQ(again.detail->noise[0].levels().joint_velocity, 0.5);
-  EXPECT_EQ(again.posterior->noise.accelerometer, 7.0);
 }
 
 TEST(ExperimentFile, HasEncoderNoiseInEveryCell) {
@@ -138,9 +131,9 @@ TEST(ExperimentFile, FilmsAtANoiseOfItsOwnOrAtTheFirstHighlight) {
   EXPECT_EQ(of_highlight.accelerometer, 5.0);
   EXPECT_EQ(of_highlight.hip, 1.0);  // as in every cell of this grid
   const Experiment own =
-      read(highlight + "video: {estimators: [phase], noise: {torque: 0.25, accelerometer: 0.23}}\n",
+      read(highlight + "video: {estimators: [paper], noise: {torque: 0.25, accelerometer: 0.23}}\n",
            {"noise.hips=true"});
-  EXPECT_THAT(own.video.estimators, ElementsAre("phase"));
+  EXPECT_THAT(own.video.estimators, ElementsAre("paper"));
   EXPECT_EQ(own.video.noise.torque, 0.25);
   EXPECT_EQ(own.video.noise.wheel, 0.25);
   EXPECT_EQ(own.video.noise.hip, 0.25);

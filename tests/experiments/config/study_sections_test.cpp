@@ -66,10 +66,9 @@ TEST(StudySections, OfSeveralStudiesStandInOneFile) {
   const std::string text =
       "name: study\nestimators: [robust]\nfit: {scenarios: [scenarios/stairs.yaml]}\n"
       "test: {scenarios: [scenarios/stairs.yaml], runs: 3}\n";
-  for (const char* tail :
-       {"cross_simulator: {}\nmoments: true\n",
-        "cross_simulator: {}\nodometry: {}\nbenchmark: {}\n",
-        "operating_points: {}\ncross_simulator: {}\nsweep: {delay: [0.001]}\n"}) {
+  for (const char* tail : {"cross_simulator: {}\nmoments: true\n",
+                           "cross_simulator: {}\nodometry: {}\nbenchmark: {}\n",
+                           "cross_simulator: {}\nsweep: {delay: [0.001]}\n"}) {
     const std::string written =
         to_yaml(experiment_from_yaml(YamlDocument::parse(text + tail, "f")));
     EXPECT_EQ(to_yaml(experiment_from_yaml(YamlDocument::parse(written, "again.yaml"))), written);

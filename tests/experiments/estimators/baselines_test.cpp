@@ -4,16 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include "estimator/force/support_force.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/evaluation/tasks.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/signals/run_signals.hpp"
-#include "scenarios/engine.hpp"
-#include "scenarios/generation/generate.hpp"
-#include "scenarios/scenario_file.hpp"
 #include "scoring/score.hpp"
-#include "simulators/registry.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 
 namespace touchdown::experiments {
@@ -46,28 +41,6 @@ TEST(Oracle, ScoresPerfectlyForAllNoise) {
     }
   }
   EXPECT_GT(detected, 0);
-}
-
-TEST(SupportForce, EqualsTheLoadOfEachWheelInBothEngines) {
-  for (const std::string& engine : simulators::simulator_names()) {
-    scenarios::Scenario scenario = scenarios::find_scenario("scenarios/flat.yaml");
-    scenario.end.duration = 1.5;
-    const RunSignals run =
-        signals_of(scenarios::play(scenario, engine), {}, {}, scoring::SampleUnit::run);
-    SupportForce estimator;
-    std::array<double, 2> estimated = {};
-    std::array<double, 2> true_force = {};
-    for (std::size_t k = 0; k < run.steps(); ++k) {
-      const Belief& belief = estimator.update(run.signals[k]);
-      if (k < 500) continue;
-      EXPECT_TRUE(belief.wheel[0].contact && belief.wheel[1].contact);
-      for (std::size_t w = 0; w < 2; ++w) {
-        estimated[w] += estimator.force(static_cast<Side>(w));
-        true_force[w] += run.normal_force[w][k];
-      }
-    }
-    for (std::size_t w = 0; w < 2; ++w) EXPECT_NEAR(estimated[w] / true_force[w], 1.0, 0.05);
-  }
 }
 
 TEST(Oracle, ReportsSingleWheelContact) {

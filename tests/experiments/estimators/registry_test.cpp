@@ -28,22 +28,11 @@ TEST(Registry, HasUniqueNamesAndCompleteEntries) {
 }
 
 TEST(Registry, StatesWhatEstimatorsAreGiven) {
-  const auto given = [](const char* name, bool servo_load) {
-    return given_text(estimator_entry(name), servo_load);
-  };
-  EXPECT_EQ(given("evidence_curves", true), "geometry, mass, targets; fitted");
-  EXPECT_EQ(given("evidence_curves_quiet", false), "geometry, mass; fitted");
-  EXPECT_EQ(given("boosted_channels", true), given("evidence_curves", true));
-  EXPECT_EQ(given("boosted_signals", true), "targets; fitted");
-  EXPECT_EQ(given("support_force", true), "geometry");
-  EXPECT_EQ(given("load_filter", false), "geometry, mass, targets");
-  EXPECT_EQ(given("free_fall", true), "signals");
-  EXPECT_EQ(given("robust", true), "signals; fitted");
-  for (const bool servo_load : {false, true}) {  // it has curves with targets and without
-    EXPECT_EQ(given("shipped", servo_load), "geometry, mass, targets; fitted elsewhere");
-    EXPECT_EQ(given("shipped_quiet", servo_load), given("shipped", servo_load));
-  }
-  EXPECT_EQ(given("nmn", true), "signals; fitted elsewhere");
+  const auto given = [](const char* name) { return given_text(estimator_entry(name)); };
+  EXPECT_EQ(given("load_filter"), "geometry, mass, targets");
+  EXPECT_EQ(given("free_fall"), "signals");
+  EXPECT_EQ(given("robust"), "signals; fitted");
+  EXPECT_EQ(given("nmn"), "signals; fitted elsewhere");
 }
 
 TEST(Registry, NoiseCountsOnlyOnTheSensorsThatAreUsed) {

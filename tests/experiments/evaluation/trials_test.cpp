@@ -50,7 +50,7 @@ TEST(Trials, BeginWithTheDefaultsAndStayInTheirRanges) {
 }
 
 TEST(Trials, DependOnSeedNameAndNumberAlone) {
-  const EstimatorEntry& entry = estimator_entry("support_force");
+  const EstimatorEntry& entry = estimator_entry("load_filter");
   const std::vector<HyperparameterValues> few = trial_hyperparameters(entry, 1, 3);
   const std::vector<HyperparameterValues> more = trial_hyperparameters(entry, 1, 30);
   EXPECT_EQ(few, std::vector<HyperparameterValues>(more.begin(), more.begin() + 3));
@@ -70,7 +70,7 @@ std::vector<double> beliefs(const EstimatorEntry& plain,
   Model model;
   if (entry.fits()) {
     model = entry.fit(runs);
-    model.metadata = new_metadata(entry.name, runs, hyperparameters);
+    describe_fit(entry.name, runs, hyperparameters, model);
   }
   EstimatorRunner runner = entry.runner({1000.0, &model, run.legs, &run.contact});
   const NoiseRun noise = noise_run(run, {.seed = 3, .run = 1});
@@ -95,8 +95,6 @@ TEST(Trials, ChangeBeliefsByEveryHyperparameter) {
   const RunSignals fitted = synthetic_run(first_fit_run, 1500);
   const RunSignals run = synthetic_run(0, 3000);
   for (const EstimatorEntry& entry : all_estimator_entries()) {
-    const bool is_slow = entry.name == "decision_network" || entry.is_upper_bound;
-    if (is_slow) continue;
     const std::vector<HyperparameterValues> trials = trial_hyperparameters(entry, 1, 8);
     for (const Hyperparameter& hyperparameter : entry.hyperparameters) {
       // Some need certain values of the others to have an effect.
@@ -131,47 +129,38 @@ bool holds(const RunPointers& runs, const RunSignals& draw) {
   });
 }
 
-TEST(Folds, HoldOutEveryWholeRunOnceWithItsSegments) {
-  const std::vector<RunSignals> whole = {run_of("stairs", 0), run_of("stairs", 1),
-                                         run_of("kerb", 2), run_of("kerb", 3)};
-  // The second and the third are segments of draws that are also whole runs.
-  const std::vector<RunSignals> segments = {run_of("stairs", 7), run_of("stairs", 1),
-                                            run_of("kerb", 2), run_of("kerb", 0)};
+TEST(Folds, HoldOutEveryRunOnceWithItsDraw) {
+  // The third and the last are other robots' runs of earlier draws.
+  const std::vector<RunSignals> runs = {run_of("stairs", 0), run_of("stairs", 1),
+                                        run_of("stairs", 0), run_of("kerb", 2),
+                                        run_of("kerb", 3),   run_of("kerb", 2)};
   for (const std::size_t count : {2U, 3U, 4U}) {
-    const std::vector<Fold> folds =
-        folds_of(pointers_to(whole), pointers_to(segments), count, true);
+    const std::vector<Fold> folds = folds_of(pointers_to(runs), count, true);
     ASSERT_EQ(folds.size(), count);
     std::size_t held_out = 0;
-    std::size_t fitted_segments = 0;
     for (const Fold& fold : folds) {
       held_out += fold.held_out.size();
-      fitted_segments += fold.segments.size();
       EXPECT_FALSE(fold.held_out.empty());
-      EXPECT_EQ(fold.held_out.size() + fold.fitted.size(), whole.size());
-      for (const RunSignals* run : fold.held_out) {
-        EXPECT_FALSE(holds(fold.fitted, *run));
-        EXPECT_FALSE(holds(fold.segments, *run));
-      }
+      EXPECT_EQ(fold.held_out.size() + fold.fitted.size(), runs.size());
+      for (const RunSignals* run : fold.held_out) EXPECT_FALSE(holds(fold.fitted, *run));
     }
-    EXPECT_EQ(held_out, whole.size());
-    // Each segment is training data in all folds but its own.
-    EXPECT_EQ(fitted_segments, segments.size() * (count - 1));
+    EXPECT_EQ(held_out, runs.size());
   }
 }
 
 TEST(Folds, SpreadEachScene) {
-  const std::vector<RunSignals> whole = {run_of("stairs", 0), run_of("stairs", 1),
-                                         run_of("kerb", 2), run_of("kerb", 3)};
-  for (const Fold& fold : folds_of(pointers_to(whole), {}, 2, true)) {
+  const std::vector<RunSignals> runs = {run_of("stairs", 0), run_of("stairs", 1), run_of("kerb", 2),
+                                        run_of("kerb", 3)};
+  for (const Fold& fold : folds_of(pointers_to(runs), 2, true)) {
     ASSERT_EQ(fold.held_out.size(), 2U);
     EXPECT_NE(fold.held_out[0]->info.scenario, fold.held_out[1]->info.scenario);
   }
 }
 
 TEST(Folds, CountASceneWithoutPerturbationsAsOneRun) {
-  const std::vector<RunSignals> whole = {run_of("stairs", 0), run_of("stairs", 1),
-                                         run_of("kerb", 2), run_of("kerb", 3)};
-  for (const Fold& fold : folds_of(pointers_to(whole), {}, 2, false)) {
+  const std::vector<RunSignals> runs = {run_of("stairs", 0), run_of("stairs", 1), run_of("kerb", 2),
+                                        run_of("kerb", 3)};
+  for (const Fold& fold : folds_of(pointers_to(runs), 2, false)) {
     ASSERT_EQ(fold.held_out.size(), 2U);
     EXPECT_EQ(fold.held_out[0]->info.scenario, fold.held_out[1]->info.scenario);
   }

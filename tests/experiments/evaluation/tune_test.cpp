@@ -34,12 +34,13 @@ Experiment tuned_experiment(const std::vector<std::string>& estimators, int tria
   return experiment;
 }
 
-/// Support force with a default threshold above every wheel load.
+/// The load filter with a default threshold above every belief.
 EstimatorEntry rigged() {
-  EstimatorEntry entry = estimator_entry("support_force");
+  EstimatorEntry entry = estimator_entry("load_filter");
   entry.name = "rigged";
   for (Hyperparameter& hyperparameter : entry.hyperparameters) {
-    if (hyperparameter.name == "contact") hyperparameter = around("contact", 400.0, 200.0);
+    if (hyperparameter.name != "return_above") continue;
+    hyperparameter = between("return_above", 0.99999, 0.7, 0.99999);
   }
   return entry;
 }
@@ -52,19 +53,19 @@ TEST(Tune, CorrectsABadDefault) {
   const std::vector<RunSignals> runs = fitted_runs(4);
   Experiment experiment = tuned_experiment({"rigged"}, 16);
   experiment.external_estimators = {rigged()};
-  const std::vector<Trial> trials = tune(experiment, "", pointers_to(runs), {}, {});
+  const std::vector<Trial> trials = tune(experiment, "", pointers_to(runs), {});
   ASSERT_EQ(trials.size(), 16U);
-  EXPECT_EQ(trials.front().hyperparameters.at("contact"), 400.0);
+  EXPECT_EQ(trials.front().hyperparameters.at("return_above"), 0.99999);
   EXPECT_NEAR(trials.front().score, 0.5, 0.01);  // never in contact
   const Trial& best = chosen_of(trials);
   EXPECT_GT(best.score, 0.9);
-  EXPECT_LT(best.hyperparameters.at("contact"), 60.0);
+  EXPECT_LT(best.hyperparameters.at("return_above"), 0.999);
   // It needs no fit, but uses the chosen values.
-  const FittedModels models = fit_models(experiment, pointers_to(runs), {}, {}, chosen_in(trials));
+  const FittedModels models = fit_models(experiment, pointers_to(runs), {}, chosen_in(trials));
   const RunSignals test = synthetic_run(0);
   const Condition condition{"mujoco", "mujoco", "rigged"};
-  EXPECT_EQ(entry_of(experiment, condition, models).chosen("contact"),
-            best.hyperparameters.at("contact"));
+  EXPECT_EQ(entry_of(experiment, condition, models).chosen("return_above"),
+            best.hyperparameters.at("return_above"));
   scoring::Classification with, without;
   const std::vector<noise::NoiseCell> cells = {{}};
   const NoiseRun noise = noise_run(test, {.seed = 1, .run = 0});
@@ -81,27 +82,26 @@ TEST(Tune, CorrectsABadDefault) {
 
 TEST(Tune, GivesEveryTunableEstimatorTheSameNumberOfTrials) {
   const Experiment experiment =
-      tuned_experiment({"robust", "phase", "force_kinematics", "free_fall", "oracle"}, 3);
+      tuned_experiment({"robust", "paper", "load_filter", "free_fall", "oracle"}, 3);
   std::map<std::string, int> count, chosen;
-  for (const Trial& trial : tune(experiment, "", pointers_to(fitted_runs(4)), {}, {})) {
+  for (const Trial& trial : tune(experiment, "", pointers_to(fitted_runs(4)), {})) {
     EXPECT_EQ(trial.number, count[trial.estimator]++);
     chosen[trial.estimator] += trial.is_chosen ? 1 : 0;
     EXPECT_GT(trial.score, 0.3) << trial.estimator;
     EXPECT_LE(trial.score, 1.0) << trial.estimator;
   }
   EXPECT_EQ(count, (std::map<std::string, int>{
-                       {"force_kinematics", 3}, {"free_fall", 3}, {"phase", 3}, {"robust", 3}}));
+                       {"free_fall", 3}, {"load_filter", 3}, {"paper", 3}, {"robust", 3}}));
   for (const auto& [estimator, times] : chosen) EXPECT_EQ(times, 1) << estimator;
 }
 
 TEST(Tune, ChoosesIndependentlyOfTheNumberOfThreads) {
   const std::vector<RunSignals> runs = fitted_runs(4);
-  const Experiment experiment =
-      tuned_experiment({"robust", "force_kinematics", "support_force"}, 4);
+  const Experiment experiment = tuned_experiment({"robust", "load_filter"}, 4);
   const auto with = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     std::vector<std::pair<double, bool>> all;
-    for (const Trial& trial : tune(experiment, "", pointers_to(runs), {}, {})) {
+    for (const Trial& trial : tune(experiment, "", pointers_to(runs), {})) {
       all.emplace_back(trial.score, trial.is_chosen);
     }
     return all;
@@ -115,7 +115,7 @@ TEST(Tune, UsesTheNoiseOfItsSection) {
   Experiment experiment = tuned_experiment({"free_fall"}, 12);
   const auto trials_with = [&](const std::vector<noise::NoiseCell>& noise) {
     experiment.tuning->noise = noise;
-    return tune(experiment, "", pointers_to(runs), {}, {});
+    return tune(experiment, "", pointers_to(runs), {});
   };
   const std::vector<Trial> none = trials_with({{}});
   const std::vector<Trial> much = trials_with({{0.0, 20.0}});
@@ -135,7 +135,7 @@ TEST(Tune, ReusesSavedTrials) {
   const Experiment experiment = tuned_experiment({"robust", "free_fall"}, 3);
   const auto scores = [&](const Store& saved) {
     std::vector<double> all;
-    for (const Trial& trial : tune(experiment, "", pointers_to(runs), {}, {}, saved)) {
+    for (const Trial& trial : tune(experiment, "", pointers_to(runs), {}, saved)) {
       all.push_back(trial.score);
     }
     return all;
@@ -158,7 +158,7 @@ TEST(Tune, ChoosesTheFirstOfEqualTrials) {
     for (auto& wheel : run.contact) std::fill(wheel.begin(), wheel.end(), std::uint8_t{1});
   }
   const std::vector<Trial> trials =
-      tune(tuned_experiment({"free_fall"}, 5), "", pointers_to(runs), {}, {});
+      tune(tuned_experiment({"free_fall"}, 5), "", pointers_to(runs), {});
   for (const Trial& trial : trials) EXPECT_EQ(trial.score, 1.0);
   EXPECT_EQ(chosen_of(trials).number, 0);
 }
@@ -167,60 +167,57 @@ TEST(Tune, NamesTheFoldWithTooLittleData) {
   std::vector<RunSignals> runs = fitted_runs(2);
   for (auto& wheel : runs[1].contact) std::fill(wheel.begin(), wheel.end(), std::uint8_t{1});
   EXPECT_THAT(
-      [&] { tune(tuned_experiment({"force_kinematics"}, 2), "", pointers_to(runs), {}, {}); },
-      ThrowsMessage<InputError>(
-          HasSubstr("fit.tuning: force_kinematics on mujoco, without fold 1 of 2: ")));
-  EXPECT_THROW(
-      tune(tuned_experiment({"robust"}, 2), "", pointers_to(runs), {}, [] { return false; }),
-      Stopped);
+      [&] { tune(tuned_experiment({"robust"}, 2), "", pointers_to(runs), {}); },
+      ThrowsMessage<InputError>(HasSubstr("fit.tuning: robust on mujoco, without fold 1 of 2: ")));
+  EXPECT_THROW(tune(tuned_experiment({"robust"}, 2), "", pointers_to(runs), [] { return false; }),
+               Stopped);
 }
 
 /// Robots read the values from the metadata.
 TEST(Tune, StoresChosenValuesInTheMetadata) {
   const std::vector<RunSignals> runs = fitted_runs(2);
-  const Experiment experiment = tuned_experiment({"force_kinematics", "phase", "paper"}, 1);
+  const Experiment experiment = tuned_experiment({"robust", "paper"}, 1);
   const auto metadata = [&](const std::string& estimator,
                             const HyperparameterValues& hyperparameters) {
     const TunedHyperparameters chosen = {{"mujoco", {{estimator, hyperparameters}}}};
-    return fit_models(experiment, pointers_to(runs), {}, {}, chosen)
+    return fit_models(experiment, pointers_to(runs), {}, chosen)
         .at("mujoco")
         .at(estimator)
         .metadata;
   };
   const auto usual = fit_models(experiment, pointers_to(runs)).at("mujoco");
-  const auto tuned = metadata("force_kinematics", {{"threshold", 0.25}});
+  const auto tuned = metadata("robust", {{"threshold", 0.25}});
   EXPECT_EQ(tuned->configuration.at("threshold"), "0.25");
-  EXPECT_EQ(usual.at("force_kinematics").metadata->configuration.at("threshold"), "0.5");
+  EXPECT_EQ(usual.at("robust").metadata->configuration.at("threshold"), "0.8");
   EXPECT_EQ(metadata("paper", {{"transition.switch.offset", 3.5}})
                 ->configuration.at("transition.switch.offset"),
             "3.5");
   // Hyperparameters of the fit alone are in the model, not in the metadata.
-  const auto phase = metadata("phase", {{"leave_below", 0.125}, {"torque_bandwidth", 0.3}});
-  EXPECT_EQ(phase->configuration.at("leave_below"), "0.125");
-  EXPECT_FALSE(phase->configuration.contains("torque_bandwidth"));
+  const auto wide = metadata("robust", {{"threshold", 0.125}, {"bandwidth_floor", 0.3}});
+  EXPECT_EQ(wide->configuration.at("threshold"), "0.125");
+  EXPECT_FALSE(wide->configuration.contains("bandwidth_floor"));
 }
 
 TEST(Tune, SetsTheHyperparametersOfLogEstimators) {
   const ScratchFolder folder;
-  const TunedHyperparameters chosen = {{"mujoco", {{"force_kinematics", {{"threshold", 0.25}}}}}};
-  const FittedModels models = fit_models(tuned_experiment({"force_kinematics"}, 1),
-                                         pointers_to(fitted_runs(2)), {}, {}, chosen);
+  const TunedHyperparameters chosen = {{"mujoco", {{"robust", {{"threshold", 0.25}}}}}};
+  const FittedModels models =
+      fit_models(tuned_experiment({"robust"}, 1), pointers_to(fitted_runs(2)), {}, chosen);
   const std::filesystem::path file = folder / "model.npz";
-  logs::save_model(models.at("mujoco").at("force_kinematics"), file);
+  logs::save_model(models.at("mujoco").at("robust"), file);
   EXPECT_EQ(log_estimator({.model = file}).entry.chosen("threshold"), 0.25);
-  EXPECT_EQ(estimator_entry("force_kinematics").chosen("threshold"), 0.5);
+  EXPECT_EQ(estimator_entry("robust").chosen("threshold"), 0.8);
 }
 
-TEST(Tune, LeavesFixedEstimatorsAndUpperBoundsAlone) {
+TEST(Tune, LeavesFixedEstimatorsAlone) {
   const std::vector<RunSignals> runs = fitted_runs(4);
-  Experiment experiment = tuned_experiment(
-      {"free_fall", "support_force", "force_kinematics", "boosted_channels", "boosted_signals"}, 2);
-  experiment.tuning->fixed = {"support_force"};
+  Experiment experiment = tuned_experiment({"free_fall", "load_filter", "robust"}, 2);
+  experiment.tuning->fixed = {"load_filter"};
   std::set<std::string> tried;
-  for (const Trial& trial : tune(experiment, "", pointers_to(runs), {}, {})) {
+  for (const Trial& trial : tune(experiment, "", pointers_to(runs), {})) {
     tried.insert(trial.estimator);
   }
-  EXPECT_EQ(tried, (std::set<std::string>{"free_fall", "force_kinematics"}));
+  EXPECT_EQ(tried, (std::set<std::string>{"free_fall", "robust"}));
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ Experiment tuned_study(const ScratchFolder& folder, const std::string& tuning,
                        const std::string& test = "") {
   const std::string step = folder.write("small_step.yaml", small_step_scene).string();
   YamlDocument document = YamlDocument::parse(
-      "name: small\nsimulators: [mujoco]\nestimators: [force_kinematics, support_force]\nseed: 2\n"
+      "name: small\nsimulators: [mujoco]\nestimators: [paper, load_filter]\nseed: 2\n"
       "fit: {scenarios: [" +
           step + "], runs: 2, perturbed: true, seed: 11" + tuning +
           "}\n"
@@ -62,8 +62,7 @@ TEST_F(TunedExperiment, ChoosesIndependentlyOfTestRuns) {
   const std::string chosen = text("one", "tables/tuning.csv");
   EXPECT_EQ(chosen, text("other_seed", "tables/tuning.csv"));
   EXPECT_EQ(chosen, text("other_scenes", "tables/tuning.csv"));
-  EXPECT_EQ(text("one", "models/mujoco_force_kinematics.npz"),
-            text("other_seed", "models/mujoco_force_kinematics.npz"));
+  EXPECT_EQ(text("one", "models/mujoco_paper.npz"), text("other_seed", "models/mujoco_paper.npz"));
   // The test runs differ, so the scores do.
   EXPECT_NE(text("one", "tables/benchmark.csv"), text("other_seed", "tables/benchmark.csv"));
 
@@ -71,7 +70,7 @@ TEST_F(TunedExperiment, ChoosesIndependentlyOfTestRuns) {
   const TextTable table = from_csv(chosen);
   EXPECT_EQ(table.rows.size(), 2U * 6);
   const TunedHyperparameters read = read_chosen(folder_ / "one");
-  for (const char* estimator : {"force_kinematics", "support_force"}) {
+  for (const char* estimator : {"paper", "load_filter"}) {
     EXPECT_EQ(read.at("mujoco").at(estimator),
               result.models.at("mujoco").at(estimator).hyperparameters);
     EXPECT_FALSE(read.at("mujoco").at(estimator).empty());
@@ -89,7 +88,7 @@ TEST_F(TunedExperiment, WithDefaultsAloneEqualsNoTuning) {
   run("none", tuned_study(folder_, ""));
   run("defaults", tuned_study(folder_, ", tuning: {trials: 1}"));
   for (const char* file : {"tables/benchmark.csv", "tables/views.csv", "tables/success.csv",
-                           "tables/latency.csv", "models/mujoco_force_kinematics.npz"}) {
+                           "tables/latency.csv", "models/mujoco_paper.npz"}) {
     EXPECT_EQ(text("none", file), text("defaults", file)) << file;
   }
   EXPECT_FALSE(std::filesystem::exists(folder_ / "none/tables/tuning.csv"));
@@ -108,11 +107,11 @@ TEST_F(TunedExperiment, SharesChoicesWithOtherSensorsUnlessTunedEverywhere) {
   const ExperimentResult once = run("once", tuned_study(folder_, ", tuning: {trials: 6}", harsh));
   EXPECT_EQ(fits_in("once"), 1U);
   ASSERT_EQ(once.models.size(), 2U);
-  const HyperparameterValues& own = once.models.at("mujoco").at("support_force").hyperparameters;
+  const HyperparameterValues& own = once.models.at("mujoco").at("load_filter").hyperparameters;
   EXPECT_FALSE(own.empty());
   for (const auto& [fit, models] : once.models) {
-    EXPECT_EQ(models.at("support_force").hyperparameters, own) << fit;
-    EXPECT_TRUE(models.contains("force_kinematics")) << fit;
+    EXPECT_EQ(models.at("load_filter").hyperparameters, own) << fit;
+    EXPECT_TRUE(models.contains("paper")) << fit;
   }
   run("everywhere", tuned_study(folder_, ", tuning: {trials: 6, everywhere: true}", harsh));
   EXPECT_EQ(fits_in("everywhere"), 2U);
@@ -129,12 +128,12 @@ TEST_F(TunedExperiment, WritesItsChoicesAsAFileThatReplacesTheTuning) {
   EXPECT_EQ(to_yaml(given),
             to_yaml(experiment_from_yaml(YamlDocument::parse(to_yaml(given), "config.yaml"))));
   const ExperimentResult repeated = run("given", given);
-  for (const char* estimator : {"force_kinematics", "support_force"}) {
+  for (const char* estimator : {"paper", "load_filter"}) {
     EXPECT_EQ(repeated.models.at("mujoco").at(estimator).hyperparameters,
               tuned.models.at("mujoco").at(estimator).hyperparameters);
   }
   for (const char* table : {"tables/benchmark.csv", "tables/success.csv", "tables/latency.csv",
-                            "models/mujoco_force_kinematics.npz"}) {
+                            "models/mujoco_paper.npz"}) {
     EXPECT_EQ(text("given", table), text("tuned", table)) << table;
   }
 }

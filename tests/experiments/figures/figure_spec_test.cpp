@@ -13,9 +13,9 @@ using ::testing::ElementsAre;
 const Table table =
     table_of(from_csv("engine,source,height,share\n"
                       "m,truth,0.5,1\n"
-                      "m,phase,0.5,0.75\n"
+                      "m,loads,0.5,0.75\n"
                       "m,truth,0.7,nan\n"
-                      "m,phase,0.7,0.5\n"
+                      "m,loads,0.7,0.5\n"
                       "b,truth,0.5,0.125\n"));
 
 std::string upper(const std::string& name) { return name == "m" ? "M" : "B"; }
@@ -34,7 +34,7 @@ TEST(FigureGroups, AreThoseOfTheRowsThatPassTheFilter) {
       {{"height", "0.7"}});
   ASSERT_EQ(groups.groups.size(), 2U);
   EXPECT_EQ(groups.groups[0].title, "mtruth");
-  EXPECT_EQ(groups.groups[1].title, "mphase");
+  EXPECT_EQ(groups.groups[1].title, "mloads");
   EXPECT_EQ(group_of(groups, TableRow(table, 1)), 1U);
   EXPECT_FALSE(group_of(groups, TableRow(table, 4)).has_value());
 }
@@ -56,7 +56,7 @@ TEST(FigureText, ListsTheValuesOfEachPanelAndSeries) {
   spec.x = {.column = "height", .title = "height", .unit = "m"};
   spec.measures = {{.column = "share", .title = "share"}};
   EXPECT_EQ(values_text(spec, table),
-            " M, truth: 1 at 0.5 m; phase: 0.75 at 0.5 m, 0.5 at 0.7 m. B, truth: 0.125 at 0.5 m.");
+            " M, truth: 1 at 0.5 m; loads: 0.75 at 0.5 m, 0.5 at 0.7 m. B, truth: 0.125 at 0.5 m.");
 }
 
 TEST(FigureText, NamesTheRows) {
@@ -65,7 +65,7 @@ TEST(FigureText, NamesTheRows) {
   spec.series = groups_in(table, "engine", upper);
   spec.rows = groups_in(table, "source", [](const auto& name) { return name; });
   spec.measures = {{.column = "share", .title = "share", .unit = "m"}};
-  EXPECT_EQ(values_text(spec, table), " M: 1 m for truth, 0.75 m for phase; B: 0.125 m for truth.");
+  EXPECT_EQ(values_text(spec, table), " M: 1 m for truth, 0.75 m for loads; B: 0.125 m for truth.");
 }
 
 }  // namespace

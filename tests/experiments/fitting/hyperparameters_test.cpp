@@ -18,26 +18,26 @@ using ::testing::Not;
 
 Experiment with(const std::string& more) {
   return experiment_from_yaml(YamlDocument::parse(
-      "name: study\nsimulators: [mujoco]\nestimators: [phase, free_fall]\nfit: {scenarios: "
+      "name: study\nsimulators: [mujoco]\nestimators: [robust, free_fall]\nfit: {scenarios: "
       "[scenarios/stairs.yaml]}\ntest: {scenarios: [scenarios/stairs.yaml]}\n" +
           more,
       "study.yaml"));
 }
 
 const char* const given =
-    "hyperparameters: {phase: {leave_below: 0.125}, free_fall: {half_way: -3}}\n";
+    "hyperparameters: {robust: {threshold: 0.375}, free_fall: {half_way: -3}}\n";
 
 TEST(GivenHyperparameters, AreUsedByFitsAndEstimators) {
-  Experiment experiment = synthetic_experiment({"phase", "free_fall"});
+  Experiment experiment = synthetic_experiment({"robust", "free_fall"});
   experiment.hyperparameters = with(given).hyperparameters;
   const std::vector<RunSignals> runs = {synthetic_run(first_fit_run)};
   const FittedModels models = fit_models(experiment, pointers_to(runs));
-  const FittedModel& phase = models.at("mujoco").at("phase");
-  EXPECT_EQ(phase.metadata->configuration.at("leave_below"), "0.125");
+  const FittedModel& robust = models.at("mujoco").at("robust");
+  EXPECT_EQ(robust.metadata->configuration.at("threshold"), "0.375");
   const auto entry_for = [&](const char* estimator) {
     return entry_of(experiment, {"mujoco", "mujoco", estimator}, models);
   };
-  EXPECT_EQ(entry_for("phase").configuration.at("leave_below"), "0.125");
+  EXPECT_EQ(entry_for("robust").configuration.at("threshold"), "0.375");
   EXPECT_EQ(entry_for("free_fall").chosen("half_way"), -3.0);
 }
 
@@ -51,17 +51,13 @@ TEST(GivenHyperparameters, SetTheMembersThatTheyAreNamedAfter) {
   EXPECT_EQ(robust.configuration.at("transition.switch.offset"), "2.7");
   EXPECT_EQ(robust.configuration.at("transition.switch.slope"), touchdown::text_of(1.0 / 3.0));
   EXPECT_EQ(robust.fitting.torques->fit.bandwidth_floor, (TorqueBandwidth{0.07, 0.07}));
-  const EstimatorEntry phase = with_hyperparameters(
-      estimator_entry("phase"), {{"torque_bandwidth", 0.1}, {"return_above", 2.0 / 3.0}});
-  EXPECT_EQ(phase.fitting.phases->torque_bandwidth, 0.1);
-  EXPECT_EQ(phase.configuration.at("return_above"), touchdown::text_of(2.0 / 3.0));
 }
 
 TEST(GivenHyperparameters, YieldToChosenOnes) {
   const Experiment experiment = with(given);
   const TunedHyperparameters all =
-      or_given({{"mujoco", {{"phase", {{"leave_below", 0.3}}}}}}, experiment);
-  EXPECT_EQ(all.at("mujoco").at("phase").at("leave_below"), 0.3);
+      or_given({{"mujoco", {{"robust", {{"threshold", 0.3}}}}}}, experiment);
+  EXPECT_EQ(all.at("mujoco").at("robust").at("threshold"), 0.3);
   EXPECT_EQ(all.at("mujoco").at("free_fall").at("half_way"), -3.0);
 }
 
@@ -69,8 +65,9 @@ TEST(GivenHyperparameters, AreWrittenReadAndReported) {
   EXPECT_THAT(to_yaml(with("")), Not(HasSubstr("hyperparameters")));
   const std::string text = to_yaml(with(given));
   EXPECT_EQ(text, to_yaml(experiment_from_yaml(YamlDocument::parse(text, "again.yaml"))));
-  EXPECT_THAT(tuning_text(with(given)), AllOf(HasSubstr("leave_below of Phase filter: 0.125"),
-                                              HasSubstr("half_way of Free fall: -3")));
+  EXPECT_THAT(tuning_text(with(given)),
+              AllOf(HasSubstr("threshold of Bayes filter (robust): 0.375"),
+                    HasSubstr("half_way of Free fall: -3")));
 }
 
 /// Both engines, with hyperparameters from a file with this content.
@@ -78,7 +75,7 @@ Experiment with_file(const ScratchFolder& folder, const std::string& content,
                      const std::string& more = "") {
   const std::string file = folder.write("chosen.yaml", content).string();
   return experiment_from_yaml(YamlDocument::parse(
-      "name: study\nestimators: [phase, free_fall]\nfit: {scenarios: [scenarios/stairs.yaml]}\n"
+      "name: study\nestimators: [robust, free_fall]\nfit: {scenarios: [scenarios/stairs.yaml]}\n"
       "test: {scenarios: [scenarios/stairs.yaml]}\nhyperparameters: {tuned: " +
           file + more + "}\n",
       "study.yaml"));
@@ -88,18 +85,18 @@ TEST(HyperparameterFile, GivesEachEngineItsOwnValuesBeforeThoseOfAll) {
   const ScratchFolder folder;
   const Experiment experiment = with_file(
       folder,
-      "manifest: {anything: 1}\nmujoco: {phase: {leave_below: 0.125}, robust: {threshold: 0.3}}\n"
-      "bullet: {phase: {leave_below: 0.25}}\n",
-      ", phase: {leave_below: 0.4, return_above: 0.9}, free_fall: {half_way: -3}");
+      "manifest: {anything: 1}\nmujoco: {robust: {threshold: 0.375}, paper: {threshold: 0.3}}\n"
+      "bullet: {robust: {threshold: 0.25}}\n",
+      ", robust: {threshold: 0.4, bandwidth_floor: 0.05}, free_fall: {half_way: -3}");
   const TunedHyperparameters all = or_given({}, experiment);
-  EXPECT_EQ(all.at("mujoco").at("phase"), (HyperparameterValues{{"leave_below", 0.125}}));
-  EXPECT_EQ(all.at("bullet").at("phase"), (HyperparameterValues{{"leave_below", 0.25}}));
+  EXPECT_EQ(all.at("mujoco").at("robust"), (HyperparameterValues{{"threshold", 0.375}}));
+  EXPECT_EQ(all.at("bullet").at("robust"), (HyperparameterValues{{"threshold", 0.25}}));
   EXPECT_EQ(all.at("bullet").at("free_fall").at("half_way"), -3.0);
-  EXPECT_FALSE(all.at("mujoco").contains("robust")) << "not among the estimators";
-  EXPECT_EQ(or_given({{"mujoco", {{"phase", {{"leave_below", 0.3}}}}}}, experiment)
+  EXPECT_FALSE(all.at("mujoco").contains("paper")) << "not among the estimators";
+  EXPECT_EQ(or_given({{"mujoco", {{"robust", {{"threshold", 0.3}}}}}}, experiment)
                 .at("mujoco")
-                .at("phase")
-                .at("leave_below"),
+                .at("robust")
+                .at("threshold"),
             0.3);
   const std::string text = to_yaml(experiment);
   EXPECT_THAT(text, Not(HasSubstr("chosen.yaml"))) << "a run directory needs no other file";

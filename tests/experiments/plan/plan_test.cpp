@@ -1,7 +1,5 @@
 #include "experiments/plan/plan.hpp"
 
-#include <set>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -49,53 +47,6 @@ TEST(KeepRecordings, KeepsAllOrNoneOfThem) {
   EXPECT_THAT(kept(experiment), ElementsAre(0, 1, 2, 3, 4, 5, 6));
   experiment.recordings = KeptRecordings::none;
   EXPECT_THAT(kept(experiment), IsEmpty());
-}
-
-/// An experiment with training segments of runs of stairs, and of lifting with slow control.
-Experiment experiment_with_segments() {
-  Experiment experiment;
-  experiment.name = "segments";
-  experiment.seed = 5;
-  experiment.estimators = {"robust", "phase"};
-  experiment.fit = {{"scenarios/stairs.yaml"}, 2, true};
-  experiment.test = {{"scenarios/stairs.yaml"}, 1, true};
-  experiment.training_segments = {{.scenario = "scenarios/stairs.yaml", .runs = 3},
-                                  {.scenario = "scenarios/lift.yaml", .runs = 1}};
-  return experiment;
-}
-
-TEST(TrainingSegments, HavePerturbedRunsAtTheControlPeriodOfTheTestRuns) {
-  const Experiment experiment = experiment_with_segments();
-  const Plan plan = plan_of(request_of(experiment));
-  std::set<std::string> files;
-  std::vector<std::int64_t> stairs;
-  for (const PlannedRun& run : plan.runs) {
-    files.insert(run.file);
-    EXPECT_EQ(run.scenario.simulation.steps.control_us, 1000);
-    if (run.role == RunRole::test) {
-      EXPECT_LT(run.run, first_fit_run);
-    } else if (run.group == segment_group(0) && run.simulator == "bullet") {
-      stairs.push_back(run.run - first_fit_run);
-      EXPECT_EQ(run.seed, 5U);
-    }
-  }
-  EXPECT_THAT(stairs, ElementsAre(0, 1, 2));
-  EXPECT_EQ(files.size(), plan.runs.size());
-  EXPECT_EQ(plan.runs.size(), 2U * (2U + 3U + 1U + 1U));
-}
-
-TEST(TrainingSegments, HaveNoRunsForEstimatorsWithoutSegments) {
-  Experiment experiment = experiment_with_segments();
-  experiment.estimators = {"robust"};
-  EXPECT_EQ(plan_of(request_of(experiment)).runs.size(), 2U * (2U + 1U));
-}
-
-TEST(TrainingSegments, HaveRunsForEveryEstimatorWithSegments) {
-  Experiment experiment = experiment_with_segments();
-  for (const char* name : {"hmm", "decision_network", "evidence_curves", "boosted_channels"}) {
-    experiment.estimators = {name};
-    EXPECT_EQ(plan_of(request_of(experiment)).runs.size(), 2U * (2U + 3U + 1U + 1U)) << name;
-  }
 }
 
 Rollout run(const std::string& file, logs::Outcome outcome, const std::string& ending) {

@@ -82,8 +82,8 @@ TEST(Request, IsRefusedAfterAChange) {
 RunRequest with_robot_in(const ScratchFolder& folder) {
   YamlDocument document = YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/experiments/stairs.yaml");
   document.override_value("robot=" + (folder / "robot.yaml").string());
-  document.override_value("estimators=[shipped, nmn]");
-  document.override_value("video.estimators=[shipped, nmn]");
+  document.override_value("estimators=[load_filter, nmn]");
+  document.override_value("video.estimators=[load_filter, nmn]");
   return request_of(experiment_from_yaml(document));
 }
 
@@ -99,7 +99,6 @@ TEST(Request, NamesTheFileThatWasChanged) {
   std::vector<std::string> files;
   for (const RequestInput& input : request.inputs) files.push_back(input.file);
   EXPECT_THAT(files, IsSupersetOf({EndsWith("/motors.xml"), EndsWith("models/nmn.npz"),
-                                   EndsWith("models/evidence_curves.npz"),
                                    EndsWith("scenarios/stairs.yaml")}));
 
   const std::filesystem::path run = folder / "run";

@@ -103,13 +103,13 @@ TEST(Compare, RunWithItselfHasEqualCounts) {
 
 TEST(Compare, OnlyTheChangedEstimatorMoves) {
   const std::vector<SampledCell> first = {cell_of("mujoco", "robust", 1.0, right_steps(6, 4)),
-                                          cell_of("mujoco", "phase", 1.0, right_steps(6, 4))};
+                                          cell_of("mujoco", "paper", 1.0, right_steps(6, 4))};
   std::vector<SampledCell> second = first;
   second[1].samples.begin()->second = {4, 2, 1, 3};
   std::next(second[1].samples.begin())->second = {5, 1, 1, 3};
   const std::string text =
       comparison_text(compare(run_of("a", first), run_of("b", second)), of_accuracy);
-  EXPECT_THAT(text, AllOf(HasSubstr("phase"), Not(HasSubstr("robust")),
+  EXPECT_THAT(text, AllOf(HasSubstr("paper"), Not(HasSubstr("robust")),
                           HasSubstr("1 of 2 cells moved; 1 with equal counts in every run; by "
                                     "chance alone about 0.1 of the other 1 would")));
 }
@@ -137,8 +137,8 @@ TEST(Compare, SamplesAndCellsOfOneRunAreNamed) {
   SampledCell shorter = cell_of("mujoco", "robust", 0.0, right_steps(5, 4));
   shorter.samples.erase(shorter.samples.begin());
   const SampledRun before = run_of("a", {cell_of("mujoco", "robust", 0.0, right_steps(5, 4)),
-                                         cell_of("mujoco", "phase", 0.0, right_steps(5, 4)),
-                                         cell_of("mujoco", "phase", 1.0, right_steps(5, 4))});
+                                         cell_of("mujoco", "paper", 0.0, right_steps(5, 4)),
+                                         cell_of("mujoco", "paper", 1.0, right_steps(5, 4))});
   const SampledRun after =
       run_of("b", {shorter, cell_of("mujoco", "robust", 2.0, right_steps(5, 4))});
   const Comparison comparison = compare(before, after);
@@ -146,18 +146,18 @@ TEST(Compare, SamplesAndCellsOfOneRunAreNamed) {
   EXPECT_TRUE(std::isnan(comparison.cells.front().metric[of_accuracy].difference.low));
   EXPECT_THAT(comparison.left_out,
               ElementsAre("in one of the runs only: 1 sample of 1 cell: step run 0",
-                          "only in a: 2 cells: mujoco phase, 0 N·m, 0 m/s² and 1 more",
+                          "only in a: 2 cells: mujoco paper, 0 N·m, 0 m/s² and 1 more",
                           "only in b: 1 cell: mujoco robust, 2 N·m, 0 m/s²"));
 }
 
 TEST(Compare, RunsWithoutACommonCellAreRefusedWithTheirEstimators) {
   const auto compared = [] {
     (void)compare(run_of("a", {cell_of("mujoco", "robust", 0.0, right_steps(5, 4))}),
-                  run_of("b", {cell_of("mujoco", "phase", 0.0, right_steps(5, 4))}));
+                  run_of("b", {cell_of("mujoco", "paper", 0.0, right_steps(5, 4))}));
   };
   EXPECT_THAT(compared,
               ThrowsMessage<InputError>(AllOf(HasSubstr("estimators of the first: robust"),
-                                              HasSubstr("of the second: phase"))));
+                                              HasSubstr("of the second: paper"))));
 }
 
 TEST(Compare, TextListsTheLargestTwentyAndTheFigureForty) {

@@ -12,7 +12,7 @@
 
 #include "core/error.hpp"
 #include "estimator/bayes/filter.hpp"
-#include "estimator/phase/config.hpp"
+#include "estimator/force/load_filter.hpp"
 #include "experiments/evaluation/tasks.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/condition.hpp"
@@ -54,15 +54,15 @@ struct Study {
   DetailConfig config;
 };
 
-/// The decisions that follow from the probabilities; the phase filter has hysteresis.
+/// The decisions that follow from the probabilities; the load filter has hysteresis.
 scoring::ContactSequence decisions(const BeliefTrace& trace) {
-  const PhaseFilterConfig phase;
+  const LoadFilterConfig loads;
   scoring::ContactSequence contact;
   bool in_contact = true;
   for (const double p : trace.p_contact) {
-    in_contact = trace.estimator == "phase"
-                     ? (in_contact ? p >= phase.leave_below : p > phase.return_above)
-                     : p >= 0.8;
+    in_contact = p >= (trace.estimator != "load_filter" ? 0.8
+                       : in_contact                     ? loads.leave_below
+                                                        : loads.return_above);
     contact.push_back(std::uint8_t{in_contact});
   }
   return contact;
@@ -86,7 +86,7 @@ TEST(DropDetail, IsTheWindowAroundTheChosenDrop) {
 }
 
 TEST(DropDetail, ShowsTheBeliefsThatTheStudyCounts) {
-  Study study({"robust", "reference", "measurement_only", "phase"});
+  Study study({"robust", "reference", "measurement_only", "load_filter"});
   study.config.choice.before = study.config.choice.after = 10.0;  // the whole run
   const RunSignals run = synthetic_run(3);
   const DropDetail detail = study.detail(run);
@@ -181,7 +181,7 @@ TEST(DropDetail, SurvivesSignalsThatAreNoNumbers) {
   RunSignals run = synthetic_run(3);
   run.signals[2500].leg[0].knee.torque = std::nan("");
   run.signals[2510].vertical_acceleration = std::nan("");
-  const DropDetail detail = Study({"robust", "phase"}).detail(run);
+  const DropDetail detail = Study({"robust", "load_filter"}).detail(run);
   EXPECT_TRUE(std::isnan(detail.torque.knee[2500 - 2458]));
   EXPECT_TRUE(std::isnan(detail.noisy[0].spectrum.acceleration[2510 - 2458]));
   for (const double power : detail.noisy[0].spectrum.power) EXPECT_TRUE(std::isfinite(power));
@@ -218,132 +218,36 @@ TEST(Drops, AreFlightsOfBothWheelsThatAreLongEnoughAndBeginInTheRun) {
   EXPECT_EQ(drops(contact, 1e-3, 0.05), (std::vector<scoring::Flight>{{310, 400}, {900, 1000}}));
 }
 
-struct PosteriorStudy {
-  PosteriorStudy() { config.choice = {.run = 3, .drop = 1, .seed = 1}; }
-
-  DropPosterior posterior(const RunSignals& run = synthetic_run(3)) const {
-    return drop_posterior(experiment, config, run, models);
-  }
-
-  Experiment experiment = synthetic_experiment({"phase"});
-  FittedModels models = fit_models(experiment, pointers_to({synthetic_run(first_fit_run)}));
-  PosteriorConfig config;
-};
-
-TEST(DropPosterior, AddsUpToOneAndMatchesTheStudysEstimator) {
-  const PosteriorStudy study;
+TEST(DropDetail, ShowsDropsOfTheChosenWheel) {
+  Study study({"robust"});
   const RunSignals run = synthetic_run(3);
-  const DropPosterior posterior = study.posterior(run);
-  ASSERT_EQ(posterior.time.size(), 601U);
-  const auto estimator =
-      make_estimator(study.experiment, {"mujoco", "mujoco", "phase"}, study.models, run);
-  const scoring::Prediction prediction =
-      predict(*estimator, run, noise_run(run, noise_key(study.experiment, 1, 3)),
-              study.config.noise.levels());
-  for (std::size_t row = 0; row < posterior.time.size(); ++row) {
-    const PhaseProbabilities& p = posterior.phases[row];
-    EXPECT_NEAR(std::accumulate(p.begin(), p.end(), 0.0), 1.0, 1e-9);
-    double left = 0.0, right = 0.0;
-    for (std::size_t phase = 0; phase < phase_count; ++phase) {
-      EXPECT_GE(p[phase], 0.0);
-      left += left_in_contact(static_cast<Phase>(phase)) ? p[phase] : 0.0;
-      right += right_in_contact(static_cast<Phase>(phase)) ? p[phase] : 0.0;
-    }
-    EXPECT_NEAR(posterior.p_contact[0][row], left, 1e-9);
-    EXPECT_NEAR(posterior.p_contact[1][row], right, 1e-9);
-    EXPECT_EQ(posterior.p_contact[0][row], prediction[0].p_contact[1458 + row]);
-    EXPECT_EQ(posterior.p_contact[1][row], prediction[1].p_contact[1458 + row]);
-  }
-}
-
-TEST(DropPosterior, HasTheTruePhasesBesideTheEstimated) {
-  const PosteriorStudy study;
-  const DropPosterior posterior = study.posterior();
-  // Steps since the window's first; the left wheel leaves at 142, the right one at 150, both land
-  // at 342. Single-wheel phases shorter than the shortest flight are filled.
-  EXPECT_EQ(posterior.truth[200], Phase::flight);
-  EXPECT_EQ(posterior.truth[343], Phase::impact_1);
-  EXPECT_EQ(posterior.truth[135], Phase::unloading_3);
-  EXPECT_EQ(posterior.truth[360], Phase::impact_2);
-  EXPECT_EQ(posterior.contact[0][145], 0);
-  EXPECT_EQ(posterior.contact[1][145], 1);
-  EXPECT_GT(posterior.phases[300][index(Phase::flight)], 0.9);
-}
-
-/// Eq. of docs/explanation/phase_filter.md, done again with the model's transitions.
-TEST(DropPosterior, FollowsFromThePreviousPosteriorAndTheStepsEvidence) {
-  const PosteriorStudy study;
-  const RunSignals run = synthetic_run(3);
-  const DropPosterior posterior = study.posterior(run);
-  const PhaseModel& model =
-      *setup_of(study.experiment, {"mujoco", "mujoco", "phase"}, study.models, run).model->phase;
-  for (std::size_t k = 1; k < posterior.time.size(); ++k) {
-    PhaseProbabilities expected{};
-    double sum = 0.0;
-    for (std::size_t j = 0; j < phase_count; ++j) {
-      for (std::size_t i = 0; i < phase_count; ++i) {
-        expected[j] += posterior.phases[k - 1][i] * model.transition[i][j];
-      }
-      expected[j] *= std::exp(posterior.evidence[k].sum(static_cast<Phase>(j)));
-      sum += expected[j];
-    }
-    for (std::size_t j = 0; j < phase_count; ++j) {
-      EXPECT_NEAR(posterior.phases[k][j], expected[j] / sum, 1e-5) << k << " " << phase_names[j];
-    }
-  }
-}
-
-TEST(DropPosterior, LogLikelihoodErrorsAddUpToTheLogRatioOfTheBelief) {
-  const PosteriorStudy study;
-  const DropPosterior posterior = study.posterior();
-  std::size_t wrong = 0;
-  for (std::size_t k = 0; k < posterior.time.size(); ++k) {
-    const PhaseProbabilities& p = posterior.phases[k];
-    const auto first = static_cast<Phase>(std::max_element(p.begin(), p.end()) - p.begin());
-    const Phase truth = posterior.truth[k];
-    const LogLikelihoodError& error = posterior.log_likelihood_error[k];
-    const double sum = error.left + error.right + error.acceleration + error.memory;
-    const bool is_right = left_in_contact(first) == left_in_contact(truth) &&
-                          right_in_contact(first) == right_in_contact(truth);
-    if (is_right) {
-      EXPECT_EQ(sum, 0.0);
-    } else {
-      EXPECT_NEAR(sum, std::log(p[index(first)] / p[index(truth)]), 1e-9);
-      EXPECT_GE(sum, 0.0);
-    }
-    wrong += is_right ? 0 : 1;
-  }
-  EXPECT_GT(wrong, 0U);  // a takeoff is detected some steps late
-}
-
-TEST(DropPosterior, ShowsDropsOfTheChosenWheel) {
-  PosteriorStudy study;
   const auto takeoff = [&](DropWheels wheels) {
     study.config.choice.wheels = wheels;
-    const RunSignals run = synthetic_run(3);
-    const DropPosterior posterior = study.posterior(run);
+    const DropDetail detail = study.detail(run);
     const auto at = static_cast<std::size_t>(
-        std::find(posterior.time.begin(), posterior.time.end(), 0.0) - posterior.time.begin());
-    return std::pair(posterior.contact[0][at], posterior.contact[1][at]);
+        std::find(detail.time.begin(), detail.time.end(), 0.0) - detail.time.begin());
+    const auto first = std::find(detail.contact.begin(), detail.contact.end(), std::uint8_t{0});
+    return at - static_cast<std::size_t>(first - detail.contact.begin());
   };
-  EXPECT_EQ(takeoff(DropWheels::both), std::pair(std::uint8_t{0}, std::uint8_t{0}));
-  EXPECT_EQ(takeoff(DropWheels::left), std::pair(std::uint8_t{0}, std::uint8_t{1}));
-  EXPECT_EQ(takeoff(DropWheels::right), std::pair(std::uint8_t{0}, std::uint8_t{0}));
+  // The left wheel is first off the ground, by 8 steps.
+  EXPECT_EQ(takeoff(DropWheels::both), 8U);
+  EXPECT_EQ(takeoff(DropWheels::left), 0U);
+  EXPECT_EQ(takeoff(DropWheels::right), 8U);
 }
 
-TEST(DropPosterior, ShowsAChosenTime) {
-  PosteriorStudy study;
+TEST(DropDetail, ShowsAChosenTime) {
+  Study study({"robust"});
   study.config.choice.at = 0.3;
   const RunSignals run = synthetic_run(3);
-  const DropPosterior posterior = study.posterior(run);
-  ASSERT_EQ(posterior.time.size(), 601U);
-  EXPECT_NEAR(posterior.time.front(), -0.15, 1e-12);
-  EXPECT_EQ(posterior.contact[0][449], run.contact[0][599]);
-  EXPECT_EQ(posterior.contact[0][450], run.contact[0][600]);
-  EXPECT_NE(posterior.contact[0][449], posterior.contact[0][450]);
+  const DropDetail detail = study.detail(run);
+  ASSERT_EQ(detail.time.size(), 601U);
+  EXPECT_NEAR(detail.time.front(), -0.15, 1e-12);
+  EXPECT_EQ(detail.contact[449], run.contact[0][599]);
+  EXPECT_EQ(detail.contact[450], run.contact[0][600]);
+  EXPECT_NE(detail.contact[449], detail.contact[450]);
   study.config.choice.at = 4.0;
-  EXPECT_THAT([&] { study.posterior(run); },
-              ThrowsMessage<InputError>(HasSubstr("posterior.at: run 3 in mujoco ends after 4 s")));
+  EXPECT_THAT([&] { study.detail(run); },
+              ThrowsMessage<InputError>(HasSubstr("detail.at: run 3 in mujoco ends after 4 s")));
 }
 
 }  // namespace

@@ -140,14 +140,14 @@ class Results : public ::testing::Test {
     options.out = *folder / "run";
     run_experiment(
         experiment_from_yaml(YamlDocument::parse(
-            "name: small\nestimators: [support_force, robust]\nfit: {scenarios: [" + step +
+            "name: small\nestimators: [load_filter, robust]\nfit: {scenarios: [" + step +
                 "]}\ntest: {scenarios: [" + step +
                 "], runs: 2}\nnoise: {torque: [0, 1]}\nhighlights: [{torque: 0, accelerometer: 0}, "
                 "{torque: 1, accelerometer: 0}]\nrecordings: none\nvideo: {enabled: false}\n"
                 "benchmark: {robots: [models/upkie_actuated.yaml], sensors: "
                 "[noise/profiles/harsh.yaml]}\nmoments: true\n"
-                "odometry: {}\noperating_points: {}\nclosed_loop: {runs: 1, contact: [truth, "
-                "support_force], scenes: [{scenario: " +
+                "odometry: {}\nclosed_loop: {runs: 1, contact: [truth, load_filter], scenes: "
+                "[{scenario: " +
                 step + ", key: terrain.pieces.1.step.drop, values: [0.1, 0.2]}]}\n",
             "small.yaml")),
         options);
@@ -191,7 +191,7 @@ TEST_F(Results, HaveOneRowPerNumberOfEveryTable) {
     EXPECT_TRUE(settings.insert(setting).second) << ::testing::PrintToString(row);
   }
   EXPECT_THAT(studies, IsSupersetOf({"benchmark", "benchmark_standings", "success", "views",
-                                     "moments", "odometry", "operating_points", "survival"}));
+                                     "moments", "odometry", "survival"}));
   EXPECT_THAT(own_files(*folder / "run"), Contains(std::filesystem::path("tables/results.csv")));
   EXPECT_THAT(own_files(*folder / "run"),
               Contains(std::filesystem::path("state/columns/survival.csv")));

@@ -28,9 +28,9 @@ TEST(ContactSources, HaveTitlesThatMarkOracles) {
   EXPECT_EQ(contact_title("truth"), "Truth (oracle)");
   EXPECT_EQ(contact_title("truth_delayed_2.5ms"), "Truth, delayed 2.5 ms (oracle)");
   EXPECT_EQ(contact_title("always"), "Always contact");
-  EXPECT_EQ(contact_title("phase"), "Phase filter");
+  EXPECT_EQ(contact_title("load_filter"), "Load filter");
   EXPECT_EQ(contact_name("always_contact"), "always");
-  EXPECT_EQ(contact_name("phase"), "phase");
+  EXPECT_EQ(contact_name("load_filter"), "load_filter");
 }
 
 }  // namespace

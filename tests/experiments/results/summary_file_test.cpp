@@ -22,7 +22,7 @@ TEST(SummaryFile, ReadsBackAsWrittenAndRoundedAsTheTables) {
   ScoreSummary score{condition, {0.25, 0.23}, "wheels", {}, {}, {}};
   score.metric.assign(scoring::metrics().size(), {1.0, 0.0, NAN});
   score.metric[scoring::metric_index("brier")] = {0.0000004, 0.25, 0.5};
-  const Difference difference{"mujoco", {1.0, 5.0}, "robust", "phase", score.metric};
+  const Difference difference{"mujoco", {1.0, 5.0}, "robust", "paper", score.metric};
   const ScratchFolder folder;
   const std::vector<RunSummary> runs = {
       {RunRole::fit, "bullet", 1000000, "a.mpack", logs::Outcome::fell, 3}};
@@ -46,12 +46,12 @@ TEST(SummaryFile, ReadsBackAsWrittenAndRoundedAsTheTables) {
   EXPECT_EQ(read.scores.at(0)["brier"].estimate, 0.0);
   EXPECT_EQ(read.scores.at(0)["success"].estimate, 1.0);
   EXPECT_TRUE(std::isnan(read.scores.at(0)["success"].high));
-  EXPECT_EQ(read.differences.at(0).second, "phase");
+  EXPECT_EQ(read.differences.at(0).second, "paper");
 }
 
 TEST(Summary, NamesEstimatorsThatNeverReportFlightAndTheFlightsThatTheirFitLacks) {
   Experiment experiment;
-  experiment.estimators = {"hmm", "phase", "support_force"};
+  experiment.estimators = {"robust", "paper", "load_filter"};
   experiment.highlights = {{0.0, 0.0}};
   const auto cell = [](const std::string& estimator, double recall) {
     CellSummary one;
@@ -69,22 +69,23 @@ TEST(Summary, NamesEstimatorsThatNeverReportFlightAndTheFlightsThatTheirFitLacks
     runs[1].wheel_flights = of_test;
     return score_notes(experiment, {runs, std::move(cells), {}, {}});
   };
-  EXPECT_EQ(note({cell("hmm", 0.6), cell("phase", NAN)}, 0, 2), "") << "found, or no flight at all";
-  EXPECT_EQ(note({cell("support_force", 0.0)}, 0, 2), "") << "is not fitted";
-  EXPECT_EQ(note({cell("hmm", 0.0), cell("phase", 0.01)}, 0, 2),
-            "Two-state HMM, Phase filter hardly ever report flight, so that they decide as always "
-            "contact does. Their fit has no flight of one wheel alone, as the test has: add "
-            "scenarios/push_off.yaml to fit.scenarios.");
+  EXPECT_EQ(note({cell("robust", 0.6), cell("paper", NAN)}, 0, 2), "")
+      << "found, or no flight at all";
+  EXPECT_EQ(note({cell("load_filter", 0.0)}, 0, 2), "") << "is not fitted";
+  EXPECT_EQ(note({cell("robust", 0.0), cell("paper", 0.01)}, 0, 2),
+            "Bayes filter (robust), Bayes filter (paper) hardly ever report flight, so that they "
+            "decide as always contact does. Their fit has no flight of one wheel alone, as the "
+            "test has: add scenarios/push_off.yaml to fit.scenarios.");
   const std::string one =
-      "Phase filter hardly ever reports flight, so that it decides as always "
+      "Bayes filter (paper) hardly ever reports flight, so that it decides as always "
       "contact does.";
-  EXPECT_EQ(note({cell("phase", 0.0)}, 1, 2), one) << "the fit has them";
-  EXPECT_EQ(note({cell("phase", 0.0)}, 0, 0), one) << "the test has none";
+  EXPECT_EQ(note({cell("paper", 0.0)}, 1, 2), one) << "the fit has them";
+  EXPECT_EQ(note({cell("paper", 0.0)}, 0, 0), one) << "the test has none";
 }
 
 TEST(Summary, NamesATestWithoutAFlightAndEstimatorsThatAreFittedToItsScenes) {
   Experiment experiment;
-  experiment.estimators = {"hmm", "support_force", "phase"};
+  experiment.estimators = {"robust", "load_filter", "paper"};
   experiment.fit.scenarios = {"a.yaml", "b.yaml"};
   experiment.test.scenarios = {"c.yaml"};
   const auto note = [&](int of_both, int of_one, logs::Outcome outcome) {
@@ -105,7 +106,8 @@ TEST(Summary, NamesATestWithoutAFlightAndEstimatorsThatAreFittedToItsScenes) {
   EXPECT_EQ(note(0, 1, finished), "");
   EXPECT_EQ(note(0, 0, fell), "") << "no run is scored";
   experiment.test.scenarios = {"c.yaml", "b.yaml"};
-  const std::string fitted = "Fitted to scenes of the test: Two-state HMM, Phase filter.";
+  const std::string fitted =
+      "Fitted to scenes of the test: Bayes filter (robust), Bayes filter (paper).";
   EXPECT_EQ(note(1, 0, finished), fitted);
   EXPECT_EQ(note(0, 0, finished), none + " " + fitted);
 }

@@ -77,7 +77,7 @@ TEST(MissingRecords, AndNanTorquesAreLeftOutOfMeasurementFits) {
   run.signals[2650].leg[1].knee.torque = nan;
   MeasurementConfig config;
   config.torque.low_pass = 0.0;
-  const MeasurementModel with = fit(std::vector<const RunSignals*>{&run}, config, {});
+  const MeasurementModel with = fit_torques({.whole = {&run}}, config);
   std::vector<TorqueSample> contact, no_contact;
   for (std::size_t leg = 0; leg < 2; ++leg) {
     TorqueChannel channel(config.torque, static_cast<Side>(leg), 1000.0);
@@ -92,31 +92,6 @@ TEST(MissingRecords, AndNanTorquesAreLeftOutOfMeasurementFits) {
   for (const TorqueSample sample : {TorqueSample{1.3, 0.3}, {0.1, 0.02}, {0.6, 0.1}}) {
     EXPECT_EQ(with(sample).contact, without(sample).contact);
     EXPECT_EQ(with(sample).no_contact, without(sample).no_contact);
-  }
-}
-
-TEST(MissingRecords, RepeatThePreviousValuesInPhaseFits) {
-  const Experiment experiment = synthetic_experiment({"phase"});
-  RunSignals gaps = synthetic_run(first_fit_run);
-  RunSignals repeats = gaps;
-  for (std::size_t k = 700; k < 710; ++k) {
-    gaps.signals[k] = no_record();
-    repeats.signals[k] = repeats.signals[699];
-  }
-  gaps.signals[1200].leg[0].wheel.torque = nan;
-  repeats.signals[1200].leg[0].wheel.torque = repeats.signals[1199].leg[0].wheel.torque;
-  const auto model = [&](const RunSignals& run) {
-    return *fit_models(experiment, {&run}).at("mujoco").at("phase").phase;
-  };
-  const PhaseModel with = model(gaps);
-  const PhaseModel expected = model(repeats);
-  EXPECT_EQ(with.seconds, expected.seconds);
-  ASSERT_EQ(with.torque.size(), expected.torque.size());
-  for (std::size_t i = 0; i < with.torque.size(); ++i) {
-    EXPECT_EQ(with.torque[i].log_density, expected.torque[i].log_density);
-  }
-  for (std::size_t i = 0; i < with.acceleration.size(); ++i) {
-    EXPECT_EQ(with.acceleration[i].log_density, expected.acceleration[i].log_density);
   }
 }
 

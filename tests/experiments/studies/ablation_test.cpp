@@ -39,7 +39,7 @@ TEST_F(Ablation, ComparesEachStepWithTheOneBeforeIt) {
   RunOptions options;
   options.out = folder / "run";
   const ExperimentResult result = run_experiment(
-      experiment("estimators: [free_fall, paper, paper_low_pass, paper_switch, robust, hmm]\n"
+      experiment("estimators: [load_filter, paper, paper_low_pass, paper_switch, robust]\n"
                  "benchmark: {refits: 1}\nablation: {from: paper, to: robust}\n"),
       options);
   const Table table = result.directory.read_table("ablation.csv");

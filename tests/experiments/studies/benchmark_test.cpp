@@ -246,24 +246,6 @@ TEST(ABenchmark, RefitsInAShardOfOneEngineAreThoseOfTheWholeRun) {
   EXPECT_EQ(table_text(folder / "parts", "benchmark.csv"), expected);
 }
 
-TEST(ABenchmark, FitsUpperBoundsOnce) {
-  const ScratchFolder folder;
-  for (const char* benchmark :
-       {"{refits: 2}", "{refits: 3, refits_everywhere: true, robots: [models/upkie_heavy.yaml]}"}) {
-    Experiment experiment = with_benchmark(folder, benchmark);
-    experiment.estimators = {"measurement_only", "boosted_channels", "boosted_signals"};
-    std::map<std::string, int> refits;
-    for (const RunGroup& group : whole_plan(request_of(experiment)).groups) {
-      for (const Condition& condition : group.conditions) {
-        refits[condition.estimator] += condition.refit > 0 ? 1 : 0;
-      }
-    }
-    EXPECT_GT(refits.at("measurement_only"), 0) << benchmark;
-    EXPECT_EQ(refits.at("boosted_channels"), 0) << benchmark;
-    EXPECT_EQ(refits.at("boosted_signals"), 0) << benchmark;
-  }
-}
-
 TEST(ABenchmark, ContinuesAndMergesWithoutSignalsInMemory) {
   const ScratchFolder folder;
   const Experiment experiment = with_benchmark(folder, "{robots: [models/upkie_heavy.yaml]}");

@@ -11,8 +11,6 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/table.hpp"
-#include "estimator/evidence/curves.hpp"
-#include "estimator/models/parameters.hpp"
 #include "experiments/config/experiment_yaml.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/experiment_context.hpp"
@@ -34,7 +32,7 @@ using ::testing::ThrowsMessage;
 
 Experiment with_closed_loop(const ScratchFolder& folder, const std::string& section,
                             const std::string& sensors = "noise/profiles/upkie.yaml",
-                            const std::string& estimators = "[support_force, robust]") {
+                            const std::string& estimators = "[load_filter, robust]") {
   const std::string step = folder.write("small_step.yaml", small_step_scene).string();
   return experiment_from_yaml(
       YamlDocument::parse("name: small\nestimators: " + estimators + "\nsensors: " + sensors +
@@ -72,7 +70,7 @@ TEST(ClosedLoop, CountsFinishedRunsForEveryContactSourceAndPoint) {
     EXPECT_EQ(number("landings"), 4.0);
     EXPECT_GT(number("largest_force_n"), 100.0);
   }
-  EXPECT_THAT(contacts, ElementsAre("truth", "always", "support_force", "robust"));
+  EXPECT_THAT(contacts, ElementsAre("truth", "always", "load_filter", "robust"));
   EXPECT_THAT(result.studies.back(), AllOf(HasSubstr("Truth (oracle)"), HasSubstr("drop 0.3")));
   EXPECT_THAT(own_files(folder / "run"), Contains(std::filesystem::path("tables/survival.csv")));
   EXPECT_THAT(own_files(folder / "run"),
@@ -84,7 +82,7 @@ TEST(ClosedLoop, HasAFigureForEverySceneAndVariedQuantity) {
   const std::string step = (folder / "small_step.yaml").string();
   Experiment experiment = with_closed_loop(
       folder,
-      "closed_loop:\n  runs: 1\n  contact: [truth, support_force]\n  scenes:\n    - {scenario: " +
+      "closed_loop:\n  runs: 1\n  contact: [truth, load_filter]\n  scenes:\n    - {scenario: " +
           step + two_heights + "}\n    - {scenario: " + step +
           ", delay: [0, 0.02]}\n    - {scenario: " + step + "}\n");
   experiment.simulators = {"mujoco"};
@@ -133,50 +131,33 @@ TEST(ClosedLoop, IsTheSameInShardsAndWhenResumed) {
   EXPECT_EQ(read_file(folder / "shards/tables/results.csv"), results);
 }
 
-/// A model that decides by the load of the servos' laws alone.
-FittedModel model_by_servo_load() {
-  EvidenceModel model;
-  model.servo_curve.assign(std::tuple_size_v<ServoLoadInputs>, EvidenceCurve{});
-  model.servo_seen.resize(model.servo_curve.size());
-  for (std::size_t k = 0; k < evidence_knots; ++k) {
-    model.servo_curve[3][k] = 4.0F * (static_cast<float>(k) - 22.0F);  // 0 nats at 12 N
-  }
-  return {{.arrays = arrays_of(parameters_of(model), "evidence_curves")}};
-}
-
 TEST(ClosedLoop, ContactSourcesDecideAsInOfflineEvaluation) {
-  // The reference: the recorded run, evaluated offline with the same sensors and noise.
+  // The reference: the recorded run, evaluated offline with the same sensors and noise. The load
+  // filter uses the servos' targets, too.
   const ScratchFolder folder;
-  const std::map<std::string, FittedModel> models = {{"support_force", {}},
-                                                     {"evidence_curves", model_by_servo_load()}};
-  for (const auto& [name, model] : models) {
-    for (const char* sensors :
-         {"noise/profiles/upkie.yaml", "noise/profiles/harsh.yaml", "noise/profiles/ideal.yaml"}) {
-      const RunRequest request = request_of(
-          with_closed_loop(folder,
-                           of_steps(folder, ", noise: [{torque: 0.3, accelerometer: 1.0}]") +
-                               "  contact: [" + name + "]\n",
-                           sensors, "[" + name + "]"));
-      const Experiment& experiment = request.experiment;
-      scenarios::CompiledScenes scenes;
-      const ClosedLoopCell cell = closed_loop_cells(experiment).front();
-      const FittedModels fitted = {{cell.simulator, {{name, model}}}};
-      const ClosedLoopRun loop =
-          run_closed_loop(request, cell, 1, fitted, scenes, [] { return true; });
-      logs::Recording reported = loop.recording;
-      report_through_sensors(profile_of(request.sensors, experiment.sensors), experiment, 1,
-                             reported);
-      const RunSignals run =
-          signals_of(reported, experiment.labels, experiment.scoring, experiment.intervals.over);
-      const EstimatorEntry& entry = estimator_entry(name);
-      const auto estimator = entry.make({.model = &model, .legs = run.legs});
-      const auto offline = predict(*estimator, run, noise_run(run, noise_key(experiment, 0, 1)),
-                                   cell.noise.levels());
-      for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-        EXPECT_EQ(loop.trace.contact[wheel], offline[wheel].contact) << name << ", " << sensors;
-      }
-      EXPECT_THAT(loop.trace.contact[0], AllOf(Contains(0), Contains(1))) << name;
+  for (const char* sensors :
+       {"noise/profiles/upkie.yaml", "noise/profiles/harsh.yaml", "noise/profiles/ideal.yaml"}) {
+    const RunRequest request = request_of(
+        with_closed_loop(folder,
+                         of_steps(folder, ", noise: [{torque: 0.3, accelerometer: 1.0}]") +
+                             "  contact: [load_filter]\n",
+                         sensors, "[load_filter]"));
+    const Experiment& experiment = request.experiment;
+    scenarios::CompiledScenes scenes;
+    const ClosedLoopCell cell = closed_loop_cells(experiment).front();
+    const ClosedLoopRun loop = run_closed_loop(request, cell, 1, {}, scenes, [] { return true; });
+    logs::Recording reported = loop.recording;
+    report_through_sensors(profile_of(request.sensors, experiment.sensors), experiment, 1,
+                           reported);
+    const RunSignals run =
+        signals_of(reported, experiment.labels, experiment.scoring, experiment.intervals.over);
+    const auto estimator = estimator_entry("load_filter").make({.legs = run.legs});
+    const auto offline =
+        predict(*estimator, run, noise_run(run, noise_key(experiment, 0, 1)), cell.noise.levels());
+    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+      EXPECT_EQ(loop.trace.contact[wheel], offline[wheel].contact) << sensors;
     }
+    EXPECT_THAT(loop.trace.contact[0], AllOf(Contains(0), Contains(1))) << sensors;
   }
 }
 

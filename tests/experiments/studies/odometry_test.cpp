@@ -21,7 +21,7 @@ using ::testing::UnorderedElementsAre;
 Experiment with_odometry(const ScratchFolder& folder, const std::string& more) {
   const std::string step = folder.write("small_step.yaml", small_step_scene).string();
   return experiment_from_yaml(YamlDocument::parse(
-      "name: small\nestimators: [support_force, robust]\nsensors: noise/profiles/upkie.yaml\nfit: "
+      "name: small\nestimators: [load_filter, robust]\nsensors: noise/profiles/upkie.yaml\nfit: "
       "{scenarios: [" +
           step + "]}\ntest: {scenarios: [" + step +
           "], runs: 2}\nrecordings: none\nvideo: {enabled: false}\n" + more,
@@ -72,8 +72,8 @@ TEST(OdometryStudy, ScoresOdometryWithEveryEstimatorAndTheTruth) {
     const auto error = column(table, simulator, "rms_m");
     std::vector<std::string> names;
     for (const auto& [name, value] : error) names.push_back(name);
-    EXPECT_THAT(names, UnorderedElementsAre("always", "truth", "truth_delayed_100ms",
-                                            "support_force", "robust"));
+    EXPECT_THAT(names, UnorderedElementsAre("always", "truth", "truth_delayed_100ms", "load_filter",
+                                            "robust"));
     // 2 m with one fall: with the truth the error is centimetres, with a delay of .1 s it is
     // larger.
     EXPECT_LT(error.at("truth"), 0.03);

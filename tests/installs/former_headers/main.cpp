@@ -5,8 +5,6 @@
 #include <touchdown/estimator/assembly/signal_assembler.hpp>
 #include <touchdown/estimator/c_interface/handle.hpp>
 #include <touchdown/estimator/c_interface/touchdown.h>
-#include <touchdown/estimator/decision/training.hpp>
-#include <touchdown/estimator/evidence/training.hpp>
 #include <touchdown/estimator/models/compiled.hpp>
 
 int main() {

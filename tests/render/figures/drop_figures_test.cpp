@@ -17,14 +17,12 @@
 namespace touchdown::render {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 namespace fs = std::filesystem;
 
 constexpr std::size_t drop_steps = 81;
-const std::vector<std::string> drawn_estimators = {"robust", "phase"};
+const std::vector<std::string> drawn_estimators = {"robust", "load_filter"};
 
 experiments::SpectrumTrace staged_spectrum(double level) {
   experiments::SpectrumTrace trace;
@@ -65,36 +63,12 @@ experiments::DropDetail staged_detail(std::size_t settings) {
                                 staged_spectrum(10.0),
                                 {}};
     for (const auto& [name, title] :
-         {std::pair("robust", "Bayes filter"), std::pair("phase", "Phase filter")}) {
+         {std::pair("robust", "Bayes filter"), std::pair("load_filter", "Load filter")}) {
       drop.beliefs.push_back({name, title, std::vector<double>(drop_steps, 0.9)});
     }
     detail.noisy.push_back(drop);
   }
   return detail;
-}
-
-experiments::DropPosterior staged_posterior(const std::string& simulator) {
-  experiments::DropPosterior posterior;
-  posterior.simulator = simulator;
-  for (std::size_t k = 0; k < drop_steps; ++k) {
-    const double time = 1e-3 * (static_cast<double>(k) - 20.0);
-    const bool air = time >= 0.0 && time < 0.03;
-    posterior.time.push_back(time);
-    posterior.truth.push_back(air ? Phase::flight : Phase::rolling);
-    PhaseProbabilities p{};
-    p[index(Phase::rolling)] = air ? 0.1 : 0.75;
-    p[index(Phase::flight)] = air ? 0.9 : 0.25;
-    posterior.phases.push_back(p);
-    experiments::PhaseEvidence evidence;
-    evidence.left[index(Phase::held)] = 3.0;
-    posterior.evidence.push_back(evidence);
-    posterior.log_likelihood_error.push_back({.left = 3.0, .memory = -1.0});
-    for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-      posterior.contact[wheel].push_back(air ? 0 : 1);
-      posterior.p_contact[wheel].push_back(p[index(Phase::rolling)]);
-    }
-  }
-  return posterior;
 }
 
 /// The numbers of a data file, line by line, without comments; NaN for all other words.
@@ -125,7 +99,7 @@ TEST_F(DropFigures, DetailIsAsWideAsAScreenWithItsDataBesideIt) {
                                          {"One drop", "Run 0.", "Curves."}, folder_ / "detail");
   const cv::Mat image = cv::imread(figure.png.string());
   EXPECT_EQ(image.cols, 1280);
-  for (const char* text : {"One drop", "P(contact)", "knee torque", "torques 2 N·m", "Phase filter",
+  for (const char* text : {"One drop", "P(contact)", "knee torque", "torques 2 N·m", "Load filter",
                            "median frequency", "takeoff", "time since takeoff"}) {
     EXPECT_THAT(read_file(figure.svg), HasSubstr(text));
   }
@@ -204,51 +178,14 @@ TEST_F(DropFigures, DetailWithColumnsOfDifferentLengthsIsRefused) {
 
 TEST_F(DropFigures, PrintedInAColumnHaveTextsInsideThatDoNotTouch) {
   const FigureFile detail{folder_ / "detail", {88.0, false}};
-  const FigureFile posterior{folder_ / "posterior", {88.0, true}};
   experiments::DropDetail drops = staged_detail(2);
   for (auto& drop : drops.noisy) {
     drop.beliefs.insert(drop.beliefs.begin(), {"reference", "Bayes filter (reference)",
                                                std::vector<double>(drop_steps, 0.8)});
   }
   const FigureText text{"One drop", "Run 0.", "Curves."};
-  for (const Figure& figure :
-       {draw_drop_detail(drops, {"reference", "robust", "phase"}, text, detail),
-        draw_phase_posterior({staged_posterior("mujoco"), staged_posterior("bullet")}, text,
-                             posterior)}) {
-    expect_texts_inside_and_apart(figure.svg);
-  }
-}
-
-TEST_F(DropFigures, PosteriorShowsEveryPhaseOfBothEngines) {
-  const Figure figure =
-      draw_phase_posterior({staged_posterior("mujoco"), staged_posterior("bullet")},
-                           {"Posterior", "Run 0.", ""}, folder_ / "posterior");
-  EXPECT_EQ(cv::imread(figure.png.string()).cols, 1280);
-  for (const char* text : {"MuJoCo", "Bullet", "rolling", "unloading, 20–0 ms", "flight",
-                           "impact, 0–15 ms", "held", "left wheel only", "right wheel"}) {
-    EXPECT_THAT(read_file(figure.svg), HasSubstr(text));
-  }
-  const auto rows = numbers_in(folder_ / "posterior_2.dat");
-  ASSERT_EQ(rows.size(), drop_steps);
-  for (const auto& row : rows) {
-    ASSERT_EQ(row.size(), 1U + phase_count + 7U);
-    double sum = 0.0;
-    for (std::size_t phase = 0; phase < phase_count; ++phase) sum += row[1 + phase];
-    EXPECT_NEAR(sum, 1.0, 1e-12);
-  }
-  // On the ground, in the air, on the ground: for each wheel, then for the phase.
-  const auto truth = numbers_in(folder_ / "posterior_truth_1.dat");
-  ASSERT_EQ(truth.size(), 9U);
-  EXPECT_EQ(truth[1][0], 0.0);
-  EXPECT_EQ(truth[1][1], 30.0);
-  EXPECT_EQ(truth[0][4], truth[2][4]);
-  EXPECT_NE(truth[6][4], truth[7][4]);
-}
-
-TEST_F(DropFigures, PosteriorOfOneEngineIsAFigureToo) {
-  draw_phase_posterior({staged_posterior("bullet")}, {"Posterior", "", ""}, folder_ / "posterior");
-  EXPECT_THAT(read_file(folder_ / "posterior.svg"),
-              AllOf(HasSubstr("Bullet"), Not(HasSubstr("MuJoCo"))));
+  expect_texts_inside_and_apart(
+      draw_drop_detail(drops, {"reference", "robust", "load_filter"}, text, detail).svg);
 }
 
 }  // namespace

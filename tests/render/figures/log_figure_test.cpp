@@ -171,31 +171,5 @@ TEST(LogFigure, OfOneStepOrWithoutTransitionsOrTruthCanBeDrawn) {
   EXPECT_THROW(draw_log(LogTrace(), "", folder / "none"), InputError);
 }
 
-TEST(LogFigure, ShowsContributionsOfAdditiveModelsOnly) {
-  const ScratchFolder folder;
-  Evidence evidence;
-  evidence.contributions[1] = {-6.0, 0.5, -2.0, 0.25, 1.0, 3.0};
-  LogTrace trace;
-  for (std::size_t k = 0; k < 10; ++k) {
-    Signals signals;
-    signals.time = 0.001 * static_cast<double>(k);
-    trace.add(log_trace_step(signals, Belief(), evidence));
-  }
-  const std::string picture = read_file(draw_log(trace, "", folder / "right").svg);
-  EXPECT_THAT(picture, HasSubstr("right (nats)"));
-  EXPECT_EQ(picture.find("left (nats)"), std::string::npos);
-  for (const char* const name : contribution_names) EXPECT_THAT(picture, HasSubstr(name));
-  const std::vector<double> row = rows_of(trace.table()).front();
-  const std::size_t first = contact_at - 2 * contribution_names.size();
-  EXPECT_EQ(std::vector(row.begin() + static_cast<std::ptrdiff_t>(first),
-                        row.begin() + static_cast<std::ptrdiff_t>(contact_at)),
-            (std::vector{-6.0, -6.0, 0.5, 0.5, -2.0, -2.0, 0.25, 0.25, 1.0, 1.0, 3.0, 3.0}));
-
-  LogTrace without;
-  without.add(log_trace_step(Signals(), Belief(), Evidence()));
-  EXPECT_EQ(read_file(draw_log(without, "", folder / "none").svg).find("(nats)"),
-            std::string::npos);
-}
-
 }  // namespace
 }  // namespace touchdown::render

@@ -11,8 +11,8 @@ namespace touchdown::render {
 namespace {
 
 const std::vector<std::string> titles = {
-    "Touchdown, shipped",   "Bayes filter (robust)", "Phase filter", "Bayes filter (reference)",
-    "Bayes filter (paper)", "Measurement only",      "Free fall",    "Recurrent network"};
+    "Load filter",          "Bayes filter (robust)", "Upkie's observer", "Bayes filter (reference)",
+    "Bayes filter (paper)", "Measurement only",      "Free fall",        "Recurrent network"};
 
 /// A row with a constant curve of each of the first `curves` titles.
 StripRow row_of(const std::string& title, std::size_t curves) {

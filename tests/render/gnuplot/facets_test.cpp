@@ -44,19 +44,19 @@ std::vector<std::string> lines_with(const std::string& script, const std::string
 constexpr const char* survival =
     "engine,source,height,share,low,high,speed\n"
     "m,truth,0.7,0.9,0.8,1,0.2\n"
-    "m,phase,0.7,0.5,0.4,0.6,nan\n"
+    "m,loads,0.7,0.5,0.4,0.6,nan\n"
     "m,truth,0.5,1,0.9,1,0.1\n"
-    "m,phase,0.5,0.7,0.6,0.8,nan\n"
+    "m,loads,0.5,0.7,0.6,0.8,nan\n"
     "b,truth,0.5,0.8,0.7,0.9,0.3\n"
-    "b,phase,0.5,0.6,0.5,0.7,0.4\n"
-    "b,phase,0.7,nan,nan,nan,0.5\n"
-    "b,phase,0.9,0.2,0.1,0.3,0.6\n"
+    "b,loads,0.5,0.6,0.5,0.7,0.4\n"
+    "b,loads,0.7,nan,nan,nan,0.5\n"
+    "b,loads,0.9,0.2,0.1,0.3,0.6\n"
     "b,other,0.9,0.2,0.1,0.3,0.6\n";
 
 FigureSpec survival_spec() {
   FigureSpec spec;
   spec.panels = {{"engine"}, {{{"b"}, "Bullet"}, {{"m"}, "MuJoCo"}}};
-  spec.series = {{"source"}, {{{"truth"}, "Truth"}, {{"phase"}, "Phase filter"}}};
+  spec.series = {{"source"}, {{{"truth"}, "Truth"}, {{"loads"}, "Load filter"}}};
   spec.x = {.column = "height", .title = "height of a step", .unit = "m"};
   spec.measures = {{.column = "share", .title = "share", .low = "low", .high = "high"}};
   spec.title = "Survival";
@@ -97,7 +97,7 @@ TEST_F(Facets, DrawAPanelPerGroupAndACurvePerSeries) {
   EXPECT_EQ(count(text, "set title 'MuJoCo'"), 1);
   EXPECT_LT(text.find("set title 'Bullet'"), text.find("set title 'MuJoCo'"));
   EXPECT_THAT(text, HasSubstr("set xlabel 'height of a step (m)'"));
-  EXPECT_THAT(text, HasSubstr("strcol('source') eq 'phase'"));
+  EXPECT_THAT(text, HasSubstr("strcol('source') eq 'loads'"));
 }
 
 TEST_F(Facets, HaveAPanelPerMeasureAndGroup) {
@@ -123,7 +123,7 @@ TEST_F(Facets, KeepTheDrawnRowsOfTheTableBesideThemByCurveAndX) {
               ElementsAre("engine", "source", "height", "share", "low", "high", "speed"));
   EXPECT_THAT(column("engine"), ElementsAre("b", "b", "b", "b", "m", "m", "m", "m"));
   EXPECT_THAT(column("source"),
-              ElementsAre("truth", "phase", "phase", "phase", "truth", "truth", "phase", "phase"));
+              ElementsAre("truth", "loads", "loads", "loads", "truth", "truth", "loads", "loads"));
   EXPECT_THAT(column("height"),
               ElementsAre("0.5", "0.5", "0.7", "0.9", "0.5", "0.7", "0.5", "0.7"));
   EXPECT_EQ(column("share")[2], "nan");  // a gap in the curve
@@ -139,7 +139,7 @@ TEST_F(Facets, DrawOnlyTheRowsThatPassTheFilter) {
 
 TEST_F(Facets, LeaveOutMeasuresWithoutValues) {
   FigureSpec spec = survival_spec();
-  spec.where = {{"source", "phase"}, {"engine", "m"}};
+  spec.where = {{"source", "loads"}, {"engine", "m"}};
   spec.measures.push_back({.column = "speed", .title = "speed"});
   EXPECT_THAT(script(spec, survival), Not(HasSubstr("speed')")));
 }
@@ -213,7 +213,7 @@ TEST_F(Facets, ListRowsBesideHorizontalMeasures) {
   const std::string text = script(spec, survival);
   EXPECT_EQ(count(text, "\nplot "), 1);
   EXPECT_EQ(count(text, "with xerrorbars"), 2);
-  EXPECT_THAT(text, HasSubstr("'Truth' 1, 'Phase filter' 0"));  // the first above
+  EXPECT_THAT(text, HasSubstr("'Truth' 1, 'Load filter' 0"));  // the first above
   EXPECT_THAT(text, HasSubstr("set xlabel 'share'"));
 }
 
@@ -225,11 +225,11 @@ TEST_F(Facets, SpaceOrdinalValuesEquallyInEachPanel) {
   EXPECT_THAT(text, HasSubstr("set xtics ('0.5' 0, '0.7' 1)"));           // MuJoCo
 }
 
-/// A Pareto front and the estimator's own point, as in operating_points.csv.
+/// A Pareto front and the estimator's own point.
 TEST_F(Facets, DrawMarksByTheirConditionsAndTransformedValues) {
   FigureSpec spec;
-  spec.series = {{"estimator"}, {{{"robust"}, "Robust"}, {{"phase"}, "Phase filter"}}};
-  spec.colour_order = {"paper", "robust", "phase"};
+  spec.series = {{"estimator"}, {{{"robust"}, "Robust"}, {{"loads"}, "Load filter"}}};
+  spec.colour_order = {"paper", "robust", "loads"};
   spec.x = {.column = "switches", .title = "switches", .scale = AxisScale::log, .floor = 0.3};
   spec.measures = {{.column = "accuracy",
                     .title = "error",
@@ -244,8 +244,8 @@ TEST_F(Facets, DrawMarksByTheirConditionsAndTransformedValues) {
                                   "robust,0.5,0.98,7,1\n"
                                   "robust,0.4,0.96,9,0\n"
                                   "robust,0.1,0.95,0,1\n"
-                                  "phase,,0.99,2,0\n"
-                                  "phase,0.5,0.992,3,1\n");
+                                  "loads,,0.99,2,0\n"
+                                  "loads,0.5,0.992,3,1\n");
   EXPECT_EQ(count(text, "with linespoints lt 2 lw [0-9.]+ notitle"), 1);
   EXPECT_EQ(count(text, "with points lt 2 pt 6 ps 1.6 lw 2 notitle"), 1);
   EXPECT_EQ(count(text, "with linespoints lt 3 lw [0-9.]+ notitle"), 1);

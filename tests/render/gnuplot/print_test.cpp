@@ -19,7 +19,7 @@
 namespace touchdown::render {
 namespace {
 
-constexpr const char* long_name = "Evidence curves (additive), quiet";
+constexpr const char* long_name = "Bayes filter (measurement alone)";
 
 Figure print_map(const FigureFile& file, std::size_t levels, std::size_t panels) {
   Heatmap map{.title = "Success rate",

@@ -155,8 +155,8 @@ TEST_F(Report, RanksNoEstimatorAheadOfAnEqualOne) {
   const auto text = [&](double first, double second, double third, double low) {
     experiments::write_summary(
         {{},
-         {cell("robust", 1, 5, {first, low, first}), cell("phase", 1, 5, {second, low, second}),
-          cell("hmm", 1, 5, {third, low, third})},
+         {cell("robust", 1, 5, {first, low, first}), cell("paper", 1, 5, {second, low, second}),
+          cell("load_filter", 1, 5, {third, low, third})},
          {},
          {}},
         folder_.path());
@@ -166,12 +166,12 @@ TEST_F(Report, RanksNoEstimatorAheadOfAnEqualOne) {
   };
   EXPECT_THAT(
       text(1.0, 1.0, 0.9, 0.8),
-      HasSubstr("Bayes filter (robust), fitted to these scenes, and Phase filter, fitted to "
-                "these scenes, share the highest success rate, 100.00\u00a0%, ahead of "
-                "Two-state HMM (90.00\u00a0%). "));
+      HasSubstr("Bayes filter (robust), fitted to these scenes, and Bayes filter (paper), fitted "
+                "to these scenes, share the highest success rate, 100.00\u00a0%, ahead of "
+                "Load filter (90.00\u00a0%). "));
   EXPECT_THAT(text(0.99, 0.99, 0.99, 0.8), Not(HasSubstr("ahead of")));
   EXPECT_THAT(text(0.99, 0.98, 0.97, NAN),
-              AllOf(HasSubstr("has the highest success rate, 99.00\u00a0%, ahead of Phase filter"),
+              AllOf(HasSubstr("has the highest success rate, 99.00\u00a0%, ahead of Bayes filter"),
                     Not(HasSubstr("–"))));
 }
 

@@ -51,23 +51,21 @@ class BenchmarkPage : public ::testing::Test {
                   "robot,sensors,torque_noise_nm,accelerometer_noise_mps2,estimator,"
                   "mean_balanced_accuracy,mean_balanced_accuracy_low,mean_balanced_accuracy_high,"
                   "worst_balanced_accuracy,worst_scene,worst_simulator,is_not_significantly_worse,"
-                  "log_loss_bits,excess_log_loss_bits\n"
-                  "upkie,harsh,0,0,boosted_channels,0.91,0.9,0.92,0.8,<i>hop,mujoco,0,0.1,0\n"
-                  "upkie,harsh,0,0,boosted_signals,0.92,0.9,0.93,0.8,<i>hop,mujoco,0,0.11,0.01\n"
-                  "upkie,harsh,0,0,robust,0.845,0.83,0.85,0.7,<i>hop,mujoco,1,0.125,0.025\n"
-                  "upkie,harsh,0,0,phase,0.84,0.83,0.85,0.7,<i>hop,mujoco,1\n"
+                  "log_loss_bits\n"
+                  "upkie,harsh,0,0,robust,0.845,0.83,0.85,0.7,<i>hop,mujoco,1,0.125\n"
+                  "upkie,harsh,0,0,load_filter,0.84,0.83,0.85,0.7,<i>hop,mujoco,1\n"
                   "upkie,harsh,0,0,paper,0.83,0.82,0.84,0.7,<i>hop,mujoco,0\n"
                   "upkie,harsh,0,0,free_fall,0.5,0.4,0.6,0.5,stairs,mujoco,0\n");
     folder_.write("tables/benchmark_differences.csv",
                   "robot,sensors,torque_noise_nm,accelerometer_noise_mps2,scene,first,second,"
                   "difference,difference_low,difference_high\n"
-                  "upkie,harsh,0,0,,robust,phase,0.005,-0.01,0.02\n"
+                  "upkie,harsh,0,0,,robust,load_filter,0.005,-0.01,0.02\n"
                   "upkie,harsh,0,0,,robust,paper,0.015,0.001,0.03\n"
                   "upkie,harsh,0,0,,robust,free_fall,0.345,0.3,0.4\n"
-                  "upkie,harsh,0,0,,phase,paper,0.01,-0.005,0.025\n"
-                  "upkie,harsh,0,0,,phase,free_fall,0.34,0.3,0.4\n"
+                  "upkie,harsh,0,0,,load_filter,paper,0.01,-0.005,0.025\n"
+                  "upkie,harsh,0,0,,load_filter,free_fall,0.34,0.3,0.4\n"
                   "upkie,harsh,0,0,,paper,free_fall,0.33,0.3,0.4\n"
-                  "upkie,harsh,0,0,stairs,phase,paper,0.5,0.4,0.6\n");
+                  "upkie,harsh,0,0,stairs,load_filter,paper,0.5,0.4,0.6\n");
   }
   std::string page() const { return read_file(write_benchmark_page(read_subject(folder_.path()))); }
 
@@ -122,23 +120,6 @@ TEST_F(BenchmarkPage, DrawsMeansWithoutIntervalsToo) {
   EXPECT_EQ(points("with"), 2U * 4U);  // the mean and the worst scene of four
   for (std::vector<Cell>& cells : tables.standings.rows) cells[6] = cells[7] = NAN;
   EXPECT_EQ(points("without"), 2U * 4U);
-}
-
-TEST_F(BenchmarkPage, DrawsReferenceUpperBoundsAsLinesWithTheirNames) {
-  draw_standings_figures(folder_.path(), 0.95);
-  EXPECT_THAT(read_file(folder_ / "figures/benchmark_upkie_harsh.gp"),
-              AllOf(HasSubstr("set arrow 1 from 0.91,graph 0 to 0.91,graph 1 nohead dt 2"),
-                    HasSubstr("set arrow 2 from 0.92,graph 0 to 0.92,graph 1 nohead dt 3"),
-                    HasSubstr("Reference upper bounds: dashed, Boosted trees, own channels; "
-                              "dotted, Boosted trees, all signals."),
-                    Not(HasSubstr("'Boosted trees"))));
-  EXPECT_THAT(
-      page(),
-      AllOf(HasSubstr("Its log loss exceeds that of the best reference upper bound by 0.025 "
-                      "bits per wheel and step"),
-            HasSubstr("reference upper bound, Boosted trees, own channels, 0.910; reference "
-                      "upper bound, Boosted trees, all signals, 0.920; Bayes filter (robust) "
-                      "0.845")));
 }
 
 TEST_F(BenchmarkPage, ShowsTheFilmOfTheWorstSegmentIfThereIsOne) {
