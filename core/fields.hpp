@@ -78,10 +78,10 @@ std::string range_text(double low, double high);
 /// the struct names each key once, with its member, its range, its unit and its meaning:
 ///
 ///     void describe(Fields& fields, LabelConfig& labels) {
-///       fields("force_threshold", labels.force_threshold, 0.0, 1e4)
-///           .doc("N", "A wheel is in contact above this normal force.");
-///       fields("debounce", labels.debounce, 0.0, 10.0)
-///           .doc("s", "Shorter states are merged into their neighbours.");
+///       fields("share", labels.share, 0.0, 1.0)
+///           .doc("A wheel is in contact above this share of the robot's weight.");
+///       fields("window", labels.window, 0.0, 1.0)
+///           .doc("s", "The normal force is averaged over this time around each step.");
 ///     }
 ///
 /// The same description reads and writes the struct, in the order of its lines. Reading is strict:

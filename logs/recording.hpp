@@ -36,6 +36,7 @@ struct RecordingInfo {
   std::string scenario_yaml;
   std::string robot_digest = {};  ///< of that scenario's robot, as `scenarios::robot_digest`
   std::string robot = {};         ///< name of the robot of a robot's log, if the log states it
+  double robot_mass = 0.0;        ///< of the simulated robot with what it carries (kg)
 };
 
 /// One run, stored by columns. Row k is the observation at time k·period and the action for it.

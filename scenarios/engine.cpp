@@ -82,23 +82,24 @@ std::unique_ptr<simulators::Simulator> make_simulator(
   return simulators::make_simulator(name, scene, scenario.simulation);
 }
 
-logs::RecordingInfo recording_info(const Scenario& scenario, std::string_view simulator,
+logs::RecordingInfo recording_info(const Scenario& scenario, const simulators::Simulator& simulator,
                                    std::uint64_t seed, std::int64_t run) {
   return {.scenario = scenario.name,
-          .simulator = std::string(simulator),
+          .simulator = std::string(simulator.name()),
           .seed = seed,
           .run = run,
           .control_period_us = scenario.simulation.steps.control_us,
           .outcome = std::nullopt,
           .scenario_yaml = to_yaml(scenario),
-          .robot_digest = robot_digest(scenario)};
+          .robot_digest = robot_digest(scenario),
+          .robot_mass = mj_getTotalmass(simulator.model().mj.get())};
 }
 
 logs::Recording play(const Scenario& scenario, simulators::Simulator& simulator, std::uint64_t seed,
                      std::int64_t run, const ContinueSimulation& progress,
                      policies::WheelContact contact_source) {
   logs::Recording recording;
-  recording.info = recording_info(scenario, simulator.name(), seed, run);
+  recording.info = recording_info(scenario, simulator, seed, run);
   const auto most_steps =
       static_cast<std::size_t>(scenario.end.duration / simulator.control_period()) + 2;
   recording.observation.reserve(most_steps);

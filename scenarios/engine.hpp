@@ -50,8 +50,8 @@ std::unique_ptr<simulators::Simulator> make_simulator(
     const Scenario& scenario, std::string_view name,
     const std::shared_ptr<const models::RobotModel>& scene);
 
-/// A recording's description of its run.
-logs::RecordingInfo recording_info(const Scenario& scenario, std::string_view simulator,
+/// A recording's description of a run that `simulator` plays.
+logs::RecordingInfo recording_info(const Scenario& scenario, const simulators::Simulator& simulator,
                                    std::uint64_t seed, std::int64_t run);
 
 /// Simulates `scenario` as it is, without random draws, and records every control step. Falling,

@@ -33,7 +33,7 @@ policies::WheelContact contact_from(std::shared_ptr<ContactEstimator> estimator)
 }
 
 policies::WheelContact contact_from_truth(const simulators::Simulator& simulator) {
-  constexpr double threshold = 1.0;  // N, the labels' default
+  constexpr double threshold = 1.0;  // N, that of Upkie's labels
   return [&simulator](const models::Observation& observation, const models::Action* /*previous*/) {
     if (observation.time <= 0.0) return WheelContacts{true, true};  // no force has acted yet
     const auto& force = simulator.ground_truth().wheel_normal_force;

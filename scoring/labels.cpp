@@ -2,34 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/fields.hpp"
+#include "estimator/force/leg_geometry.hpp"
 
 namespace touchdown::scoring {
 
 namespace {
-
-/// A maximal interval of steps [begin, end) in one state.
-struct StateInterval {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-  std::uint8_t state = 0;
-
-  std::size_t length() const { return end - begin; }
-};
-
-std::vector<StateInterval> state_intervals(const ContactSequence& contact) {
-  std::vector<StateInterval> result;
-  for (std::size_t k = 0; k < contact.size(); ++k) {
-    if (k == 0 || contact[k] != contact[k - 1]) result.push_back({k, k, contact[k]});
-    result.back().end = k + 1;
-  }
-  return result;
-}
 
 ContactSequence combined(const std::array<ContactSequence, models::wheel_count>& wheels,
                          const std::function<bool(bool, bool)>& rule) {
@@ -51,34 +35,25 @@ void describe(Fields& fields, Annotator& annotator) {
 }
 
 void describe(Fields& fields, LabelConfig& labels) {
-  fields("force_threshold", labels.force_threshold, 0.0, 1e4)
-      .doc("N", "A wheel is in contact above this normal force.");
-  fields("debounce", labels.debounce, 0.0, 10.0)
-      .doc("s", "Shorter states are merged into their neighbours.");
+  for (const char* former : {"force_threshold", "debounce"}) {
+    fields.check(!fields.present(former, false), former,
+                 "expected 'share' of the weight and 'window' of the mean force, which replace it");
+  }
+  fields("share", labels.share, 0.0, 1.0)
+      .doc("A wheel is in contact above this share of the robot's weight.");
+  fields("window", labels.window, 0.0, 1.0)
+      .doc("s", "The normal force is averaged over this time around each step.");
   fields.section("annotator", labels.annotator)
       .doc("Timing errors of a person who labels contact in a film.");
 }
 
-ContactSequence debounced(ContactSequence contact, std::size_t steps) {
-  std::vector<StateInterval> parts = state_intervals(contact);
-  while (parts.size() > 1) {
-    const auto shortest = std::ranges::min_element(parts, {}, &StateInterval::length);
-    if (shortest->length() >= steps) break;
-    const bool has_left = shortest != parts.begin();
-    const bool has_right = shortest + 1 != parts.end();
-    StateInterval merged = *shortest;
-    merged.state = shortest->state == 0 ? 1 : 0;
-    if (has_left) merged.begin = (shortest - 1)->begin;
-    if (has_right) merged.end = (shortest + 1)->end;
-    const auto first = has_left ? shortest - 1 : shortest;
-    *first = merged;
-    parts.erase(first + 1, has_right ? shortest + 2 : shortest + 1);
-  }
-  for (const StateInterval& part : parts) {
-    std::fill(contact.begin() + static_cast<std::ptrdiff_t>(part.begin),
-              contact.begin() + static_cast<std::ptrdiff_t>(part.end), part.state);
-  }
-  return contact;
+double force_threshold(const LabelConfig& config, double robot_mass) {
+  constexpr double gravity = 9.81;
+  return config.share * robot_mass * gravity;
+}
+
+double robot_mass(const logs::RecordingInfo& info) {
+  return info.robot_mass > 0.0 ? info.robot_mass : LegGeometry{}.robot_mass;
 }
 
 ContactSequence annotated(const ContactSequence& contact, double period,
@@ -108,12 +83,13 @@ ContactSequence annotated(const ContactSequence& contact, double period,
 }
 
 ContactSequence contact_labels(std::span<const double> normal_force, double period,
-                               const LabelConfig& config) {
-  ContactSequence contact(normal_force.size());
-  std::transform(normal_force.begin(), normal_force.end(), contact.begin(),
-                 [&](double force) { return std::uint8_t{force > config.force_threshold}; });
-  contact = debounced(std::move(contact),
-                      static_cast<std::size_t>(std::llround(config.debounce / period)));
+                               double robot_mass, const LabelConfig& config) {
+  ContactSequence contact;
+  contact.reserve(normal_force.size());
+  LabelStream stream(period, robot_mass, {config.share, config.window},
+                     [&](std::uint8_t label) { contact.push_back(label); });
+  for (const double force : normal_force) stream.add(force);
+  stream.finish();
   return config.annotator ? annotated(contact, period, *config.annotator) : contact;
 }
 
@@ -129,17 +105,20 @@ std::array<ContactSequence, models::wheel_count> contact_labels(const logs::Reco
     std::transform(
         recording.truth.begin(), recording.truth.end(), force.begin(),
         [&](const models::GroundTruth& truth) { return truth.wheel_normal_force[wheel]; });
-    labels[wheel] = contact_labels(force, recording.period(), config);
+    labels[wheel] = contact_labels(force, recording.period(), robot_mass(recording.info), config);
   }
   return labels;
 }
 
 std::vector<Flight> flights(const ContactSequence& contact, std::size_t shortest) {
   std::vector<Flight> result;
-  for (const StateInterval& part : state_intervals(contact)) {
-    const bool is_flight = part.state == 0 && part.end - part.begin >= shortest;
-    if (is_flight) result.push_back({part.begin, part.end});
+  for (std::size_t k = 0; k < contact.size(); ++k) {
+    if (contact[k] != 0) continue;
+    if (k == 0 || contact[k - 1] != 0) result.push_back({k, k});
+    result.back().landing = k + 1;
   }
+  std::erase_if(result,
+                [&](const Flight& flight) { return flight.landing - flight.takeoff < shortest; });
   return result;
 }
 
@@ -168,38 +147,51 @@ std::vector<std::size_t> drop_segments(const ContactSequence& both_wheels_in_con
   return starts;
 }
 
-LabelStream::LabelStream(double period, const LabelConfig& config, Sink sink)
-    : steps_(static_cast<std::size_t>(std::max(std::llround(config.debounce / period), 1LL))),
-      longest_chatter_(steps_ + static_cast<std::size_t>(std::llround(60.0 / period))),
-      threshold_(config.force_threshold),
+LabelStream::LabelStream(double period, double robot_mass, const LabelConfig& config, Sink sink)
+    : half_window_(static_cast<std::size_t>(0.5 * config.window / period + 1e-9)),
+      threshold_(force_threshold(config, robot_mass)),
       sink_(std::move(sink)) {
   if (config.annotator) throw InputError("labels: expected no annotator for a stream of forces");
 }
 
 void LabelStream::add(double normal_force) {
-  const std::uint8_t contact{normal_force > threshold_};
-  duration_ = !pending_.empty() && pending_.back() == contact ? duration_ + 1 : 1;
-  if (duration_ > steps_) {  // the state is settled, and no step waits for its label
-    sink_(contact);
-    return;
-  }
-  pending_.push_back(contact);
-  if (duration_ >= steps_ || pending_.size() > longest_chatter_) label_settled();
+  force_.push_back(std::isnan(normal_force) ? 0.0 : normal_force);
+  if (force_.size() > next_ + half_window_) label_next();
 }
 
 void LabelStream::finish() {
-  label_settled();
-  pending_.clear();
-  labelled_ = duration_ = 0;
+  while (next_ < force_.size()) label_next();
+  label_waiting(1);
+  force_.clear();
+  next_ = 0;
+  last_ = 1;
 }
 
-void LabelStream::label_settled() {
-  const ContactSequence labels = debounced(pending_, steps_);
-  for (std::size_t k = labelled_; k < labels.size(); ++k) sink_(labels[k]);
-  // Keep as much of the last interval as it needs to keep its state.
-  const std::size_t kept = std::min(labels.size(), steps_);
-  pending_.assign(labels.end() - static_cast<std::ptrdiff_t>(kept), labels.end());
-  labelled_ = kept;
+void LabelStream::label_next() {
+  // Summed anew at every step: a running sum would round, and forces may be infinite.
+  const double mean =
+      std::accumulate(force_.begin(), force_.end(), 0.0) / static_cast<double>(force_.size());
+  const bool has_force = force_[next_] > threshold_;
+  if (next_ < half_window_) {
+    ++next_;
+  } else {
+    force_.pop_front();
+  }
+  if (mean <= threshold_) {
+    label_waiting(0);
+    sink_(last_ = 0);
+  } else if (has_force) {
+    label_waiting(1);
+    sink_(last_ = 1);
+  } else if (last_ == 0) {
+    sink_(0);  // the mean rises before the landing
+  } else {
+    ++waiting_;  // the mean may fall after the takeoff
+  }
+}
+
+void LabelStream::label_waiting(std::uint8_t contact) {
+  for (; waiting_ > 0; --waiting_) sink_(contact);
 }
 
 }  // namespace touchdown::scoring

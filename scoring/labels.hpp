@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <span>
@@ -27,10 +28,10 @@ struct Annotator {
   double landing_delay = 0.0;  ///< the same of landings (s)
 };
 
-/// When a wheel counts as being in contact.
+/// When a wheel counts as being in contact: docs/reference/metrics.md, "Labels".
 struct LabelConfig {
-  double force_threshold = 1.0;  ///< in contact above this normal force (N)
-  double debounce = 0.005;       ///< shorter states are merged into their neighbours (s)
+  double share = 0.019;   ///< of the robot's weight; in contact above this mean normal force
+  double window = 0.010;  ///< of the mean, centred at the step (s)
   std::optional<Annotator> annotator = {};
 };
 
@@ -46,9 +47,12 @@ struct Flight {
   friend bool operator==(const Flight&, const Flight&) = default;
 };
 
-/// Merges every state that lasts fewer than `steps` steps into its neighbours, the shortest first
-/// (the earlier of two equals), until none is left or only one state remains.
-ContactSequence debounced(ContactSequence contact, std::size_t steps);
+/// The normal force above which a wheel is in contact (N), for a robot of this mass (kg).
+double force_threshold(const LabelConfig& config, double robot_mass);
+
+/// The mass of a recording's robot (kg), which its labels need; Upkie's if the recording does not
+/// state it.
+double robot_mass(const logs::RecordingInfo& info);
 
 /// The annotator's labels of true contact, one state per step of `period` seconds. Flights last
 /// from their delayed takeoff to their delayed landing; one that would land before it takes off is
@@ -56,9 +60,10 @@ ContactSequence debounced(ContactSequence contact, std::size_t steps);
 ContactSequence annotated(const ContactSequence& contact, double period,
                           const Annotator& annotator);
 
-/// Contact of one wheel from its normal force (N, one per step of `period` seconds).
+/// Contact of one wheel from its normal force (N, one per step of `period` seconds). `robot_mass`
+/// is that of the whole robot (kg).
 ContactSequence contact_labels(std::span<const double> normal_force, double period,
-                               const LabelConfig& config);
+                               double robot_mass, const LabelConfig& config);
 
 /// Contact of both wheels (left, right) from a simulated run's ground truth.
 /// Errors: `InputError` when the recording has no ground truth.
@@ -79,34 +84,34 @@ ContactSequence both_wheels(const std::array<ContactSequence, models::wheel_coun
 std::vector<std::size_t> drop_segments(const ContactSequence& both_wheels_in_contact,
                                        std::size_t hold_off);
 
-/// `contact_labels` of one wheel for forces that arrive one by one. The labels are the same. Each
-/// comes as soon as no later force can change it, and the memory does not grow with the run. An
-/// interval as long as the debounce keeps its state, so the steps between two of them are labelled
-/// with the second. (Chatter of more than a minute is labelled in parts.)
+/// `contact_labels` of one wheel for forces that arrive one by one. Each label comes at most two
+/// windows late, so the memory does not grow with the run.
 class LabelStream {
  public:
   using Sink = std::function<void(std::uint8_t contact)>;
 
-  /// `period` in seconds; `sink` gets one label per force, in order.
+  /// `period` in seconds, `robot_mass` in kg; `sink` gets one label per force, in order.
   /// Errors: `InputError` if `config` has an annotator, who needs the whole run.
-  LabelStream(double period, const LabelConfig& config, Sink sink);
+  LabelStream(double period, double robot_mass, const LabelConfig& config, Sink sink);
 
-  /// Normal force of the next step (N).
+  /// Normal force of the next step (N). NaN counts as none.
   void add(double normal_force);
   /// Ends the run: labels the remaining steps.
   void finish();
 
  private:
-  void label_settled();
+  void label_next();
+  void label_waiting(std::uint8_t contact);
 
-  std::size_t steps_;
-  std::size_t longest_chatter_;
+  std::size_t half_window_;  ///< steps on both sides of the one that is labelled
   double threshold_;
   Sink sink_;
-  ContactSequence
-      pending_;  ///< labelled steps that still affect later labels, then unlabelled ones
-  std::size_t labelled_ = 0;  ///< labelled steps at the beginning of `pending_`
-  std::size_t duration_ = 0;  ///< duration of the last state (steps)
+  std::deque<double> force_;  ///< of the steps in the window of the next label
+  std::size_t next_ = 0;      ///< index of that step in `force_`
+  /// Steps without force between two with it: they are a landing or takeoff if the mean says so
+  /// next to them, else chatter.
+  std::size_t waiting_ = 0;
+  std::uint8_t last_ = 1;  ///< label before the waiting steps
 };
 
 }  // namespace touchdown::scoring

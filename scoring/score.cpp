@@ -136,13 +136,13 @@ std::vector<RobotScore> score(const std::array<ContactSequence, models::wheel_co
   return result;
 }
 
-ScoreStream::ScoreStream(std::int64_t period_us, const LabelConfig& labels,
+ScoreStream::ScoreStream(std::int64_t period_us, const LabelConfig& labels, double robot_mass,
                          const ScoringConfig& scoring)
     : period_us_(period_us),
       scoring_(scoring),
-      labels_{LabelStream(1e-6 * static_cast<double>(period_us), labels,
+      labels_{LabelStream(1e-6 * static_cast<double>(period_us), robot_mass, labels,
                           [this](std::uint8_t contact) { truth_[0].push_back(contact); }),
-              LabelStream(1e-6 * static_cast<double>(period_us), labels,
+              LabelStream(1e-6 * static_cast<double>(period_us), robot_mass, labels,
                           [this](std::uint8_t contact) { truth_[1].push_back(contact); })} {
   const auto steps = [period_us](double seconds) {
     return static_cast<std::size_t>(std::ceil(1e6 * seconds / static_cast<double>(period_us)));

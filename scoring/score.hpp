@@ -160,7 +160,9 @@ std::vector<RobotScore> score(const std::array<ContactSequence, models::wheel_co
 /// its end is not counted.)
 class ScoreStream {
  public:
-  ScoreStream(std::int64_t period_us, const LabelConfig& labels, const ScoringConfig& scoring);
+  /// `robot_mass` in kg, for the labels.
+  ScoreStream(std::int64_t period_us, const LabelConfig& labels, double robot_mass,
+              const ScoringConfig& scoring);
 
   /// Adds one step: normal force on both wheels (N) and the belief.
   void add(const std::array<double, models::wheel_count>& normal_force, const Belief& belief);

@@ -54,10 +54,11 @@ class BeliefWriter {
     if (streams.mcap != nullptr) bag_.emplace(*streams.mcap);
   }
 
-  /// Call it before the first step, once the log's rate is known.
-  void begin(const experiments::LogSteps& log, bool labelled) {
+  /// Call it before the first step, once the log's rate and robot are known.
+  void begin(const experiments::LogSteps& log, double robot_mass, bool labelled) {
+    threshold_ = scoring::force_threshold(labels_, robot_mass);
     summary_.emplace(log.period(), scoring::ScoringConfig{});
-    score_.emplace(log.period_us(), labels_, scoring::ScoringConfig{}, labelled);
+    score_.emplace(log.period_us(), labels_, robot_mass, scoring::ScoringConfig{}, labelled);
   }
 
   /// Adds one step of `reader` and the estimator's belief after it.
@@ -101,13 +102,14 @@ class BeliefWriter {
   void draw(const experiments::LogStep& step, const Belief& belief, const Evidence& evidence) {
     render::LogTraceStep drawn = render::log_trace_step(step.signals, belief, evidence);
     if (step.normal_force) {
-      drawn.true_contact = {(*step.normal_force)[0] > labels_.force_threshold,
-                            (*step.normal_force)[1] > labels_.force_threshold};
+      drawn.true_contact = {(*step.normal_force)[0] > threshold_,
+                            (*step.normal_force)[1] > threshold_};
     }
     trace_.add(drawn);
   }
 
   scoring::LabelConfig labels_;
+  double threshold_ = 0.0;  ///< N
   std::optional<experiments::BeliefCsv> csv_;
   std::optional<experiments::BeliefBag> bag_;
   std::optional<logs::LogAnnotator> annotator_;
@@ -163,7 +165,8 @@ Evaluation evaluate(logs::LogReader& reader, const experiments::LogEstimator& ch
   experiments::LogSteps log(reader, labels,
                             experiments::checked_robot(chosen.request.robot, reader.info()));
   const std::unique_ptr<ContactEstimator> estimator = chosen.make(log.sample_rate(), reader.info());
-  writer.begin(log, labels != nullptr);
+  writer.begin(log, experiments::robot_mass(chosen.request.robot, reader.info()),
+               labels != nullptr);
   try {
     while (const experiments::LogStep* step = log.next()) {
       writer.add(reader, *step, *estimator, estimator->update(step->signals));

@@ -140,13 +140,13 @@ void add_fit_flags(Verb& verb, FitFlags& flags) {
               "Time at the beginning of each log that is not used (s)")
       .between(0.0, 1e5)
       .shows_default();
-  verb.option("--force-threshold", &flags.config.labels.force_threshold,
-              "Ground truth: a wheel is in contact above this normal force (N)")
-      .between(0.0, 1e4)
+  verb.option("--label-share", &flags.config.labels.share,
+              "Ground truth: a wheel is in contact above this share of the robot's weight")
+      .between(0.0, 1.0)
       .shows_default();
-  verb.option("--debounce", &flags.config.labels.debounce,
-              "Ground truth: shorter states are merged into their neighbours (s)")
-      .between(0.0, 10.0)
+  verb.option("--label-window", &flags.config.labels.window,
+              "Ground truth: the normal force is averaged over this time around each step (s)")
+      .between(0.0, 1.0)
       .shows_default();
   verb.option("--grid", &flags.grid, "Grid points along knee and wheel torque (200 200)")
       .takes(2)

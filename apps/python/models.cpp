@@ -95,10 +95,10 @@ void add_models(py::module_& module) {
   module.def(
       "fit",
       [](const std::vector<DeclaredRun>& runs, const std::string& estimator, double skip,
-         double force_threshold, double debounce) {
-        return fit(runs, estimator, skip, {force_threshold, debounce});
+         double label_share, double label_window) {
+        return fit(runs, estimator, skip, {label_share, label_window});
       },
-      "runs"_a, "estimator"_a, "skip"_a, "force_threshold"_a, "debounce"_a);
+      "runs"_a, "estimator"_a, "skip"_a, "label_share"_a, "label_window"_a);
 }
 
 }  // namespace touchdown::python

@@ -285,6 +285,7 @@ py::dict dict_of(const logs::RecordingInfo& info) {
   dict["outcome"] = info.outcome ? py::cast(logs::to_text(*info.outcome)) : py::none();
   dict["scenario_yaml"] = info.scenario_yaml;
   dict["robot_digest"] = info.robot_digest;
+  dict["robot_mass"] = info.robot_mass;
   return dict;
 }
 
@@ -300,6 +301,7 @@ logs::RecordingInfo info_of(const py::dict& dict) {
   }
   info.scenario_yaml = dict["scenario_yaml"].cast<std::string>();
   if (dict.contains("robot_digest")) info.robot_digest = dict["robot_digest"].cast<std::string>();
+  if (dict.contains("robot_mass")) info.robot_mass = dict["robot_mass"].cast<double>();
   return info;
 }
 

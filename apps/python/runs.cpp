@@ -66,7 +66,7 @@ void save(const py::object& arrays, const py::dict& info, const fs::path& path) 
   logs::write_recording(recording, path);
 }
 
-py::array_t<bool> labels_of(const py::object& normal_force, double period,
+py::array_t<bool> labels_of(const py::object& normal_force, double period, double robot_mass,
                             const scoring::LabelConfig& config) {
   py::dict arrays;
   arrays["normal_force"] = normal_force;
@@ -76,7 +76,7 @@ py::array_t<bool> labels_of(const py::object& normal_force, double period,
   for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
     std::vector<double> of_wheel(force.steps());
     for (std::size_t k = 0; k < of_wheel.size(); ++k) of_wheel[k] = force(k, wheel);
-    labels[wheel] = scoring::contact_labels(of_wheel, period, config);
+    labels[wheel] = scoring::contact_labels(of_wheel, period, robot_mass, config);
   }
   return array_of(labels);
 }
@@ -147,10 +147,10 @@ void add_runs(py::module_& module) {
   module.def("simulators", [] { return simulators::simulator_names(); });
   module.def(
       "contact_labels",
-      [](const py::object& force, double period, double force_threshold, double debounce) {
-        return labels_of(force, period, {force_threshold, debounce});
+      [](const py::object& force, double period, double robot_mass, double share, double window) {
+        return labels_of(force, period, robot_mass, {share, window});
       },
-      "normal_force"_a, "period"_a, "force_threshold"_a, "debounce"_a);
+      "normal_force"_a, "period"_a, "robot_mass"_a, "share"_a, "window"_a);
   module.def(
       "score",
       [](const py::object& beliefs, const py::object& contact, double period, double skip,

@@ -209,7 +209,7 @@ LiveRun::LiveRun(LiveScene scene, const std::vector<experiments::LogEstimator>& 
       [this](const models::Observation& observation, const models::Action* previous) {
         return contact_for_policy(observation, previous);
       });
-  recording_.info = scenarios::recording_info(scene_.scenario, scene_.engine, scene_.seed,
+  recording_.info = scenarios::recording_info(scene_.scenario, *simulator_, scene_.seed,
                                               std::max(scene_.run, std::int64_t{0}));
 }
 
@@ -265,7 +265,7 @@ WheelContacts LiveRun::contact_for_policy(const models::Observation& observation
 
 WheelContacts LiveRun::true_contact() const {
   const auto& force = simulator_->ground_truth().wheel_normal_force;
-  const double threshold = scoring::LabelConfig{}.force_threshold;
+  const double threshold = scoring::force_threshold({}, recording_.info.robot_mass);
   return {force[0] > threshold, force[1] > threshold};
 }
 

@@ -23,17 +23,18 @@ using Sink = std::function<void(bool contact, const TorqueSample& sample)>;
 /// Buffers the samples of one leg until their labels are known, then passes them to the fit.
 class LabelledLeg {
  public:
-  LabelledLeg(const TorqueConfig& config, Side side, const LogSteps& log,
+  LabelledLeg(const TorqueConfig& config, Side side, const FitLogSteps& log,
               const scoring::LabelConfig& labels, Sink sink)
-      : channel_(config, side, log.sample_rate()),
+      : channel_(config, side, log.steps().sample_rate()),
         sink_(std::move(sink)),
-        labels_(log.period(), labels, [this](std::uint8_t contact) { label(contact != 0); }) {}
+        labels_(log.steps().period(), log.robot_mass(), labels,
+                [this](std::uint8_t contact) { label(contact != 0); }) {}
   LabelledLeg(const LabelledLeg&) = delete;
   LabelledLeg& operator=(const LabelledLeg&) = delete;
 
   void restart() { channel_.reset(); }
 
-  /// `declared` labels the sample at once, `force` (N) once the debounce has passed. Returns
+  /// `declared` labels the sample at once, `force` (N) once that of later steps decides. Returns
   /// whether the torques are usable.
   bool add(const LegSignals& leg, bool skipped, std::optional<bool> declared, double force) {
     std::optional<TorqueSample> sample;
@@ -73,8 +74,8 @@ void read_log(const FitLog& log, const MeasurementConfig& measurement, const Log
   const LogSteps& steps = reader.steps();
   const TorqueConfig& torque = measurement.torque;
   std::array<LabelledLeg, models::wheel_count> legs = {
-      LabelledLeg(torque, Side::left, steps, config.labels, sink),
-      LabelledLeg(torque, Side::right, steps, config.labels, sink)};
+      LabelledLeg(torque, Side::left, reader, config.labels, sink),
+      LabelledLeg(torque, Side::right, reader, config.labels, sink)};
   const auto skipped = std::llround(config.skip / steps.period());
   double before = NAN;
   std::int64_t k = 0;

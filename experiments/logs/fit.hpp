@@ -86,6 +86,8 @@ class FitLogSteps {
   const LogSteps& steps() const { return steps_; }
   /// Those of the log's robot; Upkie's if its file is not known.
   LegGeometry legs() const { return robot_.legs.value_or(LegGeometry{}); }
+  /// For labels (kg).
+  double robot_mass() const { return experiments::robot_mass(config_.robot, info_); }
 
  private:
   void compare_with_declared_class();

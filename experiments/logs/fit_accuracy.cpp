@@ -24,7 +24,8 @@ void add_score(const LogEstimator& chosen, const FitLog& log, const LogFitConfig
   LogFitReport unused;
   FitLogSteps reader(log, config, unused);
   const auto estimator = chosen.make(reader.steps().sample_rate(), reader.info());
-  LogScore score(reader.steps().period_us(), config.labels, {.skip = config.skip}, true);
+  LogScore score(reader.steps().period_us(), config.labels, reader.robot_mass(),
+                 {.skip = config.skip}, true);
   while (const LogStep* step = reader.next()) {
     LogStep known = *step;
     if (log.contact) {

@@ -97,7 +97,8 @@ void FitLogSteps::compare_with_declared_class() {
   if (!step_->normal_force || step_->signals.time < config_.skip) return;
   for (const double force : *step_->normal_force) {
     ++compared_;
-    if ((force > config_.labels.force_threshold) == *log_.contact) continue;
+    const double threshold = scoring::force_threshold(config_.labels, robot_mass());
+    if ((force > threshold) == *log_.contact) continue;
     if (contradicting_++ == 0) first_contradiction_ = step_->signals.time;
   }
 }

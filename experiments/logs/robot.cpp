@@ -11,6 +11,7 @@
 #include "models/robot_description.hpp"
 #include "models/robot_model.hpp"
 #include "scenarios/leg_geometry.hpp"
+#include "scoring/labels.hpp"
 
 namespace touchdown::experiments {
 
@@ -90,6 +91,10 @@ logs::CheckedRobot checked_robot(const LogRobot& requested, const logs::Recordin
                                  "read: {} ({})",
                                  error.what(), advice)};
   }
+}
+
+double robot_mass(const LogRobot& requested, const logs::RecordingInfo& log) {
+  return requested.legs ? requested.legs->robot_mass : scoring::robot_mass(log);
 }
 
 std::string robot_text(const std::string& name) {

@@ -147,9 +147,13 @@ void BeliefBag::write(double time, double start, const Belief& belief) {
   writer_.write(topic_, static_cast<std::uint64_t>(std::max<std::int64_t>(stamp, 0)), message_);
 }
 
-LogScore::LogScore(std::int64_t period_us, const scoring::LabelConfig& labels,
+LogScore::LogScore(std::int64_t period_us, const scoring::LabelConfig& labels, double robot_mass,
                    const scoring::ScoringConfig& scoring, bool segment_counts)
-    : period_us_(period_us), labels_(labels), scoring_(scoring), segment_counts_(segment_counts) {}
+    : period_us_(period_us),
+      labels_(labels),
+      robot_mass_(robot_mass),
+      scoring_(scoring),
+      segment_counts_(segment_counts) {}
 
 void LogScore::add(const LogStep& step, const Belief& belief) {
   const double time = 1e-6 * static_cast<double>(period_us_ * steps_++);
@@ -168,7 +172,7 @@ void LogScore::add(const LogStep& step, const Belief& belief) {
   if (!duration_) {
     scoring::ScoringConfig scoring = scoring_;
     scoring.skip = std::max(0.0, scoring_.skip - time);
-    duration_.emplace(period_us_, labels_, scoring);
+    duration_.emplace(period_us_, labels_, robot_mass_, scoring);
   }
   duration_->add(*step.normal_force, belief);
 }
@@ -236,40 +240,29 @@ std::string LogSummary::Clock::text(double start) const {
   return text;
 }
 
-LogSummary::WheelEvents::WheelEvents(double period, double shortest)
-    : period_(period), shortest_(shortest) {
-  interrupt();
-}
-
 void LogSummary::WheelEvents::interrupt() {
-  if (stream_) stream_->finish();
-  times_.clear();
   raw_.reset();
-  labelled_.reset();
-  constexpr double between = 0.5;  // of 0, no contact, and 1
-  stream_.emplace(period_, scoring::LabelConfig{.force_threshold = between, .debounce = shortest_},
-                  [this](std::uint8_t contact) { label(contact != 0); });
+  lasting_.reset();
 }
 
 void LogSummary::WheelEvents::add(double time, bool contact) {
-  if (raw_ && *raw_ != contact) ++switches;
-  raw_ = contact;
-  times_.push_back(time);
-  stream_->add(contact ? 1.0 : 0.0);
-}
-
-void LogSummary::WheelEvents::label(bool contact) {
-  if (labelled_ && *labelled_ != contact) (contact ? landings : takeoffs).add(times_.front());
-  labelled_ = contact;
-  times_.pop_front();
+  if (raw_ != contact) {
+    switches += raw_ ? 1 : 0;
+    raw_ = contact;
+    held_ = 0;
+    since_ = time;
+  }
+  if (++held_ < shortest_ || lasting_ == contact) return;
+  if (lasting_) (contact ? landings : takeoffs).add(since_);
+  lasting_ = contact;
 }
 
 LogSummary::LogSummary(double period, const scoring::ScoringConfig& scoring)
     : clock_{period, NAN, NAN, NAN},
       skipped_(std::llround(scoring.skip / period)),
       longest_bridged_(std::llround(SignalGuardConfig{}.maximum_gap / period)),
-      wheels_{std::make_unique<WheelEvents>(period, scoring.minimum_flight),
-              std::make_unique<WheelEvents>(period, scoring.minimum_flight)} {}
+      wheels_{WheelEvents(std::llround(scoring.minimum_flight / period)),
+              WheelEvents(std::llround(scoring.minimum_flight / period))} {}
 
 double LogSummary::duration() const {
   return std::isnan(clock_.previous) ? 0.0 : clock_.last - clock_.first + clock_.period;
@@ -287,7 +280,7 @@ void LogSummary::add(double time, const Belief& belief) {
     add_valid(time, belief);
     invalid_in_a_row_ = 0;
   } else if (++invalid_in_a_row_ == longest_bridged_ + 1) {
-    for (const auto& wheel : wheels_) wheel->interrupt();
+    for (WheelEvents& wheel : wheels_) wheel.interrupt();
   }
 }
 
@@ -295,7 +288,7 @@ void LogSummary::add_valid(double time, const Belief& belief) {
   ++counted_;
   const auto views = scoring::views_of(belief);
   for (std::size_t v = 0; v < scoring::view_count; ++v) contact_[v] += views[v].contact ? 1 : 0;
-  for (std::size_t w = 0; w < wheels_.size(); ++w) wheels_[w]->add(time, belief.wheel[w].contact);
+  for (std::size_t w = 0; w < wheels_.size(); ++w) wheels_[w].add(time, belief.wheel[w].contact);
 }
 
 std::string LogSummary::contact_text() const {
@@ -309,7 +302,7 @@ std::string LogSummary::contact_text() const {
 }
 
 std::string LogSummary::events_text(std::size_t w) const {
-  const WheelEvents& wheel = *wheels_[w];
+  const WheelEvents& wheel = wheels_[w];
   std::string text = "no takeoff, no landing";
   const std::int64_t events = wheel.takeoffs.count + wheel.landings.count;
   if (events > 0) {
@@ -360,7 +353,6 @@ std::string LogSummary::invalid_text() const {
 
 std::string LogSummary::text(const std::optional<scoring::RobotScore>& score, double start,
                              std::size_t findings) {
-  for (const auto& wheel : wheels_) wheel->interrupt();
   std::string text =
       fmt::format("{:<12} {}\n{:<12} {}\n{:<12} {}\n{:<12} {}\n{:<12} {}\n", "time",
                   clock_.text(start), "contact", contact_text(), "left wheel", events_text(0),
@@ -370,8 +362,8 @@ std::string LogSummary::text(const std::optional<scoring::RobotScore>& score, do
         "{:<12} not scored: beliefs of the first {:g} s depend on the prior, and nothing follows\n",
         "truth", static_cast<double>(skipped_) * clock_.period);
   } else if (score) {
-    text += score_text(score->wheels(), wheels_[0]->takeoffs.count + wheels_[1]->takeoffs.count,
-                       wheels_[0]->landings.count + wheels_[1]->landings.count);
+    text += score_text(score->wheels(), wheels_[0].takeoffs.count + wheels_[1].takeoffs.count,
+                       wheels_[0].landings.count + wheels_[1].landings.count);
   }
   return text;
 }

@@ -2,8 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <deque>
-#include <memory>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -67,7 +65,8 @@ class BeliefBag {
 class LogScore {
  public:
   /// `segment_counts`: ground truth of a part of the log suffices; otherwise all of it is needed.
-  LogScore(std::int64_t period_us, const scoring::LabelConfig& labels,
+  /// `robot_mass` in kg, for the labels.
+  LogScore(std::int64_t period_us, const scoring::LabelConfig& labels, double robot_mass,
            const scoring::ScoringConfig& scoring, bool segment_counts);
 
   void add(const LogStep& step, const Belief& belief);
@@ -83,6 +82,7 @@ class LogScore {
 
   std::int64_t period_us_;
   scoring::LabelConfig labels_;
+  double robot_mass_;
   scoring::ScoringConfig scoring_;
   bool segment_counts_;
   bool is_scored_ = true;
@@ -96,8 +96,8 @@ class LogScore {
 /// memory does not grow with the log. Only steps with good signals count: what is invalid is no
 /// contact information. In the first `scoring.skip` seconds it counts the signals' status alone:
 /// there, beliefs still depend on the prior. A takeoff and a landing enclose a flight of at least
-/// `scoring.minimum_flight`, as those of the score do; shorter states are merged into their
-/// neighbours, and the switches of the raw decision are counted beside them.
+/// `scoring.minimum_flight`, as those of the score do; a state that ends sooner does not count, and
+/// the switches of the raw decision are counted beside them.
 class LogSummary {
  public:
   /// `period` in seconds.
@@ -140,13 +140,11 @@ class LogSummary {
     std::string text(double start) const;
   };
 
-  /// The decisions about one wheel, debounced.
+  /// The lasting decisions about one wheel.
   class WheelEvents {
    public:
-    /// States shorter than `shortest` (s) are no events.
-    WheelEvents(double period, double shortest);
-    WheelEvents(const WheelEvents&) = delete;
-    WheelEvents& operator=(const WheelEvents&) = delete;
+    /// A decision counts once it has held for `shortest` steps, from its first one.
+    explicit WheelEvents(std::int64_t shortest) : shortest_(shortest) {}
 
     void add(double time, bool contact);
     /// Signals were missing for long, or the log ends: the next decision is no event.
@@ -157,14 +155,11 @@ class LogSummary {
     std::int64_t switches = 0;  ///< of the raw decision
 
    private:
-    void label(bool contact);
-
-    double period_;
-    double shortest_;
-    std::optional<scoring::LabelStream> stream_;
-    std::deque<double> times_;  ///< of the decisions that are not labelled yet
+    std::int64_t shortest_;
     std::optional<bool> raw_;
-    std::optional<bool> labelled_;
+    std::optional<bool> lasting_;
+    std::int64_t held_ = 0;  ///< steps of the raw decision
+    double since_ = 0.0;     ///< its first time (s)
   };
 
   void add_valid(double time, const Belief& belief);
@@ -184,7 +179,7 @@ class LogSummary {
   std::int64_t counted_ = 0;        ///< valid steps after the skipped ones
   std::int64_t invalid_in_a_row_ = 0;
   std::int64_t longest_bridged_;  ///< steps
-  std::array<std::unique_ptr<WheelEvents>, 2> wheels_;
+  std::array<WheelEvents, 2> wheels_;
 };
 
 }  // namespace touchdown::experiments

@@ -19,8 +19,9 @@ std::string plural(std::size_t count, const std::string& thing) {
 
 std::string labels_text(const Experiment& experiment) {
   const scoring::LabelConfig& labels = experiment.labels;
-  std::string text = fmt::format("contact: normal force > {} N, states under {} ms merged",
-                                 labels.force_threshold, 1e3 * labels.debounce);
+  std::string text =
+      fmt::format("contact: normal force > {:.3g} % of the weight, mean over {:.3g} ms",
+                  1e2 * labels.share, 1e3 * labels.window);
   if (labels.annotator) {
     text += fmt::format(
         ", as annotated from pictures {:.3g} ms apart, takeoffs {:.3g} and landings {:.3g} ms late",

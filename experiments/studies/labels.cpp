@@ -13,11 +13,12 @@ namespace {
 /// The name of the measure and of its tables.
 constexpr const char* labels_name = "labels";
 
-/// Force thresholds of 0.1, 1, 5 and 10 N, each with debounces of 0, 2, 5 and 10 ms.
+/// Shares of the weight that are 0.1, 1, 5 and 10 N for Upkie, each with windows of 0, 5, 10 and
+/// 20 ms.
 std::vector<scoring::LabelConfig> definitions() {
   std::vector<scoring::LabelConfig> all;
-  for (const double threshold : {0.1, 1.0, 5.0, 10.0}) {
-    for (const double debounce : {0.0, 0.002, 0.005, 0.01}) all.push_back({threshold, debounce});
+  for (const double share : {0.0019, 0.019, 0.095, 0.19}) {
+    for (const double window : {0.0, 0.005, 0.01, 0.02}) all.push_back({share, window});
   }
   return all;
 }
@@ -37,7 +38,8 @@ Measure label_measure() {
         for (const scoring::LabelConfig& labels : definitions()) {
           scoring::Classification& sum = counts.emplace_back();
           for (std::size_t w = 0; w < models::wheel_count; ++w) {
-            const auto truth = scoring::contact_labels(run.normal_force[w], period, labels);
+            const auto truth = scoring::contact_labels(run.normal_force[w], period,
+                                                       scoring::robot_mass(run.info), labels);
             sum += scoring::classify(truth, made.prediction[w].contact, {0},
                                      run.info.control_period_us, made.run.scoring)
                        .front();
@@ -92,8 +94,8 @@ Columns<LabelRow> label_columns() {
   return Columns<Row>()
       .text("simulator", &Row::simulator)
       .text("estimator", &Row::estimator)
-      .level("force_threshold_n", [](const Row& row) { return row.labels.force_threshold; })
-      .level("debounce_s", [](const Row& row) { return row.labels.debounce; })
+      .level("label_share", [](const Row& row) { return row.labels.share; })
+      .level("label_window_s", [](const Row& row) { return row.labels.window; })
       .interval("success", &Row::success)
       .interval("no_contact_precision", &Row::no_contact_precision)
       .interval("no_contact_recall", &Row::no_contact_recall);

@@ -53,7 +53,8 @@ void pack_origin(LogPacker& packer, const RecordingInfo& info) {
     return;
   }
   text("touchdown");
-  packer.pack_map(6U + (info.outcome ? 1U : 0U) + (info.robot_digest.empty() ? 0U : 1U));
+  packer.pack_map(6U + (info.outcome ? 1U : 0U) + (info.robot_digest.empty() ? 0U : 1U) +
+                  (info.robot_mass > 0.0 ? 1U : 0U));
   text("scenario"), text(info.scenario);
   text("simulator"), text(info.simulator);
   text("seed"), packer.pack_uint64(info.seed);
@@ -62,6 +63,7 @@ void pack_origin(LogPacker& packer, const RecordingInfo& info) {
   if (info.outcome) text("outcome"), text(to_text(*info.outcome));
   text("scenario_yaml"), text(info.scenario_yaml);
   if (!info.robot_digest.empty()) text("robot_digest"), text(info.robot_digest);
+  if (info.robot_mass > 0.0) text("robot_mass"), packer.pack_double(info.robot_mass);
 }
 
 void unpack_origin(std::string_view record, std::string_view log_name,
@@ -85,10 +87,14 @@ void unpack_origin(std::string_view record, std::string_view log_name,
     take(*origin, "control_period_us", read.control_period_us);
     take_text(*origin, "scenario_yaml", read.scenario_yaml);
     take_text(*origin, "robot_digest", read.robot_digest);
+    take(*origin, "robot_mass", read.robot_mass);
     std::string outcome;
     take(*origin, "outcome", outcome);
     if (!outcome.empty()) read.outcome = outcome_from_text(outcome);
     if (read.control_period_us <= 0) throw InputError("control_period_us must be positive");
+    if (!(read.robot_mass >= 0.0 && read.robot_mass < 1e6)) {
+      throw InputError("robot_mass must be positive");
+    }
     info = std::move(read);
   } catch (const std::exception& error) {
     throw InputError(fmt::format("{}: config.touchdown: {}", log_name, error.what()));

@@ -351,8 +351,8 @@ TEST_F(Fit, AnswersWrongRequestsInOneLine) {
        {"--contact rolling.mpack -o m.npz", {"no step of the logs is without contact"}},
        {"--no-contact rolling.mpack -o m.npz", {"no step of the logs is in contact"}}});
   // Numbers that would be ignored.
-  for (const std::string flag : {"--skip 1e308", "--skip -1", "--skip 1e6", "--debounce 1e300",
-                                 "--debounce 11", "--force-threshold 1e5"}) {
+  for (const std::string flag : {"--skip 1e308", "--skip -1", "--skip 1e6", "--label-window 1e300",
+                                 "--label-window 1.1", "--label-share 2"}) {
     expect_refusals({{"a.mpack -o m.npz " + flag,
                       {flag.substr(0, flag.find(' ')), "expected a number from 0 to 1"}}});
   }

@@ -127,16 +127,19 @@ class Labels(unittest.TestCase):
     def test_are_those_of_the_recording(self):
         run = hop()
         np.testing.assert_array_equal(touchdown.contact_labels(run["normal_force"], run.period), run["contact"])
-        light = touchdown.contact_labels(run["normal_force"], run.period, force_threshold=1000.0)
-        self.assertFalse(light.any())
+        light = touchdown.contact_labels(run["normal_force"], run.period, share=1.0)
+        self.assertLess(light.mean(), 0.1)
+        heavy = touchdown.contact_labels(10 * run["normal_force"], run.period, robot_mass=10 * 5.33922)
+        np.testing.assert_array_equal(heavy, run["contact"])
+        self.assertAlmostEqual(run.info["robot_mass"], 5.33922, 5)
 
-    def test_ignore_states_shorter_than_the_debounce(self):
+    def test_take_no_flight_shorter_than_the_window(self):
         force = np.full((100, 2), 20.0)
-        force[40:44, 0] = 0.0
-        force[60:70, 1] = 0.0
+        force[40:50, 0] = 0.0
+        force[60:71, 1] = 0.0
         labels = touchdown.contact_labels(force, 0.001)
         self.assertTrue(labels[:, 0].all())
-        self.assertEqual(np.flatnonzero(~labels[:, 1]).tolist(), list(range(60, 70)))
+        self.assertEqual(np.flatnonzero(~labels[:, 1]).tolist(), list(range(60, 71)))
 
 
 class Scores(unittest.TestCase):

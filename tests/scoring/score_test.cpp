@@ -192,7 +192,7 @@ RobotScore whole(const NoisyRun& run) {
   std::array<ContactSequence, models::wheel_count> truth;
   Prediction prediction;
   for (std::size_t wheel = 0; wheel < 2; ++wheel) {
-    truth[wheel] = contact_labels(run.force[wheel], 0.001, {});
+    truth[wheel] = contact_labels(run.force[wheel], 0.001, robot_mass({}), {});
   }
   for (const Belief& belief : run.belief) {
     const bool left = belief.wheel[0].contact;
@@ -209,7 +209,7 @@ RobotScore whole(const NoisyRun& run) {
 }
 
 RobotScore streamed(const NoisyRun& run) {
-  ScoreStream stream(1000, {}, {});
+  ScoreStream stream(1000, {}, robot_mass({}), {});
   for (std::size_t k = 0; k < run.belief.size(); ++k) {
     stream.add({run.force[0][k], run.force[1][k]}, run.belief[k]);
   }

@@ -40,7 +40,7 @@ class Recording(dict):
     Ground truth of simulated runs:
 
     ========================== ========== ========= ============================================================
-    `contact`                  (steps, 2) bool      more than 1 N, debounced by 5 ms (`contact_labels`)
+    `contact`                  (steps, 2) bool      as `contact_labels` defines it
     `normal_force`             (steps, 2) N         between tyre and terrain
     `base_position`            (steps, 3) m         world: x forward, y left, z up
     `base_orientation`         (steps, 4)           w x y z, from base to world
@@ -60,7 +60,7 @@ class Recording(dict):
     def __init__(self, arrays: Mapping[str, np.ndarray], info: Mapping[str, Any]):
         super().__init__(arrays)
         #: `scenario`, `simulator`, `seed`, `run`, `control_period_us`, `outcome` ("finished",
-        #: "timed_out", "fell", "diverged", "left_terrain", or None), `scenario_yaml`, `robot_digest`.
+        #: "timed_out", "fell", "diverged", "left_terrain", or None), `scenario_yaml`, `robot_digest`, `robot_mass` (kg; 0: unknown).
         self.info: dict[str, Any] = dict(info)
 
     @classmethod
@@ -108,15 +108,16 @@ def simulate(scenario: Path, simulator: str = "mujoco", *, seed: int = 1, run: i
     return Recording(*_touchdown.simulate(scenario, simulator, seed, run, assignments(overrides)))
 
 
-def contact_labels(normal_force: Any, period: float, *, force_threshold: float = 1.0,
-                   debounce: float = 0.005) -> np.ndarray:
+def contact_labels(normal_force: Any, period: float, *, robot_mass: float = 5.33922,
+                   share: float = 0.019, window: float = 0.01) -> np.ndarray:
     """Contact of the wheels from their normal forces: (steps, 2) in N → (steps, 2) of bool.
 
     period: time between two steps (s)
-    force_threshold: a wheel is in contact above this force (N)
-    debounce: shorter states are merged into their neighbours (s)
+    robot_mass: of the whole robot (kg)
+    share: a wheel is in contact where its mean force is above this share of the robot's weight
+    window: the mean is over this time around each step (s)
     """
-    return _touchdown.contact_labels(normal_force, period, force_threshold, debounce)
+    return _touchdown.contact_labels(normal_force, period, robot_mass, share, window)
 
 
 def _several(runs: Any) -> list:
@@ -136,14 +137,14 @@ def check(log: Any, *, robot: str = "", mapping: Path | None = None) -> list[str
 
 
 def fit(runs: Any = (), estimator: str = "robust", *, contact: Any = (), no_contact: Any = (), skip: float = 0.3,
-        force_threshold: float = 1.0, debounce: float = 0.005) -> Model:
+        label_share: float = 0.019, label_window: float = 0.01) -> Model:
     """Fit an estimator's model, as `touchdown fit` does.
 
     runs: a `Recording` with ground truth, or a path to one, or several
     estimator: its name, as in `estimators()`
     contact, no_contact: the same, for runs in which both wheels, or neither, are in contact all the time
     skip: time at the beginning of each run that is not used (s)
-    force_threshold, debounce: definition of contact (`contact_labels`)
+    label_share, label_window: definition of contact (`contact_labels`)
     """
     declared = [(one, None) for one in _several(runs)]
     declared += [(one, True) for one in _several(contact)]
@@ -151,7 +152,7 @@ def fit(runs: Any = (), estimator: str = "robust", *, contact: Any = (), no_cont
     for one, _ in declared:
         if isinstance(one, dict) and not isinstance(one, Recording):
             raise InputError("fit: expected a Recording, which has scenario and seed, or a path; found a dict")
-    return _touchdown.fit(declared, estimator, skip, force_threshold, debounce)
+    return _touchdown.fit(declared, estimator, skip, label_share, label_window)
 
 
 def score(beliefs: Any, recording: Mapping[str, np.ndarray], *, skip: float = 0.3, hold_off: float = 0.25,

@@ -63,7 +63,7 @@ std::string text_of(const Flights& truth, const Flights& decided) {
     return std::ranges::any_of(flights, [&](const auto& f) { return k >= f[0] && k < f[1]; });
   };
   LogSummary summary(0.001, {});
-  LogScore score(1000, {}, {}, false);
+  LogScore score(1000, {}, 5.33922, {}, false);
   for (int k = 0; k < 10'000; ++k) {
     Belief belief;
     belief.status = SignalStatus::good;

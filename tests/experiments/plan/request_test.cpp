@@ -72,7 +72,7 @@ TEST(Request, IsRefusedAfterAChange) {
   const RunRequest request = shipped("stairs");
   write_request(request, RunDirectory("stairs", request.id, folder.path()), false);
   Experiment other = request.experiment;
-  other.labels.debounce += 0.001;
+  other.labels.window += 0.001;
   folder.write("config.yaml", to_yaml(other));
   EXPECT_THAT([&] { read_request(folder.path()); },
               ThrowsMessage<InputError>(HasSubstr("expected " + request.id)));

@@ -1,10 +1,15 @@
 #include "experiments/signals/run_signals.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <gtest/gtest.h>
 
 #include "logs/signals_from.hpp"
+#include "scenarios/engine.hpp"
+#include "scenarios/generation/generate.hpp"
+#include "simulators/registry.hpp"
 
 namespace touchdown::experiments {
 namespace {
@@ -37,6 +42,55 @@ TEST(RunSignals, HaveTheCommandOfThePreviousStep) {
   EXPECT_NEAR(run.signals[61].ground_velocity_command, 60 * logs::upkie_wheel_radius, 1e-12);
   EXPECT_EQ(scoring::flights(run.contact[0]),
             (std::vector<scoring::Flight>{{.takeoff = 40, .landing = 80}}));
+}
+
+/// Whether labels of a wheel are what docs/reference/metrics.md defines, step by step.
+void expect_defined(const scoring::ContactSequence& contact, const std::vector<double>& force,
+                    double threshold) {
+  constexpr std::ptrdiff_t half = 5;  // steps of 1 ms
+  const auto n = static_cast<std::ptrdiff_t>(force.size());
+  const auto is_light_on_average = [&](std::ptrdiff_t k) {
+    const auto begin = force.begin() + std::max(k - half, std::ptrdiff_t{0});
+    const auto end = force.begin() + std::min(k + half + 1, n);
+    return std::accumulate(begin, end, 0.0) / static_cast<double>(end - begin) <= threshold;
+  };
+  const auto air = [&](std::ptrdiff_t k) {
+    return k >= 0 && k < n && contact[static_cast<std::size_t>(k)] == 0;
+  };
+  for (std::ptrdiff_t k = 0; k < n; ++k) {
+    const bool has_force = force[static_cast<std::size_t>(k)] > threshold;
+    if (air(k)) {
+      ASSERT_TRUE(!has_force || is_light_on_average(k)) << k;
+    } else {
+      ASSERT_FALSE(is_light_on_average(k)) << k;
+      ASSERT_TRUE(has_force || (!air(k - 1) && !air(k + 1))) << k;
+    }
+  }
+  for (const scoring::Flight& flight : scoring::flights(contact)) {
+    bool has_light = false;
+    for (std::size_t k = flight.takeoff; k < flight.landing; ++k) {
+      has_light = has_light || is_light_on_average(static_cast<std::ptrdiff_t>(k));
+    }
+    ASSERT_TRUE(has_light) << flight.takeoff;
+  }
+}
+
+TEST(RunSignals, HaveTheLabelsOfTheRobotsWeightInBothEngines) {
+  for (const std::string& engine : simulators::simulator_names()) {
+    for (const double heavier : {1.0, 2.0}) {
+      scenarios::Scenario scenario = scenarios::find_scenario("scenarios/stairs.yaml");
+      scenario.end.duration = 4.0;
+      scenario.mass_scale = heavier;
+      const RunSignals run =
+          signals_of(scenarios::play(scenario, engine), {}, {}, scoring::SampleUnit::run);
+      EXPECT_NEAR(run.info.robot_mass, heavier * 5.33922, 1e-5);
+      for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
+        EXPECT_FALSE(scoring::flights(run.contact[wheel]).empty());
+        expect_defined(run.contact[wheel], run.normal_force[wheel],
+                       heavier * 0.019 * 5.33922 * 9.81);
+      }
+    }
+  }
 }
 
 TEST(RunSignals, WithScaledUnitNoiseEqualNoisySensors) {

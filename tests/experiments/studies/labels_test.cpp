@@ -60,21 +60,22 @@ TEST_F(LabelSensitivity, CountsTheSameDecisionsAgainstEveryDefinitionOfTheTruth)
   const ExperimentResult result = run();
   const TextTable table = from_csv(read_file(result.directory.file("tables", "labels.csv")));
   ASSERT_EQ(table.header[4], "success");
-  std::map<std::string, double> success;  // by estimator, threshold, debounce
+  std::map<std::string, double> success;  // by estimator, share, window
   for (const auto& row : table.rows) {
     success[row[1] + " " + row[2] + " " + row[3]] = std::stod(row[4]);
   }
   ASSERT_EQ(success.size(), 2U * 16U);
   // The accuracy of always contact is the share of contact.
-  for (const std::string threshold : {"0.1", "1", "5", "10"}) {
-    EXPECT_NEAR(success.at("always_contact " + threshold + " 0"),
-                contact_share(result, std::stod(threshold)), 5e-5)
-        << threshold;
+  for (const std::string share : {"0.0019", "0.019", "0.095", "0.19"}) {
+    constexpr double weight = 5.33922 * 9.81;  // Upkie's, N
+    EXPECT_NEAR(success.at("always_contact " + share + " 0"),
+                contact_share(result, std::stod(share) * weight), 5e-5)
+        << share;
   }
-  EXPECT_LT(success.at("always_contact 10 0"), success.at("always_contact 0.1 0"));
+  EXPECT_LT(success.at("always_contact 0.19 0"), success.at("always_contact 0.0019 0"));
   // The oracle uses the experiment's own definition, which is one of the sixteen.
-  EXPECT_DOUBLE_EQ(success.at("oracle 1 0.005"), 1.0);
-  EXPECT_LT(success.at("oracle 10 0"), 1.0);
+  EXPECT_DOUBLE_EQ(success.at("oracle 0.019 0.01"), 1.0);
+  EXPECT_LT(success.at("oracle 0.19 0"), 1.0);
 }
 
 }  // namespace
