@@ -56,13 +56,9 @@ void for_scored_steps(std::size_t steps, const std::vector<std::size_t>& segment
 
 }  // namespace
 
-std::size_t first_scored_step(std::int64_t period_us, const ScoringConfig& config) {
-  return static_cast<std::size_t>(
-      std::llround(config.skip / (1e-6 * static_cast<double>(period_us))));
-}
-
 Score& Score::operator+=(const Score& other) {
   points += other.points;
+  events += other.events;
   takeoff += other.takeoff;
   landing += other.landing;
   calibration += other.calibration;
@@ -80,6 +76,9 @@ std::vector<Score> score(const ContactSequence& truth, const Track& track,
                      result[segment].calibration.add(truth[k] != 0, track.p_contact[k]);
                      result[segment].scored_us += period_us;
                    });
+  const std::vector<EventScore> events =
+      event_scores(truth, track.contact, segments, period_us, config);
+  for (std::size_t i = 0; i < segments.size(); ++i) result[i].events = events[i];
   const double period = 1e-6 * static_cast<double>(period_us);
   for (const JudgedTransition& judged : judge_transitions(truth, track.contact, period, config)) {
     const auto after = std::upper_bound(segments.begin(), segments.end(), judged.step);
@@ -148,7 +147,7 @@ ScoreStream::ScoreStream(std::int64_t period_us, const LabelConfig& labels, doub
     return static_cast<std::size_t>(std::ceil(1e6 * seconds / static_cast<double>(period_us)));
   };
   margin_ = steps(scoring.hold_off + scoring.takeoff_opens + scoring.landing_opens +
-                  scoring.minimum_flight) +
+                  scoring.minimum_flight + 1e-3 * static_cast<double>(Latencies::longest_ms)) +
             2;
   retry_after_ = steps(10.0);
   next_attempt_ = retry_after_ + steps(scoring.skip) + 2 * margin_;
@@ -201,6 +200,17 @@ RobotScore ScoreStream::finish() {
 // T: duration of a step.
 const std::vector<Metric>& metrics() {
   static const std::vector<Metric> all = {
+      // 2 m / (n + d): n true and d decided takeoffs and landings, m pairs at most 20 ms apart.
+      {"event_f1", [](const Score& s) { return s.events.f1(); }},
+      // Decided switches that detect no event, per minute of a wheel.
+      {"extra_switches_per_minute", [](const Score& s) { return s.extra_switches_per_minute(); }},
+      // Seconds in wrong intervals of more than 50 ms, per minute of a wheel.
+      {"long_errors_s_per_minute", [](const Score& s) { return s.long_errors_s_per_minute(); }},
+      // Medians over pairs at most 100 ms apart; negative is early.
+      {"takeoff_latency_median_ms", [](const Score& s) { return s.events.takeoff.median(); }},
+      {"landing_latency_median_ms", [](const Score& s) { return s.events.landing.median(); }},
+      // Mean of the recalls of contact and of flight; in a scene with one of them, its recall.
+      {"balanced_accuracy", [](const Score& s) { return s.points.balanced_accuracy(); }},
       // Accuracy: (N_CC + N_FF) / (N_CC + N_CF + N_FC + N_FF).
       {"success", [](const Score& s) { return s.points.success(); }},
       // Share of predicted contact that is true: N_CC / (N_CC + N_FC).

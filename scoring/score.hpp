@@ -12,6 +12,7 @@
 
 #include "estimator/contact_estimator.hpp"
 #include "scoring/classification.hpp"
+#include "scoring/events.hpp"
 #include "scoring/labels.hpp"
 #include "scoring/transitions.hpp"
 
@@ -83,19 +84,19 @@ struct Track {
 /// All counts of one track in one run, or in a part of it. Sums, so scores add.
 struct Score {
   Classification points;
+  EventScore events;
   TransitionCounts takeoff;
   TransitionCounts landing;
   Calibration calibration;
   std::int64_t scored_us = 0;  ///< scored time (µs); for pooled wheels, the sum of both
 
-  /// NaN if no time is scored.
+  // Per minute of scored time of a wheel; NaN if no time is scored.
   double false_takeoffs_per_minute() const { return 60e6 * ratio(takeoff.false_alarms, scored_us); }
+  double extra_switches_per_minute() const { return 60e6 * ratio(events.extra, scored_us); }
+  double long_errors_s_per_minute() const { return 60.0 * ratio(events.wrong_us, scored_us); }
 
   Score& operator+=(const Score& other);
 };
-
-/// The first scored step.
-std::size_t first_scored_step(std::int64_t period_us, const ScoringConfig& config);
 
 /// Compares a track with the truth. `segments` holds the first step of each segment of the run:
 /// `{0}` for the whole run, `drop_segments` for one per drop. The result has one score per segment.
@@ -196,7 +197,8 @@ struct Metric {
   std::function<std::int64_t(const Score&)> events = {};
 };
 
-/// All metrics, in the order of the tables: classification, transitions, latency, calibration.
+/// All metrics, in the order of the tables: ranking, classification, transitions, latency,
+/// calibration.
 const std::vector<Metric>& metrics();
 /// Index of the metric with this name. Errors: `InputError` naming the nearest one.
 std::size_t metric_index(std::string_view name);

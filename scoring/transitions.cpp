@@ -1,5 +1,6 @@
 #include "scoring/transitions.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -32,6 +33,11 @@ struct Limits {
   /// The steps in which a prediction detects an event, before its neighbours are considered.
   Window around(EventKind kind, Step step) const {
     return {step - (kind == EventKind::takeoff ? takeoff_opens : landing_opens), step + hold_off};
+  }
+  /// The same between its neighbours.
+  Window of(EventKind kind, const TrueEvent& event) const {
+    const Window wide = around(kind, event.step);
+    return {std::max(wide.first, event.between.first), std::min(wide.last, event.between.last)};
   }
 };
 
@@ -108,9 +114,7 @@ std::vector<JudgedTransition> judge_transitions(const ContactSequence& truth,
   for (const EventKind kind : {EventKind::takeoff, EventKind::landing}) {
     const std::vector<Step> predicted_at = predicted_steps(kind, predicted, limit.skip);
     for (const TrueEvent& event : events_of(kind, long_flights, end)) {
-      const Window wide = limit.around(kind, event.step);
-      const Window window{std::max(wide.first, event.between.first),
-                          std::min(wide.last, event.between.last)};
+      const Window window = limit.of(kind, event);
       // An event with a window that exceeds the scored steps is not counted.
       if (window.first < limit.skip || window.last >= end) continue;
       const auto first = std::find_if(predicted_at.begin(), predicted_at.end(),
@@ -132,16 +136,26 @@ std::vector<JudgedTransition> judge_transitions(const ContactSequence& truth,
   return judged;
 }
 
-std::int64_t extra_switches(const ContactSequence& truth, const ContactSequence& predicted,
-                            double period, ScoringConfig config) {
-  const Step skip = limits_in_steps(config, period).skip;
-  config.minimum_flight = 0.0;
-  const auto judged = judge_transitions(truth, predicted, period, config);
-  const auto detected = std::ranges::count_if(
-      judged, [](const auto& one) { return one.verdict == Judgement::detected; });
-  return static_cast<std::int64_t>(predicted_steps(EventKind::takeoff, predicted, skip).size() +
-                                   predicted_steps(EventKind::landing, predicted, skip).size()) -
-         detected;
+std::vector<std::size_t> extra_switches(const ContactSequence& truth,
+                                        const ContactSequence& predicted, double period,
+                                        const ScoringConfig& config) {
+  const Limits limit = limits_in_steps(config, period);
+  const std::vector<Flight> all = flights(truth);
+  std::vector<std::size_t> extra;
+  for (const EventKind kind : {EventKind::takeoff, EventKind::landing}) {
+    const std::vector<Step> steps = predicted_steps(kind, predicted, limit.skip);
+    std::vector<bool> detects(steps.size());
+    for (const TrueEvent& event : events_of(kind, all, static_cast<Step>(truth.size()))) {
+      const Window window = limit.of(kind, event);
+      const auto first = std::ranges::lower_bound(steps, window.first);
+      if (first == steps.end() || !window.contains(*first)) continue;
+      detects[static_cast<std::size_t>(first - steps.begin())] = true;
+    }
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      if (!detects[i]) extra.push_back(static_cast<std::size_t>(steps[i]));
+    }
+  }
+  return extra;
 }
 
 void TransitionCounts::add(const JudgedTransition& judged, std::int64_t period_us) {
@@ -180,6 +194,11 @@ double TransitionCounts::latency_deviation() const {
   const auto sum = static_cast<double>(latency_us);
   const double scatter = static_cast<double>(latency_us_squared) - sum * sum / n;
   return 1e-6 * std::sqrt(std::max(scatter, 0.0) / (n - 1.0));
+}
+
+std::size_t first_scored_step(std::int64_t period_us, const ScoringConfig& config) {
+  return static_cast<std::size_t>(
+      std::llround(config.skip / (1e-6 * static_cast<double>(period_us))));
 }
 
 }  // namespace touchdown::scoring

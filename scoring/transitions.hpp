@@ -21,6 +21,9 @@ struct ScoringConfig {
 
 void describe(Fields& fields, ScoringConfig& scoring);
 
+/// The first scored step of a run with steps of `period_us` (µs).
+std::size_t first_scored_step(std::int64_t period_us, const ScoringConfig& config);
+
 enum class EventKind : int { takeoff, landing };
 enum class Judgement : int { detected, missed, false_alarm };
 
@@ -40,10 +43,11 @@ std::vector<JudgedTransition> judge_transitions(const ContactSequence& truth,
                                                 const ContactSequence& predicted, double period,
                                                 const ScoringConfig& config);
 
-/// Number of predicted switches in the scored part of the sequence, without those that detect a
-/// flight, however short.
-std::int64_t extra_switches(const ContactSequence& truth, const ContactSequence& predicted,
-                            double period, ScoringConfig config);
+/// The steps of predicted switches in the scored part that detect no takeoff or landing of a
+/// flight, however short. Missed ones do not offset them.
+std::vector<std::size_t> extra_switches(const ContactSequence& truth,
+                                        const ContactSequence& predicted, double period,
+                                        const ScoringConfig& config);
 
 /// Histogram of latencies: events per 5 ms, from 60 ms early to 250 ms late. The outermost bins
 /// hold everything beyond. Counts add.

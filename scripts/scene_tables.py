@@ -13,6 +13,8 @@ import re
 import statistics
 
 NOISE = ("torque_noise_nm", "accelerometer_noise_mps2")
+RANKING = (("extra_switches_per_minute", 1), ("long_errors_s_per_minute", 2), ("takeoff_latency_median_ms", 1),
+           ("landing_latency_median_ms", 1), ("no_contact_precision", 3), ("mean_balanced_accuracy", 3))
 
 
 def rows_of(folder):
@@ -28,10 +30,6 @@ def family_of(scene):
 def mean(rows, column):
     numbers = [float(row[column]) for row in rows if row[column] not in ("", "nan")]
     return statistics.mean(numbers) if numbers else math.nan
-
-
-def with_flights(rows):
-    return [row for row in rows if row["takeoffs"] not in ("", "0", "nan")]
 
 
 def short(number, decimals):
@@ -64,17 +62,17 @@ def print_means(folder, rows):
         for estimator, own in by(of_robot, lambda row: row["estimator"]).items():
             cells = sorted(by(own, lambda row: tuple(row[name] for name in NOISE)).items())
             standings = [intervals[robot, estimator, *cell] for cell, _ in cells]
-            name = "mean_balanced_accuracy"
             line = [f"`{estimator}`"] + [
-                f"{short(float(s[name]), 3)} [{short(float(s[name + '_low']), 3)}, "
-                f"{short(float(s[name + '_high']), 3)}]" for s in standings]
-            line.append(" / ".join(f"{mean(rows, 'extra_switches_per_minute'):.1f}" for _, rows in cells))
-            line.append(" / ".join(short(mean(with_flights(rows), "flight_f1"), 3) for _, rows in cells))
+                f"{short(float(s['event_f1']), 3)} [{short(float(s['event_f1_low']), 3)}, "
+                f"{short(float(s['event_f1_high']), 3)}]" for s in standings]
+            for column, decimals in RANKING:
+                line.append(" / ".join(short(float(s[column]), decimals) for s in standings))
             line.append(" / ".join(short(mean(rows, "calibration_error"), 3) for _, rows in cells))
             lines.append(line)
         scenes = len({row["scene"] for row in of_robot})
         print(f"{robot}, {scenes} scenes\n")
-        table(["estimator", "no noise", "with noise", "extra switches/min", "F1 of flights", "calibration error"], lines)
+        table(["estimator", "F1, no noise", "F1, with noise", "extra switches/min", "long errors (s/min)", "takeoff (ms)",
+               "landing (ms)", "precision of air", "balanced accuracy", "calibration error"], lines)
 
 
 def print_families(rows, estimators):

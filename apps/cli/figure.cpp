@@ -71,7 +71,8 @@ void figure(const FigureFlags& flags, const CliSession& session) {
       flags.directory, {.out = {},
                         .command = subject.manifest.value("command", session.command),
                         .stop = session.stop});
-  result.experiment.figures = {width, flags.has_caption, flags.name};
+  result.experiment.figures = {width, flags.has_caption, result.experiment.figures.heatmap,
+                               flags.name};
   render::draw_pictures(result, {}, render::study_pictures(), false, session.stop);
   const render::FigureText text = render::figure_text(read_file(script));
   print("{}. {}\n\nfigure    {}\n", text.title, text.caption,

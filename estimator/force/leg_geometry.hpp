@@ -22,11 +22,11 @@ struct LegGeometry {
   /// Of the wheel about its axle (kg·m²), including its motor's rotor at the joint: the inertia
   /// that the servo's reported torque accelerates.
   double wheel_inertia = 1.7456e-4;
-  double robot_mass = 5.33922;            ///< of the whole robot (kg), which both legs carry
-  double hip_friction = 0.0;              ///< Coulomb friction of the hip (N·m)
-  double knee_friction = 0.0;             ///< and of the knee (N·m)
-  double upper_inertia = 2.80122e-3;      ///< about its centre of mass (kg·m²)
-  double lower_inertia = 2.12266e-3;      ///< likewise
+  double robot_mass = 5.33922;        ///< of the whole robot (kg), which both legs carry
+  double hip_friction = 0.0;          ///< Coulomb friction of the hip (N·m)
+  double knee_friction = 0.0;         ///< and of the knee (N·m)
+  double upper_inertia = 2.80122e-3;  ///< about its centre of mass (kg·m²)
+  double lower_inertia = 2.12266e-3;  ///< likewise
   // Inertia of the motors' rotors, as they appear at the joints (kg·m²); the wheel's is a part of
   // `wheel_inertia`.
   double hip_armature = 0.0;

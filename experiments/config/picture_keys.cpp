@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "experiments/config/experiment_yaml.hpp"
+#include "experiments/results/scores.hpp"
 
 namespace touchdown::experiments {
 
@@ -106,6 +107,9 @@ void describe(Fields& fields, PrintConfig& print) {
       .doc("mm",
            "Width in print, at which no text is under 6 pt. Without it, figures for screens.");
   fields("caption", print.caption).doc("Whether pictures contain their titles and captions.");
+  std::vector<std::string> metrics;
+  for (const PointMetric& metric : point_metrics) metrics.emplace_back(metric.name);
+  fields.choose("heatmap", metrics, print.heatmap).doc("The metric of maps over noise levels.");
 }
 
 void describe_drop_figures(Fields& fields, Experiment& experiment) {

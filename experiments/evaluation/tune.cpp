@@ -1,6 +1,7 @@
 #include "experiments/evaluation/tune.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -34,29 +35,34 @@ double drawn(const Hyperparameter& one, double uniform) {
 
 double with_three_digits(double number) { return std::stod(fmt::format("{:.3g}", number)); }
 
-/// Point-wise counts of one trial, by noise setting and scene.
-using SceneCounts = std::map<std::string, scoring::Classification>;
-
 /// All trials of one estimator in one fold. Trials with the same fit share it.
 struct FoldJob {
   std::string simulator;
   const EstimatorEntry* entry;
-  std::size_t fold;                 ///< index in the engine's folds
-  std::size_t first;                ///< index of the first trial
-  std::vector<SceneCounts> counts;  ///< by trial
+  std::size_t fold;                         ///< index in the engine's folds
+  std::size_t first;                        ///< index of the first trial
+  std::vector<scoring::EventScore> scores;  ///< by trial
 };
 
-void count(EstimatorRunner& runner, const RunSignals& run, const NoiseRun& noise,
-           const noise::SensorNoise& levels, const scoring::ScoringConfig& scoring,
-           scoring::Classification& sum) {
-  const std::size_t skip = scoring::first_scored_step(run.info.control_period_us, scoring);
+scoring::EventScore score_of(EstimatorRunner& runner, const RunSignals& run, const NoiseRun& noise,
+                             const noise::SensorNoise& levels,
+                             const scoring::ScoringConfig& scoring) {
+  std::array<scoring::ContactSequence, models::wheel_count> decided;
+  decided.fill(scoring::ContactSequence(run.steps(), 1));
   runner.run_estimator(
       run, [&](std::size_t k) { return noisy(run, noise, levels, k); },
       [&](std::size_t k, const Belief& belief) {
-        for (std::size_t w = 0; w < models::wheel_count && k >= skip; ++w) {
-          sum.add(run.contact[w][k] != 0, belief.wheel[w].contact);
+        for (std::size_t w = 0; w < decided.size(); ++w) {
+          decided[w][k] = belief.wheel[w].contact ? 1 : 0;
         }
       });
+  scoring::EventScore sum;
+  for (std::size_t w = 0; w < decided.size(); ++w) {
+    sum +=
+        scoring::event_scores(run.contact[w], decided[w], {0}, run.info.control_period_us, scoring)
+            .front();
+  }
+  return sum;
 }
 
 /// The values that the fitted model depends on.
@@ -75,25 +81,26 @@ struct HeldOut {
   std::vector<NoiseRun> noise;
 };
 
-/// The decisions of an estimator on held-out runs, by noise setting and scene.
-SceneCounts counts_on(const HeldOut& held_out, const EstimatorEntry& entry, const Model& model,
-                      const Experiment& experiment, const std::function<void()>& stop_if_asked) {
-  SceneCounts counts;
+/// The events that an estimator decides in held-out runs, over all noise settings.
+scoring::EventScore score_on(const HeldOut& held_out, const EstimatorEntry& entry,
+                             const Model& model, const Experiment& experiment,
+                             const std::function<void()>& stop_if_asked) {
+  scoring::EventScore sum;
   for (std::size_t i = 0; i < held_out.runs.size(); ++i) {
     const RunSignals& run = *held_out.runs[i];
     EstimatorRunner runner = entry.runner({1.0 / run.period(), &model, run.legs, &run.contact});
-    for (std::size_t cell = 0; cell < experiment.tuning->noise.size(); ++cell) {
+    for (const noise::NoiseCell& cell : experiment.tuning->noise) {
       stop_if_asked();
-      count(runner, run, held_out.noise[i], experiment.tuning->noise[cell].levels(),
-            experiment.scoring, counts[fmt::format("{} {}", cell, run.info.scenario)]);
+      sum += score_of(runner, run, held_out.noise[i], cell.levels(), experiment.scoring);
     }
   }
-  return counts;
+  return sum;
 }
 
-std::vector<SceneCounts> run_fold(const FoldJob& job, const Fold& fold,
-                                  std::span<const Trial> trials, const Experiment& experiment,
-                                  const std::function<void()>& stop_if_asked) {
+std::vector<scoring::EventScore> run_fold(const FoldJob& job, const Fold& fold,
+                                          std::span<const Trial> trials,
+                                          const Experiment& experiment,
+                                          const std::function<void()>& stop_if_asked) {
   const FitRuns runs{fold.fitted, experiment.scoring};
   HeldOut held_out{fold.held_out, {}};
   constexpr std::uint64_t tuning_stream = 0x74756e696e67;  // "tuning": no other run has its noise
@@ -106,7 +113,7 @@ std::vector<SceneCounts> run_fold(const FoldJob& job, const Fold& fold,
   for (std::size_t number = 0; number < trials.size(); ++number) {
     trials_of[fit_hyperparameters(*job.entry, trials[number].hyperparameters)].push_back(number);
   }
-  std::vector<SceneCounts> counts(trials.size());
+  std::vector<scoring::EventScore> scores(trials.size());
   for (const auto& [fit, numbers] : trials_of) {
     Model model;
     for (const std::size_t number : numbers) {
@@ -116,22 +123,10 @@ std::vector<SceneCounts> run_fold(const FoldJob& job, const Fold& fold,
         if (number == numbers.front()) model = entry.fit(runs);
         describe_fit(entry.name, runs, hyperparameters, model);
       }
-      counts[number] = counts_on(held_out, entry, model, experiment, stop_if_asked);
+      scores[number] = score_on(held_out, entry, model, experiment, stop_if_asked);
     }
   }
-  return counts;
-}
-
-/// The mean balanced accuracy; zero if nothing was scored.
-double mean_over_scenes(const SceneCounts& counts) {
-  double sum = 0.0;
-  double scenes = 0.0;
-  for (const auto& [scene, points] : counts) {
-    if (points.points() == 0) continue;
-    sum += points.balanced_accuracy();
-    scenes += 1.0;
-  }
-  return scenes > 0.0 ? sum / scenes : 0.0;
+  return scores;
 }
 
 }  // namespace
@@ -203,7 +198,7 @@ std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
     const std::string name =
         fmt::format("{}{}_{}_fold_{}", job.simulator, fit, job.entry->name, job.fold + 1);
     bool is_saved = true;
-    job.counts = store.get<std::vector<SceneCounts>>("tuning", name, [&] {
+    job.scores = store.get<std::vector<scoring::EventScore>>("tuning", name, [&] {
       is_saved = false;
       try {
         return run_fold(job, folds.at(job.simulator)[job.fold],
@@ -216,18 +211,17 @@ std::vector<Trial> tune(const Experiment& experiment, const std::string& fit,
     });
     is_saved ? progress.skip() : progress.advance();
   });
-  std::vector<SceneCounts> counts(trials.size());
+  std::vector<scoring::EventScore> scores(trials.size());
   for (const FoldJob& job : jobs) {
     for (std::size_t trial = 0; trial < number; ++trial) {
-      for (const auto& [scene, points] : job.counts[trial]) {
-        counts[job.first + trial][scene] += points;
-      }
+      scores[job.first + trial] += job.scores[trial];
     }
   }
   for (std::size_t first = 0; first < trials.size(); first += number) {
     std::size_t best = first;
     for (std::size_t trial = first; trial < first + number; ++trial) {
-      trials[trial].score = mean_over_scenes(counts[trial]);
+      const double f1 = scores[trial].f1();
+      trials[trial].score = std::isnan(f1) ? 0.0 : f1;
       if (trials[trial].score > trials[best].score) best = trial;
     }
     trials[best].is_chosen = true;

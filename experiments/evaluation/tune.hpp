@@ -39,8 +39,8 @@ struct Trial {
   std::string estimator;
   int number = 0;  ///< 0: the estimator's defaults
   HyperparameterValues hyperparameters;
-  /// Balanced accuracy, mean over scenes and noise settings, with both wheels and all runs of a
-  /// scene pooled. Each run is evaluated with a fit to the other folds.
+  /// F1 of takeoffs and landings over all runs, noise settings and wheels; 0 without any. Each run
+  /// is evaluated with a fit to the other folds.
   double score = 0.0;
   bool is_chosen = false;  ///< the best of its estimator on this engine; the first of equals
 };

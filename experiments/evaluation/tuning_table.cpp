@@ -28,20 +28,19 @@ FigureSpec tuning_figure(const Table& tuning, const Experiment& experiment) {
   spec.series = groups_in(tuning, "simulator", simulators::simulator_title);
   spec.rows = groups_in(tuning, "estimator",
                         [&](const auto& name) { return estimator_entry(experiment, name).title; });
-  spec.measures = {{.column = "balanced_accuracy", .title = "balanced accuracy"}};
+  spec.measures = {{.column = "event_f1", .title = "F1 of takeoffs and landings"}};
   spec.marks = {{MarkShape::points, {}},
                 {MarkShape::cross, {{"trial", "0"}}},
                 {MarkShape::ring, {{"chosen", "1"}}}};
   spec.title = "Hyperparameter trials";
   spec.caption = fmt::format(
-      "A point per trial of an estimator's hyperparameters: balanced accuracy, mean over scenes, "
-      "of "
-      "the fitted runs in {}-fold cross-validation. A cross marks the defaults, a ring the chosen "
+      "A point per trial of an estimator's hyperparameters: F1 of takeoffs and landings, of the "
+      "fitted runs in {}-fold cross-validation. A cross marks the defaults, a ring the chosen "
       "values (tables/tuning.csv).",
       experiment.tuning->folds);
   FigureSpec chosen = spec;
   chosen.where = {{"chosen", "1"}};
-  spec.alt = "Balanced accuracy of the chosen trials." + values_text(chosen, tuning);
+  spec.alt = "F1 of the chosen trials." + values_text(chosen, tuning);
   return spec;
 }
 
@@ -66,7 +65,7 @@ void write_table(const std::vector<Trial>& trials, const RunDirectory& directory
                            .text("hyperparameters",
                                  [](const Trial& trial) { return text_of(trial.hyperparameters); })
                            .is(ColumnRole::note)
-                           .metric("balanced_accuracy", &Trial::score)
+                           .metric("event_f1", &Trial::score)
                            .flag("chosen", &Trial::is_chosen);
   directory.write_table("tuning.csv", columns, trials);
 }
@@ -104,7 +103,7 @@ std::string tuning_text(const std::vector<Trial>& trials, const Experiment& expe
                           trial.number == 0 ? "its defaults" : text_of(trial.hyperparameters)});
   }
   return fmt::format(
-      "Tuning: balanced accuracy, mean over scenes, of the fitted runs in {}-fold "
+      "Tuning: F1 of takeoffs and landings, of the fitted runs in {}-fold "
       "cross-validation; the best of {} trials\n{}",
       experiment.tuning->folds, experiment.tuning->trials, to_text(table, 2));
 }

@@ -14,6 +14,7 @@ namespace touchdown::experiments {
 struct PrintConfig {
   std::optional<double> width_mm = {};  ///< in print, with text of at least 6 pt; empty: on screens
   bool caption = true;                  ///< whether the picture contains title and caption
+  std::string heatmap = "success";      ///< metric of the maps over noise, a `PointMetric`
   std::string only = {};                ///< name of the figure to draw; empty: all. Not in the file
 };
 

@@ -23,7 +23,7 @@ class Intervals {
     const bool is_gap = !(time - last_ <= SignalGuardConfig{}.maximum_gap);
     if (is_gap || contact != contact_) {
       finish(is_gap ? last_ + period_ : time);
-      all.intervals.push_back({.start = time, .contact = contact, .sure = 1.0});
+      all_.intervals.push_back({.start = time, .contact = contact, .sure = 1.0});
       contact_ = contact;
       is_open_ = true;
     }
@@ -42,13 +42,13 @@ class Intervals {
 
   logs::ContactIntervals finished() {
     finish(last_ + period_);
-    return std::move(all);
+    return std::move(all_);
   }
 
  private:
   void keep_least(std::size_t wheel) {
     const double mean = sum_[wheel] / static_cast<double>(probability_[wheel].size());
-    double& sure = *all.intervals.back().sure;
+    double& sure = *all_.intervals.back().sure;
     sure = std::clamp(mean, 0.0, sure);
   }
 
@@ -59,11 +59,11 @@ class Intervals {
       probability_[wheel].clear();
       sum_[wheel] = 0.0;
     }
-    if (is_open_) all.intervals.back().end = end;
+    if (is_open_) all_.intervals.back().end = end;
     is_open_ = false;
   }
 
-  logs::ContactIntervals all;
+  logs::ContactIntervals all_;
   double period_;       ///< s
   std::size_t window_;  ///< steps
   double last_ = -INFINITY;

@@ -61,14 +61,29 @@ std::string share(double value) {
   return std::isnan(value) ? "none" : fmt::format("{:.4f}", value);
 }
 
+/// What estimators are ranked by.
+std::string ranking_text(const scoring::Score& score) {
+  const auto median = [](const scoring::Latencies& latencies, const char* name) {
+    const double ms = latencies.median();
+    return std::isnan(ms) ? "" : fmt::format(", {} {:+.1f} ms", name, ms);
+  };
+  return fmt::format(
+      "{:<12} F1 of takeoffs and landings {}, extra switches {:.1f}/min, long errors {:.2f} "
+      "s/min{}{}, precision of air {}, balanced accuracy {}\n",
+      "truth", share(score.events.f1()), score.extra_switches_per_minute(),
+      score.long_errors_s_per_minute(), median(score.events.takeoff, "median takeoff"),
+      median(score.events.landing, "landing"), share(score.points.no_contact_precision()),
+      share(score.points.balanced_accuracy()));
+}
+
 std::string score_text(const scoring::Score& score, std::int64_t takeoffs, std::int64_t landings) {
   const scoring::Classification& points = score.points;
-  return fmt::format(
-             "{:<12} accuracy {}, balanced {}, precision and recall of contact {} {}, of no "
-             "contact {} {}, Brier {}\n{:<12} {}; {}\n",
-             "truth", share(points.success()), share(points.balanced_accuracy()),
-             share(points.contact_precision()), share(points.contact_recall()),
-             share(points.no_contact_precision()), share(points.no_contact_recall()),
+  return ranking_text(score) +
+         fmt::format(
+             "{:<12} accuracy {}, precision of contact {}, recall of contact {}, of no contact {}, "
+             "Brier {}\n{:<12} {}; {}\n",
+             "", share(points.success()), share(points.contact_precision()),
+             share(points.contact_recall()), share(points.no_contact_recall()),
              share(score.calibration.brier()), "", found(score.takeoff, takeoffs, "takeoffs"),
              found(score.landing, landings, "landings")) +
          shift_text(score.landing);

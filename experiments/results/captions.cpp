@@ -96,16 +96,6 @@ std::function<std::string(const std::string&)> titles_in(const Experiment& exper
   return [&experiment](const std::string& name) { return estimator_title_in(experiment, name); };
 }
 
-std::string false_takeoffs_text(const std::vector<ScoreSummary>& scores,
-                                const CellSummary& summary) {
-  const auto score = std::find_if(scores.begin(), scores.end(), [&](const ScoreSummary& s) {
-    return s.condition == summary.condition && s.cell == summary.cell && s.view == "wheels";
-  });
-  if (score == scores.end()) return "–";
-  const double per_minute = (*score)["false_takeoffs_per_minute"].estimate;
-  return std::isnan(per_minute) ? "–" : fmt::format("{:.1f}", per_minute);
-}
-
 bool is_fitted_to_test(const Experiment& experiment, const std::string& estimator) {
   const EstimatorEntry* const entry = find_estimator(estimator, experiment.external_estimators);
   const auto is_fitted_to = [&](const std::string& scene) {

@@ -41,9 +41,6 @@ std::string estimator_title(const std::string& estimator,
 std::string estimator_title_in(const Experiment& experiment, const std::string& estimator);
 /// The same as a function, for the groups of a figure, which `experiment` must outlive.
 std::function<std::string(const std::string&)> titles_in(const Experiment& experiment);
-/// False takeoffs per minute for the summary's condition and cell: "0.6"; a dash if not counted.
-std::string false_takeoffs_text(const std::vector<ScoreSummary>& scores,
-                                const CellSummary& summary);
 /// Whether the estimator is fitted to a scene of the test, which is an advantage.
 bool is_fitted_to_test(const Experiment& experiment, const std::string& estimator);
 /// What a reader of the scores has to know: a test without a flight, estimators that are fitted to

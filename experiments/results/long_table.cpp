@@ -18,7 +18,8 @@ struct Unit {
   const char* unit;
 };
 /// The first match counts.
-constexpr std::array units = {Unit{"_per_minute", "1/min"},
+constexpr std::array units = {Unit{"_s_per_minute", "s/min"},
+                              Unit{"_per_minute", "1/min"},
                               Unit{"_per_metre", "m/m"},
                               Unit{"_per_flight", "1/flight"},
                               Unit{"_per_nm", "1/(N·m)"},

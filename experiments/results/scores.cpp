@@ -1,5 +1,7 @@
 #include "experiments/results/scores.hpp"
 
+#include <algorithm>
+
 #include <tbb/parallel_for.h>
 
 namespace touchdown::experiments {
@@ -92,6 +94,11 @@ Columns<noise::NoiseCell> knee_wheel_columns() {
       .level("wheel_noise_nm", &noise::NoiseCell::wheel);
 }
 
+const PointMetric& mapped_metric(const Experiment& experiment) {
+  return *std::ranges::find(point_metrics, experiment.figures.heatmap,
+                            [](const PointMetric& metric) { return std::string(metric.name); });
+}
+
 std::vector<CellSummary> summarise(const std::vector<ConditionCounts>& counts,
                                    const std::vector<noise::NoiseCell>& cells,
                                    const scoring::BootstrapConfig& bootstrap_config) {
@@ -132,6 +139,15 @@ void write_score_tables(const std::vector<CellSummary>& cells,
   }
   classification.part(&CellSummary::cell, knee_wheel_columns());
   directory.write_table("classification.csv", classification, cells);
+  directory.write_table(
+      "ranking.csv",
+      columns_of({"event_f1", "extra_switches_per_minute", "long_errors_s_per_minute",
+                  "takeoff_latency_median_ms", "landing_latency_median_ms", "no_contact_precision",
+                  "balanced_accuracy"},
+                 {{"true_events", [](const Score& s) { return s.events.truth; }},
+                  {"decided_events", [](const Score& s) { return s.events.decided; }},
+                  {"matched_events", [](const Score& s) { return s.events.matched; }}}),
+      scores);
   directory.write_table(
       "views.csv",
       columns_of({"success", "contact_precision", "contact_recall", "no_contact_precision",

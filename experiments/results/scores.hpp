@@ -28,6 +28,7 @@ struct CellSummary {
   Interval contact_recall;
   Interval no_contact_precision;
   Interval no_contact_recall;
+  Interval balanced_accuracy;
   double always_contact = 0.0;  ///< accuracy of "always contact" in the same runs
 
   /// Whether "always contact" is at least as accurate.
@@ -36,22 +37,29 @@ struct CellSummary {
   bool is_silent() const { return no_contact_recall.estimate < 0.02; }
 };
 
-/// A metric of a `CellSummary`, by name.
+/// A metric of a `CellSummary`, by name. `title` stands in sentences.
 struct PointMetric {
   const char* name;
+  const char* title;
   Interval CellSummary::*interval;
   double (scoring::Classification::*of)() const;
 };
-inline constexpr std::array<PointMetric, 5> point_metrics = {{
-    {"success", &CellSummary::success, &scoring::Classification::success},
-    {"contact_precision", &CellSummary::contact_precision,
+inline constexpr std::array<PointMetric, 6> point_metrics = {{
+    {"success", "success rate", &CellSummary::success, &scoring::Classification::success},
+    {"contact_precision", "precision of contact", &CellSummary::contact_precision,
      &scoring::Classification::contact_precision},
-    {"contact_recall", &CellSummary::contact_recall, &scoring::Classification::contact_recall},
-    {"no_contact_precision", &CellSummary::no_contact_precision,
+    {"contact_recall", "recall of contact", &CellSummary::contact_recall,
+     &scoring::Classification::contact_recall},
+    {"no_contact_precision", "precision of air", &CellSummary::no_contact_precision,
      &scoring::Classification::no_contact_precision},
-    {"no_contact_recall", &CellSummary::no_contact_recall,
+    {"no_contact_recall", "recall of air", &CellSummary::no_contact_recall,
      &scoring::Classification::no_contact_recall},
+    {"balanced_accuracy", "balanced accuracy", &CellSummary::balanced_accuracy,
+     &scoring::Classification::balanced_accuracy},
 }};
+
+/// The metric that the experiment's heatmaps show.
+const PointMetric& mapped_metric(const Experiment& experiment);
 
 /// By condition, then cell.
 std::vector<CellSummary> summarise(const std::vector<ConditionCounts>& counts,
@@ -59,9 +67,9 @@ std::vector<CellSummary> summarise(const std::vector<ConditionCounts>& counts,
                                    const scoring::BootstrapConfig& bootstrap);
 
 /// Writes the tables of these scores: `success.csv` and `classification.csv` (point-wise metrics in
-/// every noise cell); of the highlighted ones `views.csv` (per wheel, pooled, and for the robot),
-/// `transitions.csv`, `latency.csv` (over detected events), `calibration.csv`, `reliability.csv`
-/// and `differences.csv`.
+/// every noise cell); of the highlighted ones `ranking.csv`, `views.csv` (per wheel, pooled, and
+/// for the robot), `transitions.csv`, `latency.csv` (over detected events), `calibration.csv`,
+/// `reliability.csv` and `differences.csv`.
 void write_score_tables(const std::vector<CellSummary>& cells,
                         const std::vector<ScoreSummary>& scores,
                         const std::vector<Difference>& differences, const RunDirectory& directory);

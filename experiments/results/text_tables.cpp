@@ -17,21 +17,39 @@ namespace touchdown::experiments {
 
 namespace {
 
+/// The score of both wheels; null for a condition without one.
+const ScoreSummary* score_of(const std::vector<ScoreSummary>& scores, const CellSummary& cell) {
+  const auto found = std::ranges::find_if(scores, [&](const ScoreSummary& score) {
+    return score.condition == cell.condition && score.cell == cell.cell && score.view == "wheels";
+  });
+  return found == scores.end() ? nullptr : &*found;
+}
+
+/// A metric without its interval; a dash where it is not defined.
+std::string plain(const ScoreSummary& score, std::string_view metric, const char* format) {
+  const double value = score[metric].estimate;
+  return std::isnan(value) ? "–" : fmt::format(fmt::runtime(format), value);
+}
+
 /// Every estimator of one engine in one cell.
 TextTable cell_table(const ExperimentResult& result, const std::string& simulator,
                      const noise::NoiseCell& cell) {
-  TextTable table{{"estimator", "success rate", "contact precision", "recall",
-                   "no contact precision", "recall", "false takeoffs/min"},
-                  {}};
+  TextTable table{
+      {"estimator", "F1 of takeoffs and landings", "extra switches/min", "long errors (s/min)",
+       "takeoff (ms)", "landing (ms)", "precision of air", "balanced accuracy"},
+      {}};
   for (const CellSummary& summary : result.summaries) {
     if (summary.condition.test_simulator != simulator || !(summary.cell == cell)) continue;
-    table.rows.push_back({estimator_entry(result.experiment, summary.condition.estimator).title});
-    for (const PointMetric& metric : point_metrics) {
-      Interval interval = summary.*metric.interval;
-      if (metric.interval != &CellSummary::success) interval.low = NAN;
-      table.rows.back().push_back(with_interval(interval));
-    }
-    table.rows.back().push_back(false_takeoffs_text(result.scores, summary));
+    const ScoreSummary* const score = score_of(result.scores, summary);
+    if (score == nullptr) continue;
+    table.rows.push_back({estimator_title_in(result.experiment, summary.condition.estimator),
+                          with_interval((*score)["event_f1"]),
+                          plain(*score, "extra_switches_per_minute", "{:.1f}"),
+                          plain(*score, "long_errors_s_per_minute", "{:.2f}"),
+                          plain(*score, "takeoff_latency_median_ms", "{:+.1f}"),
+                          plain(*score, "landing_latency_median_ms", "{:+.1f}"),
+                          plain(*score, "no_contact_precision", "{:.3f}"),
+                          with_interval((*score)["balanced_accuracy"])});
   }
   return table;
 }
@@ -112,7 +130,7 @@ TextTable table_of(const Experiment& experiment, const std::vector<ScoreSummary>
   for (const ScoreSummary& summary : summaries) {
     if (summary.view != "wheels") continue;
     std::vector<std::string> row = {summary.condition.test_simulator,
-                                    estimator_entry(experiment, summary.condition.estimator).title};
+                                    estimator_title_in(experiment, summary.condition.estimator)};
     for (const std::string& name : names) row.push_back(cell(summary, name));
     const PaperRow* paper = paper_row(summary.condition.estimator);
     if (has_paper) row.push_back(paper == nullptr ? "–" : paper->*reference);
@@ -189,7 +207,8 @@ TextTable accuracy_table(const Experiment& experiment, const std::vector<CellSum
                          const std::vector<std::string>& engines) {
   TextTable table{{"estimator"}, {}};
   for (const std::string& engine : engines) {
-    table.header.insert(table.header.end(), {engine, "false takeoffs/min"});
+    table.header.insert(table.header.end(),
+                        {engine + ": F1", "extra switches/min", "balanced accuracy"});
   }
   for (const std::string& estimator :
        unique(cells, [](const CellSummary& cell) { return cell.condition.estimator; })) {
@@ -200,12 +219,15 @@ TextTable accuracy_table(const Experiment& experiment, const std::vector<CellSum
         return one.condition.test_simulator == simulator && one.condition.estimator == estimator &&
                one.cell == noise;
       });
-      const bool is_scored = cell != cells.end();
-      row.push_back(is_scored ? with_interval(cell->success) : "–");
-      if (is_scored && cell->is_silent() && estimator != always_contact_name) {
-        row.back() += ", never air";
+      const ScoreSummary* const score = cell == cells.end() ? nullptr : score_of(scores, *cell);
+      if (score == nullptr) {
+        row.insert(row.end(), 3, "–");
+        continue;
       }
-      row.push_back(is_scored ? false_takeoffs_text(scores, *cell) : "–");
+      row.push_back(with_interval((*score)["event_f1"]));
+      if (cell->is_silent() && estimator != always_contact_name) row.back() += ", never air";
+      row.push_back(plain(*score, "extra_switches_per_minute", "{:.1f}"));
+      row.push_back(with_interval((*score)["balanced_accuracy"]));
     }
   }
   return table;
@@ -231,7 +253,7 @@ std::string summary_text(const ExperimentResult& result) {
       text += fmt::format(
           "\n{}: success rate of {} by torque and accelerometer noise "
           "(* no better than always contact){}\n\n",
-          simulator, estimator_entry(experiment, first).title, setup_caption(experiment));
+          simulator, estimator_title_in(experiment, first), setup_caption(experiment));
       text += to_text(grid_table(result.summaries, simulator, first, experiment.noise));
     }
   }
@@ -248,7 +270,7 @@ std::string summary_text(const ExperimentResult& result) {
 std::string closing_text(const ExperimentResult& result) {
   const Experiment& experiment = result.experiment;
   const noise::NoiseCell& cell = experiment.highlights.back();
-  return fmt::format("\nContact success rate, {}{}\n\n{}", noise_text(cell),
+  return fmt::format("\nF1 of takeoffs and landings within 20 ms, {}{}\n\n{}", noise_text(cell),
                      setup_caption(experiment),
                      to_text(accuracy_table(experiment, result.summaries, result.scores, cell,
                                             experiment.simulators)));
@@ -287,8 +309,7 @@ CaptionedTable difference_text_table(const Experiment& experiment,
   for (const Difference& d : differences) {
     result.table.rows.push_back(
         {d.simulator,
-         estimator_entry(experiment, d.first).title + " − " +
-             estimator_entry(experiment, d.second).title,
+         estimator_title_in(experiment, d.first) + " − " + estimator_title_in(experiment, d.second),
          value(d, "success", 3), value(d, "no_contact_recall", 3), value(d, "takeoff_precision", 3),
          value(d, "takeoff_latency_ms", 1), value(d, "landing_latency_ms", 1)});
   }

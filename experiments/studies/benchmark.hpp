@@ -64,6 +64,7 @@ struct BenchmarkRow {
   Resampled balanced_accuracy;
   scoring::Score score;
   scoring::ExtendedScore extended;
+  double air = 0.0;        ///< time of true air in the scored runs, both wheels added (s)
   std::size_t refits = 0;  ///< resampled together with the runs
   int runs = 0;            ///< simulated
   int failed = 0;          ///< of these; not scored
@@ -71,8 +72,8 @@ struct BenchmarkRow {
   bool is_scored() const { return !std::isnan(balanced_accuracy.estimate); }
 };
 
-/// Extra switches per minute and wheel; NaN without scored time.
-double extra_switches_per_minute(const BenchmarkRow& row);
+/// A scene with less true air says nothing about how well it is found (s).
+inline constexpr double least_air = 0.1;
 
 /// The scores of a submitted estimator in a benchmark, by highlighted noise setting, then by task
 /// name. Tasks without submitted beliefs are missing.
@@ -100,20 +101,24 @@ struct Standings {
   /// One estimator over all scenes and engines, with equal weights.
   struct Entry {
     std::string estimator;
-    Interval mean;       ///< of balanced accuracy; scenes, fits and runs are resampled
-    double worst = 0.0;  ///< lowest balanced accuracy over scenes and engines
+    scoring::Score score;  ///< of all scenes and engines, both wheels added
+    Interval event_f1;     ///< of that score; scenes are resampled
+    Interval mean;         ///< of balanced accuracy; scenes, fits and runs are resampled
+    double worst = 0.0;    ///< lowest balanced accuracy over scenes and engines
     std::string worst_scene;
     std::string worst_simulator;
-    /// Whether the simultaneous band of its difference from the best includes zero.
+    /// Whether the simultaneous band of its balanced accuracy's difference from the best one
+    /// includes zero.
     bool is_not_significantly_worse = false;
-    /// Mean over scenes and engines (1/min per wheel).
-    double extra_switches = 0.0;
     /// Mean log loss over scenes and engines (bits per wheel and step).
     double log_loss = 0.0;
     std::size_t scored = 0;   ///< pairs of scene and engine with a scored run
     std::size_t planned = 0;  ///< pairs of scene and engine
+    /// Of the scored pairs, those with too little air: they count in no balanced accuracy, unless
+    /// all have too little.
+    std::size_t without_air = 0;
   };
-  std::vector<Entry> entries;  ///< by mean, the best first
+  std::vector<Entry> entries;  ///< by F1 of events, the best first
 
   /// Balanced accuracy of the first estimator minus that of the second, on the same runs, resampled
   /// together: the mean over engines in one scene; or, if `scene` is empty, over scenes, which are
@@ -136,8 +141,8 @@ std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows,
                                  bool only_unseen = false);
 
 /// Standings over unseen scenes as a Markdown table for pages: a row per estimator of
-/// `benchmark.table`, on the first robot with its sensors. Each noise setting has a column with the
-/// mean balanced accuracy and its interval; the last column has extra switches of all settings.
+/// `benchmark.table`, on the first robot with its sensors. Each noise setting has a column with F1
+/// and its interval; the others have the numbers of all settings.
 /// Empty without standings.
 std::string unseen_markdown(const std::vector<Standings>& unseen, const Experiment& experiment);
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -32,6 +33,12 @@ std::string fitted_on(const Condition& condition, const BenchmarkSetup& here,
     return setup.robot_and_sensors.fit == condition.fit;
   });
   return fmt::format("{} {}", there->robot, there->sensors);
+}
+
+/// The time of true air (s).
+double air_of(const scoring::Score& score) {
+  const double share = scoring::ratio(score.points.flight(), score.points.points());
+  return 1e-6 * static_cast<double>(score.scored_us) * share;
 }
 
 std::vector<BenchmarkRow> rows_of(const Evaluation& evaluation) {
@@ -74,6 +81,7 @@ std::vector<BenchmarkRow> rows_of(const Evaluation& evaluation) {
             row.balanced_accuracy = {std::numeric_limits<double>::quiet_NaN()};
             row.score = {};
             row.extended = {};
+            row.air = 0.0;
             if (row.runs > 0 && row.failed == row.runs) rows.push_back(row);
             continue;
           }
@@ -83,6 +91,7 @@ std::vector<BenchmarkRow> rows_of(const Evaluation& evaluation) {
               balanced_accuracy(fits, stream_of(scene, simulator, experiment), bootstrap);
           row.score = scoring::sum(scored.samples[cell]).wheels();
           row.extended = scoring::sum(samples_of(extended, scored.condition, cell));
+          row.air = air_of(row.score) / static_cast<double>(experiment.noise.seeds);
           rows.push_back(row);
         }
       }
@@ -120,10 +129,6 @@ Plan plan_for(const std::string& estimator, const noise::NoiseCell& cell,
 }
 
 }  // namespace
-
-double extra_switches_per_minute(const BenchmarkRow& row) {
-  return 60e6 * scoring::ratio(row.extended.extra_switches, row.score.scored_us);
-}
 
 void save(const SubmissionScores& scores, const Store& store) {
   store.put(submission_parts, scores.name, scores.by_cell);
@@ -260,19 +265,46 @@ double bits_of(const BenchmarkRow& row) {
   return row.extended.log_loss / static_cast<double>(row.extended.steps) / std::numbers::ln2;
 }
 
+bool has_air(const BenchmarkRow* row) { return row->air >= least_air; }
+
+/// Rows whose balanced accuracy counts.
+Rows with_air(const Rows& rows) {
+  return std::ranges::any_of(rows, has_air) ? where(rows, has_air) : rows;
+}
+
+/// F1 of the events in all scenes and engines. Scenes without events say nothing about its
+/// interval.
+Interval event_f1(const Rows& rows, const scoring::BootstrapConfig& bootstrap) {
+  std::vector<scoring::EventScore> scenes;
+  for (const auto& scene : group_by(rows, scene_name)) {
+    scoring::EventScore& sum = scenes.emplace_back();
+    for (const BenchmarkRow* row : scene.rows) sum += row->score.events;
+  }
+  std::erase_if(scenes, [](const auto& sum) { return sum.truth + sum.decided == 0; });
+  if (scenes.empty()) return {NAN, NAN, NAN};
+  return scoring::bootstrap<scoring::EventScore>(scenes, {&scoring::EventScore::f1}, bootstrap)
+      .front();
+}
+
 std::vector<Standings::Entry> entries_of(const Rows& rows, const std::vector<Named>& means,
-                                         double level) {
+                                         const scoring::BootstrapConfig& bootstrap) {
   std::vector<Standings::Entry> entries;
   for (const Named& mean : means) {
+    const Rows own =
+        where(rows, [&](const BenchmarkRow* row) { return row->estimator == mean.name; });
+    const Rows judged = with_air(own);
     Standings::Entry entry;
     entry.estimator = mean.name;
-    entry.mean = interval_of(mean.value, level);
+    entry.event_f1 = event_f1(own, bootstrap);
+    entry.mean = interval_of(mean.value, bootstrap.level);
     entry.worst = 1.0;
-    for (const BenchmarkRow* row : rows) {
-      if (row->estimator != mean.name) continue;
+    entry.scored = own.size();
+    entry.without_air = static_cast<std::size_t>(std::ranges::count_if(own, std::not_fn(has_air)));
+    for (const BenchmarkRow* row : own) {
+      entry.score += row->score;
       entry.log_loss += bits_of(*row);
-      entry.extra_switches += extra_switches_per_minute(*row);
-      ++entry.scored;
+    }
+    for (const BenchmarkRow* row : judged) {
       const double value = row->balanced_accuracy.estimate;
       if (value > entry.worst) continue;
       entry.worst = value;
@@ -280,11 +312,14 @@ std::vector<Standings::Entry> entries_of(const Rows& rows, const std::vector<Nam
       entry.worst_simulator = row->simulator;
     }
     entry.log_loss /= static_cast<double>(entry.scored);
-    entry.extra_switches /= static_cast<double>(entry.scored);
     entries.push_back(std::move(entry));
   }
   std::stable_sort(entries.begin(), entries.end(), [](const auto& one, const auto& other) {
-    return one.mean.estimate > other.mean.estimate;
+    const auto rank = [](const Standings::Entry& entry) {
+      const double f1 = entry.event_f1.estimate;  // NaN where nothing takes off
+      return std::pair(std::isnan(f1) ? 0.0 : f1, entry.mean.estimate);
+    };
+    return rank(one) > rank(other);
   });
   return entries;
 }
@@ -292,7 +327,9 @@ std::vector<Standings::Entry> entries_of(const Rows& rows, const std::vector<Nam
 void mark_not_significantly_worse(std::vector<Standings::Entry>& entries,
                                   const std::vector<Standings::Difference>& means) {
   if (entries.empty()) return;
-  const std::string& best = entries.front().estimator;
+  const std::string best = std::ranges::max_element(entries, {}, [](const Standings::Entry& entry) {
+                             return entry.mean.estimate;
+                           })->estimator;
   for (Standings::Entry& entry : entries) {
     entry.is_not_significantly_worse =
         entry.estimator == best || std::any_of(means.begin(), means.end(), [&](const auto& pair) {
@@ -318,9 +355,9 @@ std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows,
   std::vector<Standings> all;
   for (const auto& scored : group_by(own, setting_of)) {
     const Rows alike = complete_ones(scored.rows);
-    const std::vector<Named> means = means_by_estimator(alike, intervals);
+    const std::vector<Named> means = means_by_estimator(with_air(alike), intervals);
     Standings standings{alike.front()->robot, alike.front()->sensors, alike.front()->noise,
-                        entries_of(alike, means, level), all_pairs("", means, level)};
+                        entries_of(alike, means, intervals), all_pairs("", means, level)};
     for (Standings::Entry& entry : standings.entries) {
       entry.planned = where(planned, [&](const BenchmarkRow* row) {
                         return row->estimator == entry.estimator &&

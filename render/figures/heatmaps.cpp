@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -15,8 +16,19 @@ namespace touchdown::render {
 
 namespace {
 
+/// Only this metric is compared with that of always contact.
+bool is_success(const experiments::PointMetric& metric) {
+  return metric.interval == &experiments::CellSummary::success;
+}
+
+std::string capitalised(std::string text) {
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return text;
+}
+
 HeatmapPanel panel_of(const experiments::ExperimentResult& result, const std::string& simulator,
                       const std::string& estimator, const NoiseMaps& maps) {
+  const experiments::PointMetric& metric = experiments::mapped_metric(result.experiment);
   HeatmapPanel panel;
   panel.title = experiments::estimator_entry(result.experiment, estimator).title;
   for (const double y : maps.y.levels) {
@@ -25,11 +37,11 @@ HeatmapPanel panel_of(const experiments::ExperimentResult& result, const std::st
     for (const double x : maps.x.levels) {
       const experiments::CellSummary* const cell =
           maps.cell(result.summaries, simulator, estimator, x, y);
-      const Interval success = cell == nullptr ? Interval{NAN, NAN, NAN} : cell->success;
-      panel.value.back().push_back(error_percent(success.estimate));
-      panel.low.back().push_back(error_percent(success.high));
-      panel.high.back().push_back(error_percent(success.low));
-      panel.marked.back().push_back(cell != nullptr && cell->loses());
+      const Interval value = cell == nullptr ? Interval{NAN, NAN, NAN} : cell->*metric.interval;
+      panel.value.back().push_back(error_percent(value.estimate));
+      panel.low.back().push_back(error_percent(value.high));
+      panel.high.back().push_back(error_percent(value.low));
+      panel.marked.back().push_back(cell != nullptr && is_success(metric) && cell->loses());
     }
   }
   return panel;
@@ -76,13 +88,19 @@ Heatmap heatmap_of(const experiments::ExperimentResult& result, const std::strin
   for (const std::string& estimator : mapped_estimators(experiment)) {
     heatmap.panels.push_back(panel_of(result, simulator, estimator, maps));
   }
+  const experiments::PointMetric& metric = experiments::mapped_metric(experiment);
+  const std::string always =
+      is_success(metric)
+          ? fmt::format("Always contact has {} %; crossed cells do not beat it. ",
+                        success_text(error_percent(always_contact(result, simulator))))
+          : "";
   heatmap.caption = fmt::format(
-      "Success rate: the share of steps with a correct decision; {}. Always contact has {} %; "
-      "crossed cells do not beat it. Lines run between cells below and above {}. The colour scale "
+      "{}{}; {}. {}Lines run between cells below and above {}. The colour scale "
       "ends at {} and {} % and is the same in every map. The widest {:.0f} % interval over {}s "
       "spans {:.1f} percentage points.",
-      experiments::scored_text(result, simulator),
-      success_text(error_percent(always_contact(result, simulator))), levels_text(heatmap.levels),
+      capitalised(metric.title),
+      is_success(metric) ? ": the share of steps with a correct decision" : "",
+      experiments::scored_text(result, simulator), always, levels_text(heatmap.levels),
       success_of(highest_error), success_of(lowest_error),
       100.0 * experiment.intervals.bootstrap.level, experiments::sample_text(experiment),
       widest_interval(heatmap));
@@ -101,15 +119,16 @@ std::vector<NoiseMaps> noise_maps(const experiments::Experiment& experiment) {
   using noise::NoiseCell;
   const noise::NoiseGridConfig& noise = experiment.noise;
   const noise::KneeWheelGridConfig& joints = noise.knee_wheel;
+  const std::string metric = capitalised(experiments::mapped_metric(experiment).title);
   std::vector<NoiseMaps> maps = {
       {"error",
-       "Success rate under sensor noise",
+       metric + " under sensor noise",
        {&NoiseCell::accelerometer, "m/s²", "accelerometer noise", "accelerometer noise",
         noise.accelerometer},
        {&NoiseCell::torque, "N·m", "torque noise", "torque noise", noise.torque}}};
   if (joints.knee.empty()) return maps;
   maps.push_back({"knee_wheel",
-                  fmt::format("Success rate under torque noise, {} m/s² on the accelerometer",
+                  fmt::format("{} under torque noise, {} m/s² on the accelerometer", metric,
                               joints.accelerometer),
                   {&NoiseCell::wheel, "N·m", "wheel noise", "wheel torque noise", joints.wheel},
                   {&NoiseCell::knee, "N·m", "knee noise", "knee torque noise", joints.knee},

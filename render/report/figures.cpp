@@ -91,11 +91,12 @@ std::string readout(const experiments::CellSummary& cell, const NoiseMaps& maps,
   const auto level = [&](const NoiseAxis& axis) {
     return fmt::format("{} {:.4g} {}", axis.name, cell.cell.*axis.level, axis.unit);
   };
+  const experiments::PointMetric& metric = experiments::mapped_metric(experiment);
   std::string text = fmt::format(
-      "{}, {}: {}, {}: success rate {}", simulators::simulator_title(cell.condition.test_simulator),
+      "{}, {}: {}, {}: {} {}", simulators::simulator_title(cell.condition.test_simulator),
       experiments::estimator_title_in(experiment, cell.condition.estimator), level(maps.y),
-      level(maps.x), with_interval(cell.success));
-  if (std::isfinite(cell.always_contact)) {
+      level(maps.x), metric.title, with_interval(cell.*metric.interval));
+  if (metric.interval == &experiments::CellSummary::success && std::isfinite(cell.always_contact)) {
     text += fmt::format("; always contact {:.3f}", cell.always_contact);
   }
   return text;
@@ -216,7 +217,7 @@ ReportSection heatmap_section(const ReportSubject& subject) {
       "<div class=\"heatmaps gallery\">\n<p class=\"readout\" aria-live=\"polite\">Point at a "
       "cell, "
       "tap it, or use the arrow keys: its numbers appear here.</p>\n{}</div>\n"
-      "<p class=\"note\">The table “Success” below lists the success rates.</p>\n",
+      "<p class=\"note\">The tables “Success” and “Classification” below list the numbers.</p>\n",
       section.html);
   return section;
 }

@@ -18,7 +18,7 @@ namespace touchdown::render {
 
 namespace {
 
-using Cells = std::vector<experiments::CellSummary>;
+using Scores = std::vector<experiments::ScoreSummary>;
 
 /// "knee torques, wheel torques and the accelerometer"; "no noisy signal".
 std::string inputs_text(const experiments::Sensors& sensors) {
@@ -32,57 +32,43 @@ std::string inputs_text(const experiments::Sensors& sensors) {
   return inputs.empty() ? "no noisy signal" : in_words(inputs);
 }
 
-/// The estimators' scores in one engine and noise cell, the highest success rate first.
-Cells ranked(const Cells& all, const std::string& simulator, const noise::NoiseCell& noise) {
-  Cells cells;
-  std::ranges::copy_if(all, std::back_inserter(cells), [&](const experiments::CellSummary& cell) {
-    return cell.condition.test_simulator == simulator && cell.cell == noise &&
-           cell.condition.estimator != experiments::always_contact_name &&
-           std::isfinite(cell.success.estimate);
+double f1_of(const experiments::ScoreSummary& score) { return score["event_f1"].estimate; }
+
+/// The estimators' scores in one engine and noise cell, the highest F1 first.
+Scores ranked(const Scores& all, const std::string& simulator, const noise::NoiseCell& noise) {
+  Scores scores;
+  std::ranges::copy_if(all, std::back_inserter(scores), [&](const auto& score) {
+    return score.condition.test_simulator == simulator && score.cell == noise &&
+           score.view == "wheels" &&
+           score.condition.estimator != experiments::always_contact_name &&
+           std::isfinite(f1_of(score));
   });
-  std::ranges::stable_sort(cells, std::greater<>(), [](const experiments::CellSummary& cell) {
-    return cell.success.estimate;
-  });
-  return cells;
+  std::ranges::stable_sort(scores, std::greater<>(), f1_of);
+  return scores;
 }
 
-/// The success rate; a line cannot break before its percent sign.
-std::string percent_of(double success) { return success_text(error_percent(success)) + "\u00a0%"; }
-
-/// "Without noise, Phase filter has the highest success rate, 99.06 % [98.90, 99.20], ahead of Free
-/// fall (98.41 %) and NMN (97.13 %). …" Estimators with the same number share the place.
-std::string finding(const experiments::Experiment& experiment, const Cells& cells) {
-  const experiments::CellSummary& best = cells.front();
-  const std::string success = percent_of(best.success.estimate);
+/// "Without noise, Phase filter finds takeoffs and landings best: F1 .906 [.890, .920], ahead of
+/// Free fall (.841) and NMN (.713). …" Estimators with the same number share the place.
+std::string finding(const experiments::Experiment& experiment, const Scores& scores) {
+  const experiments::ScoreSummary& best = scores.front();
+  const auto text_of = [](double f1) { return fmt::format("{:.3f}", f1); };
   const bool is_noiseless = best.cell.torque == 0.0 && best.cell.accelerometer == 0.0;
-  std::vector<std::string> leaders, next, losers;
-  for (const experiments::CellSummary& cell : cells) {
-    const std::string& name = cell.condition.estimator;
+  std::vector<std::string> leaders, next;
+  for (const experiments::ScoreSummary& score : scores) {
+    const std::string& name = score.condition.estimator;
     const std::string title = experiments::estimator_title_in(experiment, name);
-    if (percent_of(cell.success.estimate) == success) {
+    if (text_of(f1_of(score)) == text_of(f1_of(best))) {
       const bool is_own = experiments::is_fitted_to_test(experiment, name);
       leaders.push_back(title + (is_own ? ", fitted to these scenes," : ""));
     } else if (next.size() < 2) {
-      next.push_back(fmt::format("{} ({})", title, percent_of(cell.success.estimate)));
+      next.push_back(fmt::format("{} ({})", title, text_of(f1_of(score))));
     }
-    if (cell.loses()) losers.push_back(title);
   }
-  std::string interval;
-  if (leaders.size() == 1 && std::isfinite(best.success.low)) {
-    interval = fmt::format(" [{}, {}]", success_text(error_percent(best.success.low)),
-                           success_text(error_percent(best.success.high)));
-  }
-  std::string text =
-      fmt::format("{}, {} {} the highest success rate, {}{}{}. ",
-                  is_noiseless ? "Without noise" : "With " + experiments::noise_text(best.cell),
-                  in_words(leaders), leaders.size() == 1 ? "has" : "share", success, interval,
-                  next.empty() ? "" : ", ahead of " + in_words(next));
-  if (!std::isfinite(best.always_contact)) return text;
-  return text + fmt::format("Always contact has a success rate of {}{}. ",
-                            percent_of(best.always_contact),
-                            losers.empty() ? ""
-                                           : fmt::format("; {} {} not beat it", in_words(losers),
-                                                         losers.size() > 1 ? "do" : "does"));
+  return fmt::format("{}, {} {} takeoffs and landings best: F1 {}{}. ",
+                     is_noiseless ? "Without noise" : "With " + experiments::noise_text(best.cell),
+                     in_words(leaders), leaders.size() == 1 ? "finds" : "find",
+                     leaders.size() == 1 ? with_interval(best["event_f1"]) : text_of(f1_of(best)),
+                     next.empty() ? "" : ", ahead of " + in_words(next));
 }
 
 std::vector<std::string> engines_of(const experiments::Experiment& experiment) {
@@ -106,10 +92,10 @@ std::string with_engine_titles(experiments::CaptionedTable table) {
   return table_html(table, 2);
 }
 
-/// A paragraph per engine: the estimator with the highest success rate at each highlighted noise
-/// setting, and the success rates of the next two. Empty without scores.
+/// A paragraph per engine: the estimator with the highest F1 at each highlighted noise setting, and
+/// those of the next two. Empty without scores.
 std::string findings_html(const ReportSubject& subject) {
-  const Cells& all = subject.summary.cells;
+  const Scores& all = subject.summary.scores;
   if (all.empty()) return {};
   std::vector<noise::NoiseCell> settings = subject.experiment.highlights;
   if (settings.empty()) settings.push_back(all.front().cell);
@@ -117,8 +103,8 @@ std::string findings_html(const ReportSubject& subject) {
   for (const std::string& simulator : subject.experiment.simulators) {
     std::string text;
     for (const noise::NoiseCell& noise : settings) {
-      const Cells cells = ranked(all, simulator, noise);
-      if (!cells.empty()) text += finding(subject.experiment, cells);
+      const Scores scores = ranked(all, simulator, noise);
+      if (!scores.empty()) text += finding(subject.experiment, scores);
     }
     if (text.empty()) continue;
     text.pop_back();
@@ -196,12 +182,12 @@ ReportSection results_section(const ReportSubject& subject) {
   for (const noise::NoiseCell& cell : cells) {
     experiments::CaptionedTable table{
         fmt::format(
-            "Success rate, the share of steps with a correct decision, and false takeoffs per "
-            "minute "
-            "and wheel, with torque noise of {} N·m and accelerometer noise of {} m/s². “Always "
-            "contact” is the constant answer{}.",
+            "F1 of takeoffs and landings within 20 ms, decided switches that detect none of them, "
+            "per "
+            "minute and wheel, and the mean recall of contact and air, with torque noise of {} N·m "
+            "and accelerometer noise of {} m/s². “Always contact” is the constant answer{}.",
             cell.torque, cell.accelerometer, experiments::setup_caption(experiment)),
-        fmt::format("success rates at {} N·m and {} m/s²", cell.torque, cell.accelerometer),
+        fmt::format("F1 at {} N·m and {} m/s²", cell.torque, cell.accelerometer),
         experiments::accuracy_table(experiment, scores, subject.summary.scores, cell,
                                     engines_of(experiment))};
     section.html += table_html(table, 1);

@@ -37,12 +37,15 @@ std::string accuracy_text(const Interval& accuracy) {
 
 std::string tooltip(const TableRow& score) {
   return fmt::format(
-      "{}; flight F1 {}; {} extra switches per minute; {} false takeoffs per minute; median "
-      "takeoff latency {} ms",
-      accuracy_text(score.interval("balanced_accuracy")), short_number(score.number("flight_f1")),
+      "F1 of events {}; {} extra switches per minute; {} s of long errors per minute; median "
+      "latency of takeoffs {} ms, of landings {} ms; precision of air {}; {}",
+      short_number(score.number("event_f1")),
       short_number(score.number("extra_switches_per_minute")),
-      short_number(score.number("false_takeoffs_per_minute")),
-      short_number(score.number("takeoff_latency_median_ms")));
+      short_number(score.number("long_errors_s_per_minute")),
+      short_number(score.number("takeoff_latency_median_ms")),
+      short_number(score.number("landing_latency_median_ms")),
+      short_number(score.number("no_contact_precision")),
+      accuracy_text(score.interval("balanced_accuracy")));
 }
 
 /// The shade of a cell, from 0: the darkest and worst.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -133,6 +134,10 @@ Figure draw_standings_figure(const BenchmarkTables& tables, const std::string& s
   for (const TableRow& standing : tables.standings.all())
     names.push_back(title_of(standing, tables));
   const double names_width = 24.0 + text_width(names);
+  // The table is in the order of F1; bars join neighbours by balanced accuracy.
+  for (Panel& panel : panels) {
+    std::ranges::stable_sort(panel.standings, std::greater<>(), mean_of);
+  }
   const double height = row_height * static_cast<double>(panels.front().standings.size());
   // Printed narrow, the worst scenes are below the means, and both parts have the same width.
   const double wide = names_width + mean_width + bars_width + worst_width + words_width;

@@ -31,9 +31,11 @@ from pages import blocks
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 UNSEEN = 'study=benchmark_unseen; robot=upkie; sensors=upkie; metric='
-COLUMNS = {'unseen': [f'2: {UNSEEN}mean_balanced_accuracy; noise=0 N·m, 0 m/s²',  # tables/benchmark_unseen.md
-                      f'3: {UNSEEN}mean_balanced_accuracy; noise=1 N·m, 5 m/s²',
-                      f'4: {UNSEEN}extra_switches_per_minute; noise=0 N·m, 0 m/s² / noise=1 N·m, 5 m/s²']}
+QUIET, NOISY = 'noise=0 N·m, 0 m/s²', 'noise=1 N·m, 5 m/s²'
+COLUMNS = {'unseen': [f'2: {UNSEEN}event_f1; {QUIET}', f'3: {UNSEEN}event_f1; {NOISY}'] +  # tables/benchmark_unseen.md
+                     [f'{column}: {UNSEEN}{metric}; {QUIET} / {NOISY}' for column, metric in enumerate(
+                         ('extra_switches_per_minute', 'long_errors_s_per_minute', 'takeoff_latency_median_ms',
+                          'landing_latency_median_ms', 'no_contact_precision', 'mean_balanced_accuracy'), 4)]}
 COMMENT = re.compile(r'<!-- results( quick)?:([^\n]*)\n(.*?)-->\n+', re.S)
 TABLE = re.compile(r'((?:<!-- results(?: quick)?:(?:(?!-->).)*-->\n+)+)((?:\|[^\n]*\n)+)', re.S)
 PARTS = re.compile(r' / | ± ')

@@ -148,6 +148,10 @@ TEST_F(Estimate, ScoresAgainstTheTruthAsExperimentsDo) {
   const scoring::Score wheels = score.wheels();
   const std::string summary = estimate("a.mpack --model m.npz");
   EXPECT_THAT(summary, HasSubstr(fmt::format("accuracy {:.4f},", wheels.points.success())));
+  EXPECT_THAT(summary,
+              HasSubstr(fmt::format("truth        F1 of takeoffs and landings {:.4f}, extra "
+                                    "switches {:.1f}/min",
+                                    wheels.events.f1(), wheels.extra_switches_per_minute())));
   EXPECT_THAT(summary, HasSubstr(fmt::format("Brier {:.4f}", wheels.calibration.brier())));
   EXPECT_THAT(summary, HasSubstr("takeoffs 6 of 6 found"));
   EXPECT_THAT(summary, HasSubstr("left wheel   takeoffs at (s) 0.6"));

@@ -191,12 +191,14 @@ TEST_F(Fit, JudgesTheModelOnItsLogsAndOnOthers) {
   };
   const std::string on_a = right("b.mpack", "a.mpack");
   const std::string on_b = right("a.mpack", "b.mpack");
-  const double held_out = (2.7 * number(on_a, "balanced ") + 3.7 * number(on_b, "balanced ")) / 6.4;
+  const double held_out =
+      (2.7 * number(on_a, "balanced accuracy ") + 3.7 * number(on_b, "balanced accuracy ")) / 6.4;
   EXPECT_NEAR(number(text, "on these logs, "), held_out, 2e-3) << text;
   EXPECT_THAT(text, HasSubstr("on each by a model of the others"));
-  const double unfitted = (2.7 * number(folder_.output_of("estimate a.mpack"), "balanced ") +
-                           3.7 * number(folder_.output_of("estimate b.mpack"), "balanced ")) /
-                          6.4;
+  const double unfitted =
+      (2.7 * number(folder_.output_of("estimate a.mpack"), "balanced accuracy ") +
+       3.7 * number(folder_.output_of("estimate b.mpack"), "balanced accuracy ")) /
+      6.4;
   const std::size_t line = text.find(" of load_filter, without a fit");
   ASSERT_NE(line, std::string::npos) << text;
   EXPECT_NEAR(std::stod(text.substr(line - 6, 6)), unfitted, 2e-3) << text;

@@ -45,7 +45,9 @@ TEST_F(Metadata, NamesEstimatorRateAndRobotOfAModel) {
                         "fingerprint " +
                         metadata.fingerprint +
                         "; it was fitted to this log, so that its score is no test\n"));
-  log("b.mpack", test::synthetic_log(2.5));
+  logs::Recording other = test::synthetic_log(2.5);
+  other.info.run = 7;
+  log("b.mpack", other);
   EXPECT_THAT(run("estimate b.mpack --model m.npz"), Not(HasSubstr("is no test")));
 }
 

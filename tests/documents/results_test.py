@@ -98,17 +98,19 @@ row: *
     def test_of_the_benchmarks_table_agree_with_its_markdown(self):
         printed = """| estimator | no added noise | 1 N·m, 5 m/s² | extra switches a minute |
 |---|---|---|---|
-| `load_filter` | .999 [.998, 1] | 1 | 0.0 / 12.5 |
+| `load_filter` | .999 [.998, 1] | 1 | 0.0 / 12.5 | 0.1 / 0.2 | +1.0 / -2.5 | +1.0 / +2.0 | .9 / .8 | .99 / .98 |
 """
         quiet, noisy = '0 N·m, 0 m/s²', '1 N·m, 5 m/s²'
         page = f'<!-- results: touchdown run experiments/benchmark.yaml\ncolumns: unseen\n-->\n\n{printed}'
         rows = [{'study': 'benchmark_unseen', 'robot': 'upkie', 'sensors': 'upkie', 'metric': metric,
                  'estimator': 'load_filter', 'noise': noise, 'estimate': estimate, 'low': low, 'high': high}
                 for metric, noise, estimate, low, high in
-                (('mean_balanced_accuracy', quiet, '0.99904', '0.99823', '1'),
-                 ('mean_balanced_accuracy', noisy, '0.9997', '', ''),
-                 ('extra_switches_per_minute', quiet, '0.02', '', ''),
-                 ('extra_switches_per_minute', noisy, '12.46', '', ''))]
+                (('event_f1', quiet, '0.99904', '0.99823', '1'), ('event_f1', noisy, '0.9997', '', ''),
+                 *((metric, noise, estimate, '', '') for metric, *both in
+                   (('extra_switches_per_minute', '0.02', '12.46'), ('long_errors_s_per_minute', '0.1', '0.2'),
+                    ('takeoff_latency_median_ms', '1', '-2.5'), ('landing_latency_median_ms', '1', '2'),
+                    ('no_contact_precision', '0.9', '0.8'), ('mean_balanced_accuracy', '0.99', '0.98'))
+                   for noise, estimate in zip((quiet, noisy), both)))]
         [(_, _, columns, key, cells)] = results.checks(page)
         self.assertEqual(list(results.faults_of_table(columns, key, cells, rows)), [])
         rows[3]['estimate'] = '12.6'

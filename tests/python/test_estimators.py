@@ -126,9 +126,10 @@ class Run(InFolder):
             self.assert_program_believes(beliefs, "own.mpack")
             plain = {key: np.asarray(value) for key, value in run.items()}
             self.assertFalse(np.array_equal(touchdown.Estimator().run(plain)["p_contact"], beliefs["p_contact"]))
-            program("fit", "own.mpack", "-o", "program.npz")
-            touchdown.fit(run).save("python.npz")
-            self.assert_same_bytes("python.npz", "program.npz")
+            if robot == "upkie_heavy":  # the other falls before it flies
+                program("fit", "own.mpack", "-o", "program.npz")
+                touchdown.fit(run).save("python.npz")
+                self.assert_same_bytes("python.npz", "program.npz")
 
     def test_has_loads_of_estimators_with_legs(self):
         run = hop()

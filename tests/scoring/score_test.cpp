@@ -219,6 +219,7 @@ RobotScore streamed(const NoisyRun& run) {
 void expect_equal(const RobotScore& a, const RobotScore& b) {
   for (std::size_t v = 0; v < view_count; ++v) {
     EXPECT_EQ(a.view[v].points, b.view[v].points);
+    EXPECT_EQ(a.view[v].events, b.view[v].events);
     EXPECT_EQ(a.view[v].takeoff, b.view[v].takeoff);
     EXPECT_EQ(a.view[v].landing, b.view[v].landing);
     EXPECT_NEAR(a.view[v].calibration.brier(), b.view[v].calibration.brier(), 1e-12);

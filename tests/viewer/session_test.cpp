@@ -197,8 +197,9 @@ TEST(WatchSession, EditsLabelsOfALogThatIsReadByItsMapping) {
   const std::string arguments = quoted(table) + " --mapping " + quoted(mapping);
   ASSERT_EQ(shell(folder, TOUCHDOWN_PROGRAM " label " + arguments + " -o " + quoted(labels)), 0)
       << text(folder, "err");
-  EXPECT_THAT(text(folder, "out"), HasSubstr("touchdown export " + table.string() + " --mapping " +
-                                             mapping.string() + " -o log.mpack\n"));
+  EXPECT_THAT(text(folder, "out"),
+              HasSubstr("touchdown estimate " + table.string() + " --labels " + labels.string() +
+                        " --mapping " + mapping.string() + "\n"));
   EXPECT_TRUE(read_file(labels).starts_with("start,end,left,right,sure\n0,2.001,1,1,"))
       << read_file(labels);
   const std::string script = "sleep 2; xdotool key n Return; sleep 0.5; xdotool key q";

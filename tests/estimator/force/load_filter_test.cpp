@@ -154,8 +154,8 @@ TEST(LoadFilter, LeavesAndReturnsAtItsThresholds) {
     const double time = 0.001 * k;
     const WheelBelief wheel = filter.update(carrying(time, load_at(time), 26.0)).wheel[0];
     if (wheel.contact != was_in_contact) ++changes;
-    const bool expected = wheel.p_contact < 0.1    ? false
-                          : wheel.p_contact > 0.95 ? true
+    const bool expected = wheel.p_contact < 0.02   ? false
+                          : wheel.p_contact > 0.85 ? true
                                                    : was_in_contact;
     EXPECT_EQ(wheel.contact, expected) << k;
     was_in_contact = wheel.contact;

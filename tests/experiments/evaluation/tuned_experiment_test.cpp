@@ -80,7 +80,7 @@ TEST_F(TunedExperiment, ChoosesIndependentlyOfTestRuns) {
   EXPECT_EQ(result.figures.front().name, "tuning");
   EXPECT_EQ(result.figures.front().rows.groups.size(), 2U);
   EXPECT_THAT(result.figures.front().alt,
-              AllOf(StartsWith("Balanced accuracy of the chosen trials."), HasSubstr(" for ")));
+              AllOf(StartsWith("F1 of the chosen trials."), HasSubstr(" for Load filter")));
   EXPECT_THAT(own_files(folder_ / "one"), Contains(std::filesystem::path("tables/tuning.csv")));
 }
 

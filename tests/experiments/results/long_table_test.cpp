@@ -110,6 +110,8 @@ TEST(Units, FollowFromTheEndOfAName) {
   EXPECT_EQ(unit_of("density_per_nm"), "1/(N·m)");
   EXPECT_EQ(unit_of("false_takeoffs_per_minute"), "1/min");
   EXPECT_EQ(unit_of("balanced_accuracy"), "");
+  EXPECT_EQ(unit_of("extra_switches_per_minute"), "1/min");
+  EXPECT_EQ(unit_of("long_errors_s_per_minute"), "s/min");
   EXPECT_EQ(unit_of("takeoffs"), "");
 }
 

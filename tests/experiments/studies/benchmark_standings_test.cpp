@@ -163,6 +163,43 @@ TEST(Standings, OverScenesHaveTheVarianceOfTheirScenes) {
   EXPECT_FALSE(all.entries.at(1).is_not_significantly_worse);
 }
 
+TEST(Standings, AreInTheOrderOfF1AndPoolEventsOverScenes) {
+  const auto with_events = [](const std::string& scene, const std::string& estimator,
+                              double accuracy, std::int64_t matched, std::int64_t truth) {
+    BenchmarkRow one = row(scene, estimator, {accuracy});
+    one.score.events.truth = one.score.events.decided = truth;
+    one.score.events.matched = matched;
+    return one;
+  };
+  const auto entries = standings({with_events("stairs", "accurate", 0.99, 10, 20),
+                                  with_events("kerb", "accurate", 0.99, 2, 4),
+                                  with_events("stairs", "punctual", 0.95, 19, 20),
+                                  with_events("kerb", "punctual", 0.95, 2, 4)},
+                                 intervals)[0]
+                           .entries;
+  EXPECT_EQ(entries[0].estimator, "punctual");
+  EXPECT_DOUBLE_EQ(entries[0].event_f1.estimate, 21.0 / 24.0);
+  EXPECT_DOUBLE_EQ(entries[1].event_f1.estimate, 0.5);
+  EXPECT_TRUE(entries[1].is_not_significantly_worse);  // the best balanced accuracy
+}
+
+TEST(Standings, LeaveScenesWithHardlyAnyAirOutOfBalancedAccuracy) {
+  const auto with_air = [](const std::string& scene, double accuracy, double air) {
+    BenchmarkRow one = row(scene, "a", {accuracy});
+    one.air = air;
+    return one;
+  };
+  const Standings::Entry entry =
+      standings(
+          {with_air("stairs", 0.9, 3.0), with_air("kerb", 0.8, 0.1), with_air("flat", 0.1, 0.09)},
+          intervals)[0]
+          .entries.at(0);
+  EXPECT_DOUBLE_EQ(entry.mean.estimate, 0.85);
+  EXPECT_EQ(entry.worst, 0.8);
+  EXPECT_EQ(entry.scored, 3U);
+  EXPECT_EQ(entry.without_air, 1U);
+}
+
 /// A row of one run with 60 s of scored time.
 BenchmarkRow scored_row(const std::string& scene, const std::string& split,
                         const std::string& estimator, double accuracy, int switches,
@@ -178,7 +215,12 @@ BenchmarkRow scored_row(const std::string& scene, const std::string& split,
   row.noise = noise;
   row.balanced_accuracy = {accuracy, {accuracy, accuracy}, {accuracy, accuracy}};
   row.score.scored_us = 60'000'000;
-  row.extended.extra_switches = switches;
+  scoring::EventScore& events = row.score.events;
+  events.truth = events.decided = 100;
+  events.matched = std::llround(100.0 * accuracy);
+  events.extra = switches;
+  events.wrong_us = 600'000;
+  events.takeoff.add(3000);
   return row;
 }
 
@@ -210,10 +252,18 @@ TEST(UnseenTable, HasTheMeansOfUnseenScenesOfTheFirstRobot) {
   rows.push_back(heavy);
   const auto unseen = standings(rows, few_resamples, true);
   const std::string header =
-      "| estimator | no added noise | 1 N·m, 5 m/s² | extra switches a minute |\n"
-      "|---|---|---|---|\n";
-  const std::string robust = "| `robust` | .800 [.750, .850] | .650 [.600, .700] | 4.5 / 45.0 |\n";
-  const std::string loads = "| `load_filter` | 1 [1, 1] | .999 [.998, 1] | 0.0 / 0.5 |\n";
+      "| estimator | F1, no added noise | F1, 1 N·m, 5 m/s² | extra switches a minute | long "
+      "errors "
+      "(s a minute) | takeoff (ms) | landing (ms) | precision of air | balanced accuracy |\n"
+      "|---|---|---|---|---|---|---|---|---|\n";
+  const std::string robust =
+      "| `robust` | .800 [.750, .850] | .650 [.600, .700] | 4.5 / 45.0 | 0.60 / 0.60 | +3.0 / +3.0 "
+      "| "
+      "– / – | – / – | .800 [.750, .850] / .650 [.600, .700] |\n";
+  const std::string loads =
+      "| `load_filter` | 1 [1, 1] | 1 [1, 1] | 0.0 / 0.5 | 0.60 / 0.60 | +3.0 / +3.0 | – / – | – / "
+      "– | "
+      "1 [1, 1] / .999 [.998, 1] |\n";
   const std::string all = unseen_markdown(unseen, ranked_experiment("robust, load_filter", ""));
   EXPECT_EQ(all, header + loads + robust);  // the best first
   EXPECT_EQ(unseen_markdown(unseen, ranked_experiment("robust, load_filter", "robust")),

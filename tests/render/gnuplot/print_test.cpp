@@ -186,9 +186,10 @@ TEST(PrintedFigures, LeaveTitleAndCaptionToTheDocument) {
 
 TEST(PrintedFigures, OnlyTheChosenOneIsDrawn) {
   const ScratchFolder scratch;
-  EXPECT_TRUE(print_standings({scratch / "one", {88.0, true, "another"}}).png.empty());
+  EXPECT_TRUE(
+      print_standings({scratch / "one", {.width_mm = 88.0, .only = "another"}}).png.empty());
   EXPECT_FALSE(is_there(scratch / "one.gp"));
-  EXPECT_FALSE(print_standings({scratch / "one", {88.0, true, "one"}}).png.empty());
+  EXPECT_FALSE(print_standings({scratch / "one", {.width_mm = 88.0, .only = "one"}}).png.empty());
 }
 
 }  // namespace

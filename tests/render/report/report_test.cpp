@@ -42,12 +42,24 @@ experiments::CellSummary cell(const std::string& estimator, double torque, doubl
   return summary;
 }
 
+/// The F1 of both wheels at 1 N·m and 5 m/s² in MuJoCo.
+experiments::ScoreSummary score(const std::string& estimator, const Interval& f1) {
+  experiments::ScoreSummary summary;
+  summary.condition = {"mujoco", "mujoco", estimator};
+  summary.cell = {1, 5};
+  summary.view = "wheels";
+  summary.metric.resize(scoring::metrics().size());
+  summary.metric[scoring::metric_index("event_f1")] = f1;
+  summary.contact_frequency.resize(scoring::Calibration::bins);
+  return summary;
+}
+
 const experiments::Summary success = {
     {},
     {cell("robust", 0, 0, {0.99, 0.98, 0.995}), cell("robust", 0, 5, {0.97, 0.96, 0.98}),
      cell("robust", 1, 0, {0.98, 0.97, 0.99}), cell("robust", 1, 5, {0.86, 0.85, 0.875}),
      cell("<script>alert(1)</script>", 1, 5, {0.5, 0.4, 0.6})},
-    {},
+    {score("robust", {0.86, 0.85, 0.875}), score("<script>alert(1)</script>", {0.5, 0.4, 0.6})},
     {}};
 
 class Report : public ::testing::Test {
@@ -155,23 +167,21 @@ TEST_F(Report, RanksNoEstimatorAheadOfAnEqualOne) {
   const auto text = [&](double first, double second, double third, double low) {
     experiments::write_summary(
         {{},
-         {cell("robust", 1, 5, {first, low, first}), cell("paper", 1, 5, {second, low, second}),
-          cell("load_filter", 1, 5, {third, low, third})},
-         {},
+         {cell("robust", 1, 5, {}), cell("reference", 1, 5, {}), cell("free_fall", 1, 5, {})},
+         {score("robust", {first, low, first}), score("reference", {second, low, second}),
+          score("free_fall", {third, low, third})},
          {}},
         folder_.path());
     const std::string html = page();
     const std::size_t begin = html.find("<b>MuJoCo.</b>");
-    return html.substr(begin, html.find("Always contact has", begin) - begin);
+    return html.substr(begin, html.find("</p>", begin) - begin);
   };
-  EXPECT_THAT(
-      text(1.0, 1.0, 0.9, 0.8),
-      HasSubstr("Bayes filter (robust), fitted to these scenes, and Bayes filter (paper), fitted "
-                "to these scenes, share the highest success rate, 100.00\u00a0%, ahead of "
-                "Load filter (90.00\u00a0%). "));
+  EXPECT_THAT(text(1.0, 1.0, 0.9, 0.8),
+              AllOf(HasSubstr(" find takeoffs and landings best: F1 1.000, ahead of "),
+                    HasSubstr(" (0.900).")));
   EXPECT_THAT(text(0.99, 0.99, 0.99, 0.8), Not(HasSubstr("ahead of")));
   EXPECT_THAT(text(0.99, 0.98, 0.97, NAN),
-              AllOf(HasSubstr("has the highest success rate, 99.00\u00a0%, ahead of Bayes filter"),
+              AllOf(HasSubstr(" finds takeoffs and landings best: F1 0.990, ahead of "),
                     Not(HasSubstr("–"))));
 }
 
@@ -188,11 +198,8 @@ TEST_F(Report, ListsEstimatorsResultsAndCommit) {
       html,
       HasSubstr(
           "<p><b>MuJoCo.</b> With torque noise 1 N·m, accelerometer noise 5 m/s², "
-          "Bayes filter (robust), fitted to these scenes, has the highest success rate, "
-          "86.00\u00a0% [85.00, 87.50], "
-          "ahead of &lt;script&gt;alert(1)&lt;/script&gt; (50.00\u00a0%). Always contact has a "
-          "success rate of 87.00\u00a0%; Bayes filter (robust) and "
-          "&lt;script&gt;alert(1)&lt;/script&gt; do not beat it.</p>"));
+          "Bayes filter (robust), fitted to these scenes, finds takeoffs and landings best: F1 "
+          "0.860 [0.850, 0.875], ahead of &lt;script&gt;alert(1)&lt;/script&gt; (0.500).</p>"));
   EXPECT_THAT(html, HasSubstr("built from commit v0.1.0-3-gabc&lt;."));
 }
 
