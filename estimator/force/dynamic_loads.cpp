@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Geometry>
+
 #include "estimator/force/servo_law.hpp"
 #include "estimator/low_pass.hpp"
 

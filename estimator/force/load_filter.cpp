@@ -26,8 +26,6 @@ constexpr double takeoff_rate = 5.0;        // 1/s
 constexpr double landing_rate = 10.0;       // 1/s
 constexpr double lowest_lead_rate = 500.0;  // Hz
 
-double square(double x) noexcept { return x * x; }
-
 /// Of a standard normal distribution.
 double probability_below(double x) noexcept { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 
@@ -103,7 +101,8 @@ double LoadFilter::evidence_of(Wheel& wheel, double load, double deviation) cons
   if (!wheel.is_started) wheel = {load, true};
   wheel.smoothed += slope_gain_ * (load - wheel.smoothed);
   const double fall = std::max(0.0, (wheel.smoothed - load) / slope_time);
-  const double lead = lead_ / (1.0 + square(deviation / lead_deviation));
+  const double uncertainty = deviation / lead_deviation;
+  const double lead = lead_ / (1.0 + uncertainty * uncertainty);
   // The lead announces a load of zero, never a negative one.
   const double ahead = std::max(load - std::min(lead * fall, largest_lead), std::min(load, 0.0));
   const double above = std::min(ahead, clearly);
@@ -112,8 +111,8 @@ double LoadFilter::evidence_of(Wheel& wheel, double load, double deviation) cons
                             (heaviest - lightest);
   // Against a normal density around zero, which a negative load does not contradict.
   const double scale = deviation * std::sqrt(2.0 * std::numbers::pi);
-  const double ratio =
-      std::log(in_contact * scale) + 0.5 * square(std::max(ahead, 0.0) / deviation);
+  const double deviations = std::max(ahead, 0.0) / deviation;
+  const double ratio = std::log(in_contact * scale) + 0.5 * deviations * deviations;
   return std::clamp(ratio, -most_evidence, most_evidence) * evidence_share_;
 }
 

@@ -127,6 +127,7 @@ MeasurementModel fit_measurement_to_logs(std::span<const FitLog> logs,
   }
   require_both_classes(samples);
   MeasurementFit fit = fit_measurement(samples[1], samples[0], measurement.fit);
+  end_if(config.stop);
   report.samples = {samples[0].size(), samples[1].size()};
   report.bandwidth = fit.bandwidth;
   return std::move(fit.model);

@@ -171,7 +171,7 @@ TEST_F(Interrupt, OfACommandWithOneOutputWritesNothing) {
   for (const std::string arguments :
        {"simulate long.yaml -o out.mpack", "render a.mpack -o out.mp4",
         "export a.mpack -o out.mcap", "estimate a.mpack -o out.csv",
-        "fit a.mpack --skip 0 -o out.npz"}) {
+        "fit a.mpack --skip 0 --no-accuracy --grid 2000 2000 -o out.npz"}) {
     const std::string output = arguments.substr(arguments.rfind(' ') + 1);
     for (const double after : {0.05, 0.2, 0.5}) {
       StartedProgram program(arguments, folder_.path());
