@@ -10,7 +10,6 @@
 #include "core/files.hpp"
 #include "core/machine.hpp"
 #include "experiments/config/experiment_yaml.hpp"
-#include "experiments/needs.hpp"
 #include "experiments/plan/plan.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/run_directory/own_files.hpp"
@@ -21,19 +20,16 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// The indices of the tasks that are not finished.
+/// The indices of the tasks that are not saved, or lack a recording of their run.
 std::vector<std::size_t> missing_tasks(const ExperimentContext& context) {
   const Plan& plan = context.plan;
-  std::set<std::size_t> missing_runs;
-  bool fit_is_missing = false;
+  std::set<std::size_t> without_recording;
   for (std::size_t i = 0; i < plan.runs.size(); ++i) {
-    if (is_recorded(plan.runs[i], context.directory)) continue;
-    missing_runs.insert(i);
-    fit_is_missing = fit_is_missing || plan.runs[i].role == RunRole::fit;
+    if (!is_recorded(plan.runs[i], context.directory)) without_recording.insert(i);
   }
   std::vector<std::size_t> missing;
   for (std::size_t t = 0; t < plan.tasks.size(); ++t) {
-    if (fit_is_missing || missing_runs.contains(plan.tasks[t].run) ||
+    if (without_recording.contains(plan.tasks[t].run) ||
         !saved_counts(plan, plan.tasks[t], context.directory.store())) {
       missing.push_back(t);
     }
@@ -52,11 +48,40 @@ void require_own(const ExperimentContext& context, const Task& task) {
 
 }  // namespace
 
+/// Errors: `Error` that names the settings to lower, if the plan and the signals of a fit's runs do
+/// not fit into memory. It is known before the plan, which may be too large itself.
+static void require_memory(const RunRequest& request) {
+  constexpr double planned_bytes = sizeof(PlannedRun) + 512.0;  // with terrain and scripts
+  constexpr double step_bytes =
+      sizeof(Signals) + static_cast<double>(models::wheel_count) * (sizeof(double) + 1.0);
+  const Experiment& experiment = request.experiment;
+  const auto engines = static_cast<double>(experiment.simulators.size());
+  const double tested =
+      engines * static_cast<double>(experiment.test.scenarios.size()) * experiment.test.runs;
+  const double parts = tested * experiment.noise.seeds;
+  double fitted_steps = 0.0;
+  for (const std::string& file : experiment.fit.scenarios) {
+    const scenarios::Scenario& scenario = scenario_of(request, file).scenario;
+    fitted_steps += experiment.fit.runs * scenario.end.duration /
+                    (1e-6 * static_cast<double>(scenario.simulation.steps.control_us));
+  }
+  const double held = step_bytes * fitted_steps;
+  const double needed = tested * planned_bytes + parts * sizeof(Task) + held;
+  const double memory = machine_share().memory;
+  if (needed <= memory) return;
+  throw Error(fmt::format(
+      "{}: {:.0f} test runs, {:.0f} parts and fitted runs of {:.1f} GB (test.runs={}, fit.runs={}, "
+      "noise.seeds={}) need at least {:.1f} GB of memory, and this process may use {:.1f} GB: "
+      "lower {}",
+      experiment.name, tested, parts, 1e-9 * held, experiment.test.runs, experiment.fit.runs,
+      experiment.noise.seeds, 1e-9 * needed, 1e-9 * memory,
+      held > 0.5 * needed ? "fit.runs" : "test.runs or noise.seeds"));
+}
+
 Plan whole_plan(const RunRequest& request) {
-  require_memory(request, 0.0);
+  require_memory(request);
   Plan plan = plan_of(request);
   for (const Study* study : requested_studies(request.experiment)) study->plan(request, plan);
-  plan.kept_signals = kept_signals(request.experiment);
   keep_recordings(request.experiment, plan);
   require_distinct_runs(plan, request.experiment);
   return plan;
@@ -66,13 +91,6 @@ ExperimentContext start(RunRequest request, Plan plan, RunDirectory directory,
                         const RunOptions& options) {
   const int workers = request.experiment.workers;
   const int threads = workers > 0 ? workers : machine_share().processors;
-  const DiskNeeds needs = disk_needs(plan, request.experiment, &directory);
-  require_free_space(
-      directory.path(), static_cast<std::uintmax_t>(needs.all()),
-      fmt::format("{:.1f} GB for recordings, {:.1f} GB for {} parts of the evaluation, "
-                  "by test.runs={} and noise.seeds={}",
-                  1e-9 * needs.recordings, 1e-9 * needs.parts, plan.tasks.size(),
-                  request.experiment.test.runs, request.experiment.noise.seeds));
   ShouldContinue should_continue = [stop = options.stop, directory] {
     directory.require_in_place();
     return stop == nullptr || !*stop;

@@ -34,8 +34,7 @@ struct ExperimentContext {
 /// for a wrong request; `Error` for too little memory.
 Plan whole_plan(const RunRequest& request);
 
-/// Begins an experiment with a plan that was made before the directory. Errors: `Error` for too
-/// little disk space.
+/// Begins an experiment with a plan that was made before the directory.
 ExperimentContext start(RunRequest request, Plan plan, RunDirectory directory,
                         const RunOptions& options);
 

@@ -10,7 +10,6 @@
 #include "core/error.hpp"
 #include "core/progress.hpp"
 #include "experiments/config/experiment_yaml.hpp"
-#include "experiments/needs.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/stages.hpp"
 
@@ -48,13 +47,8 @@ RunDirectory open_run_directory(const RunRequest& request, Access access,
 /// without a result. Pictures are drawn from the result (render/report/report.hpp). Errors:
 /// `Stopped`, with what is saved; `Error` with the reasons if no test run can be scored.
 std::optional<ExperimentResult> run_stages(ExperimentContext& context, Computed& done) try {
-  simulate(context, done);
-  const std::vector<NeededFit> fits = needed_fits(context, done);
-  for (const NeededFit& fit : fits) {
-    tune_and_fit(context, fit, done);
-    evaluate_ready(context, done);
-  }
-  evaluate_rest(context, done);
+  fit(context, done);
+  evaluate(context, done);
   run_model_tasks(context, done);
   if (done.is_shard) return std::nullopt;
 
@@ -68,7 +62,7 @@ std::optional<ExperimentResult> run_stages(ExperimentContext& context, Computed&
 }
 
 ExperimentResult whole(ExperimentContext& context, MissingRun missing) {
-  Computed done(context.plan, context.plan.all_tasks(), missing);
+  Computed done{context.plan.all_tasks(), missing};
   return *run_stages(context, done);
 }
 
@@ -91,14 +85,11 @@ RunOutline outline_of(const Experiment& experiment, const RunOptions& options) {
   for (const ModelTasks& tasks : plan.model_tasks) {
     outline.model_tasks.emplace_back(tasks.name, fmt::format("{} {}s", tasks.count, tasks.unit));
   }
-  outline.memory = least_memory(request, 1.0);
-  outline.disk = disk_needs(plan, experiment).all();
   return outline;
 }
 
 ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& options) {
   RunRequest request = request_of(experiment);
-  require_memory(request, 1.0);
   Plan plan = whole_plan(request);  // a request that is refused makes no directory
   RunDirectory directory = open_run_directory(request, Access::alone, options);
   remove_partial_files(directory.path());
@@ -109,7 +100,6 @@ ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& 
 
 ShardReport run_shard(const Experiment& experiment, const Shard& shard, const RunOptions& options) {
   RunRequest request = request_of(experiment);
-  require_memory(request, 1.0 / shard.count);
   Plan plan = whole_plan(request);
   RunDirectory directory = open_run_directory(request, Access::shared, options);
   mark_shard_started(directory.path(), shard);
@@ -119,8 +109,7 @@ ShardReport run_shard(const Experiment& experiment, const Shard& shard, const Ru
   const TaskRange tasks{shard.begin(all), shard.end(all)};
   ShardReport report{context.directory, tasks.size(), 0, {}};
   if (tasks.size() == 0) return report;
-  Computed done(context.plan, tasks, MissingRun::simulate);
-  done.is_shard = true;
+  Computed done{tasks, MissingRun::simulate, true};
   (void)run_stages(context, done);
   report.computed = done.tasks;
   for (const auto& [index, run] : done.runs) {
@@ -131,7 +120,6 @@ ShardReport run_shard(const Experiment& experiment, const Shard& shard, const Ru
 
 ExperimentResult merge_run(const std::filesystem::path& path, const RunOptions& options) {
   ExperimentContext context = reopened(path, options);
-  require_memory(context.request, 1.0);
   require_all_shards(context);
   const std::set<std::string> processors = shard_processors(context.directory.path());
   if (processors.size() > 1) {

@@ -18,8 +18,6 @@ struct RunOutline {
   std::size_t test_runs = 0;
   double simulated = 0.0;  ///< duration of all simulations, if none ends early (s)
   std::vector<std::pair<std::string, std::string>> model_tasks;  ///< name, and number with unit
-  double memory = 0.0;  ///< at least at one time, for the plan and signals (bytes)
-  double disk = 0.0;    ///< at most (bytes)
 };
 
 /// Checks an experiment and its scenarios, and counts what it would compute. Simulates and writes
@@ -37,7 +35,7 @@ struct ShardReport {
   RunDirectory directory;
   std::size_t tasks = 0;     ///< of the shard
   std::size_t computed = 0;  ///< of these; the others were saved before
-  std::vector<Rollout> failed_runs;
+  std::vector<FinishedRun> failed_runs;
 };
 
 /// Computes one shard of an experiment: the recordings that it needs and its share of the

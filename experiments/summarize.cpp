@@ -18,7 +18,7 @@
 
 namespace touchdown::experiments {
 
-void require_scored_run(const Rollouts& runs) {
+void require_scored_run(const FinishedRuns& runs) {
   if (is_any_scored(runs)) return;
   std::map<std::string, std::string> endings;
   for (const auto& [index, run] : runs) {

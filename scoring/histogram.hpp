@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 namespace touchdown::scoring {
@@ -23,6 +24,10 @@ class Histogram {
   std::int64_t total() const;
   /// The shares of all counts in bins that are merged in groups of `merged`. Empty without counts.
   std::vector<double> shares(std::size_t merged) const;
+
+  static auto members(auto& histogram) {
+    return std::tie(histogram.low_, histogram.width_, histogram.count_);
+  }
 
  private:
   double low_ = 0.0;

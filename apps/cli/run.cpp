@@ -91,8 +91,6 @@ void outline(const experiments::Experiment& experiment, const experiments::RunOp
   print("runs      {} fitted, {} tested, at most {:.0f} s of simulation\n", outline.fitted_runs,
         outline.test_runs, outline.simulated);
   for (const auto& [name, items] : outline.model_tasks) print("besides   {}, {}\n", name, items);
-  print("memory    at least {:.0f} MB\n", 1e-6 * outline.memory);
-  print("disk      at most {:.0f} MB\n", 1e-6 * outline.disk);
 }
 
 void run(const RunFlags& flags, const CliSession& session) {
@@ -154,7 +152,7 @@ void add_run(CLI::App& program, const CliSession& session) {
             "Replace another experiment in the run directory; untracked files remain");
   verb.flag("--dry-run", &flags->dry_run,
             "Only check the experiment; print its run directory, the number of parts in which it\n"
-            "can be computed, its runs, and the memory and disk space that it needs");
+            "can be computed, and its runs");
   add_picture_flags(verb, &flags->pictures);
   verb.action([flags, &session] { run(*flags, session); });
 }

@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 namespace touchdown {
@@ -16,6 +17,8 @@ struct ModelArray {
   [[nodiscard]] std::size_t rows() const { return shape.empty() ? 1 : shape[0]; }
   [[nodiscard]] std::size_t columns() const { return shape.size() < 2 ? 1 : shape[1]; }
 
+  /// For programs that save arrays in a form of their own.
+  static auto members(auto& array) { return std::tie(array.shape, array.data); }
   bool operator==(const ModelArray&) const = default;
 };
 

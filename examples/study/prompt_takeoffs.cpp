@@ -38,7 +38,7 @@ class PromptTakeoffsStudy final : public SectionStudy<PromptTakeoffs> {
     const auto measure = [within = section_of(request.experiment).within](const auto& made) {
       return std::vector{prompt_flights(made, within)};
     };
-    add_measure(measure_of_predictions<Share>(study_name, 1, measure), plan.groups.front());
+    add_measure(measure_of_predictions<Share>(study_name, measure), plan.groups.front());
   }
   StudyResult summarize(const Evaluation& evaluation,
                         const RunDirectory& directory) const override {

@@ -192,38 +192,13 @@ bool evaluate_and_save(const Plan& plan, const Task& task, const Rollout& run,
   bool is_computed = false;
   (void)store.get<TaskCounts>(task_parts, task_name(plan, task), [&] {
     is_computed = true;
-    return run.failed()
-               ? TaskCounts{}
-               : evaluate(plan, task, run.signals, experiment, models, noise_free, should_continue);
+    TaskCounts counts = run.failed() ? TaskCounts()
+                                     : evaluate(plan, task, run.signals, experiment, models,
+                                                noise_free, should_continue);
+    counts.report = run.report;
+    return counts;
   });
   return is_computed;
-}
-
-std::size_t evaluate(const Plan& plan, std::span<const std::size_t> tasks, const Rollouts& runs,
-                     const Experiment& experiment, const FittedModels& models, const Store& store,
-                     const ShouldContinue& should_continue) {
-  std::vector<std::size_t> held;
-  for (const std::size_t t : tasks) {
-    if (runs.contains(plan.tasks[t].run)) held.push_back(t);
-  }
-  if (held.empty()) return 0;
-  Progress progress("evaluating", "parts", static_cast<std::int64_t>(held.size()));
-  std::atomic<std::size_t> computed = 0;
-  NoiseFreeScores noise_free;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, held.size(), 1), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      if (!should_continue()) throw Stopped();
-      const Task& task = plan.tasks[held[i]];
-      if (evaluate_and_save(plan, task, runs.at(task.run), experiment, models, store, noise_free,
-                            should_continue)) {
-        ++computed;
-        progress.advance();
-      } else {
-        progress.skip();
-      }
-    }
-  });
-  return computed;
 }
 
 Store in_memory(const Plan& plan, std::span<const std::size_t> runs, const Store& store) {
@@ -241,6 +216,17 @@ std::vector<TaskCounts> task_counts_of(std::size_t run, const Plan& plan, const 
     if (task.run == run) all.push_back(counts_of(plan, task, store));
   }
   return all;
+}
+
+std::string measured_of_run(std::string_view measure, std::size_t run, const Plan& plan,
+                            const Store& store) {
+  std::string bytes;
+  for (const TaskCounts& task : task_counts_of(run, plan, store)) {
+    for (const MeasuredBytes& found : task.measured) {
+      if (found.measure == measure && found.condition == no_condition) bytes += found.bytes;
+    }
+  }
+  return bytes;
 }
 
 CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs, const Store& store) {

@@ -55,14 +55,15 @@ inline constexpr std::uint32_t no_condition = 0xffffffffU;
 /// The results of a task. Counts and scores are by condition of the run's engine, then cell, then
 /// segment of the run. Empty for a run that is not scored.
 struct TaskCounts {
-  std::vector<scoring::Classification> counted;
-  std::vector<scoring::RobotScore> scored;  ///< of predictions
-  std::vector<MeasuredBytes> measured;      ///< by the group's measures
+  RunReport report = {};  ///< of the run
+  std::vector<scoring::Classification> counted = {};
+  std::vector<scoring::RobotScore> scored = {};  ///< of predictions
+  std::vector<MeasuredBytes> measured = {};      ///< by the group's measures
 
   bool is_scored() const { return !counted.empty() || !scored.empty(); }
 
   static auto members(auto& counts) {
-    return std::tie(counts.counted, counts.scored, counts.measured);
+    return std::tie(counts.report, counts.counted, counts.scored, counts.measured);
   }
 };
 
@@ -133,12 +134,6 @@ bool evaluate_and_save(const Plan& plan, const Task& task, const Rollout& run,
                        const Experiment& experiment, const FittedModels& models, const Store& store,
                        NoiseFreeScores& noise_free, const ShouldContinue& should_continue);
 
-/// Computes and saves, in parallel, those of the tasks, given as indices in the plan, that belong
-/// to these runs and are not saved yet. Returns their number. Errors: `Stopped`.
-std::size_t evaluate(const Plan& plan, std::span<const std::size_t> tasks, const Rollouts& runs,
-                     const Experiment& experiment, const FittedModels& models, const Store& store,
-                     const ShouldContinue& should_continue);
-
 /// All results of one condition: `samples[c][i]` belongs to cell c and statistical sample i (a run
 /// or a drop), all noise seeds added.
 template <typename Sample>
@@ -188,6 +183,11 @@ Store in_memory(const Plan& plan, std::span<const std::size_t> runs, const Store
 
 /// The results of all tasks of one run, by noise seed. Errors: `Error` when one is missing.
 std::vector<TaskCounts> task_counts_of(std::size_t run, const Plan& plan, const Store& store);
+
+/// What a measure wrote about a run itself, noise seed by noise seed; empty for a run that is not
+/// scored. Errors: `Error` when a task is missing.
+std::string measured_of_run(std::string_view measure, std::size_t run, const Plan& plan,
+                            const Store& store);
 
 /// The scores of one measure in one run, all noise seeds added.
 template <typename Score>
@@ -248,7 +248,7 @@ std::vector<ConditionSamples<Score>> measured_samples(std::string_view measure,
 struct Evaluation {
   const RunRequest& request;
   const Plan& plan;
-  const Rollouts& runs;
+  const FinishedRuns& runs;    ///< the test runs, and those of their fits
   const Store& saved;          ///< the results of tasks and model tasks
   const CollectedCounts& own;  ///< of the experiment's own test runs
   const FittedModels& models;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "experiments/config/experiment.hpp"
@@ -43,6 +44,11 @@ struct Trial {
   /// is evaluated with a fit to the other folds.
   double score = 0.0;
   bool is_chosen = false;  ///< the best of its estimator on this engine; the first of equals
+
+  static auto members(auto& trial) {
+    return std::tie(trial.simulator, trial.fit, trial.estimator, trial.number,
+                    trial.hyperparameters, trial.score, trial.is_chosen);
+  }
 };
 
 /// Runs the same number of trials for every estimator with hyperparameters, on each engine, in

@@ -97,12 +97,6 @@ void add_measure(Measure measure, RunGroup& group) {
 
 std::string_view to_text(RunRole role) { return role == RunRole::fit ? "fit" : "test"; }
 
-bool is_streamed(const PlannedRun& run, const Plan& plan) {
-  if (plan.kept_signals == KeptSignals::all) return false;
-  if (run.role == RunRole::fit) return true;
-  return run.group > 0 || plan.kept_signals == KeptSignals::none;
-}
-
 std::uint64_t seed_of_fit(const Experiment& experiment) {
   // Nothing is fitted to runs of reserved seeds.
   return experiment.fit_seed.value_or(fit_seed(experiment.seed));
@@ -225,18 +219,6 @@ void require_distinct_runs(const Plan& plan, const Experiment& experiment) {
     for (const PlannedRun* other : same[key]) require_distinct(*other, run, plan, experiment);
     same[key].push_back(&run);
   }
-}
-
-void add_runs(Needs& needs, const scenarios::Scenario& scenario, double runs, double seeds,
-              double sensors) {
-  // Runs that end at a position take about half of their longest duration.
-  const double share = std::isfinite(scenario.end.x) ? 0.5 : 1.0;
-  const double seconds = runs * share * scenario.end.duration;
-  needs.runs += runs;
-  needs.parts += runs * seeds * sensors;
-  needs.seconds += seconds;
-  needs.steps +=
-      sensors * seconds / (1e-6 * static_cast<double>(scenario.simulation.steps.control_us));
 }
 
 }  // namespace touchdown::experiments

@@ -67,24 +67,17 @@ struct Measure {
   /// or an empty text: nothing is measured there.
   std::function<std::string(const MeasuredRun&)> of_run = {};
   std::function<std::string(const MeasuredPrediction&)> of_prediction = {};
-
-  /// The most bytes that these write (for the estimate of disk space).
-  std::size_t bytes_of_run = 0;
-  std::size_t bytes_of_prediction = 0;
 };
 
 /// A measure of predictions with scores of one type, in a fixed order.
 template <typename Score>
 Measure measure_of_predictions(
-    std::string name, std::size_t most,
-    std::function<std::vector<Score>(const MeasuredPrediction&)> of_prediction) {
+    std::string name, std::function<std::vector<Score>(const MeasuredPrediction&)> of_prediction) {
   return {std::move(name),
           {},
           [of_prediction = std::move(of_prediction)](const MeasuredPrediction& prediction) {
             return to_bytes(of_prediction(prediction));
-          },
-          0,
-          most * sizeof(Score)};
+          }};
 }
 
 enum class RunRole : int { fit, test };
@@ -166,9 +159,6 @@ struct PlannedSensors {
   noise::SensorProfile profile;
 };
 
-/// The test runs that keep their signals after their evaluation, for studies and pictures.
-enum class KeptSignals : int { none, own, all };
-
 struct Plan {
   std::vector<PlannedSensors> sensors = {{}};  ///< the experiment's own first
   std::vector<PlannedRun> runs;                ///< by role (fit first), engine, scenario, index
@@ -178,7 +168,6 @@ struct Plan {
   std::map<std::string, int> refits;    ///< number of refits, by name of the fit
   std::set<std::int64_t> pictured;      ///< indices of own test runs that pictures show
   bool needs_motion = false;            ///< whether test runs keep their motion
-  KeptSignals kept_signals = KeptSignals::all;
   TaskRange all_tasks() const { return {0, tasks.size()}; }
   const RunGroup& group_of(const Task& task) const { return groups[runs[task.run].group]; }
   /// The group of this name, if there is one.
@@ -188,11 +177,6 @@ struct Plan {
   /// The test runs of a group, of one engine or of all, in the order of the plan.
   std::vector<std::size_t> runs_in(std::size_t group, std::string_view simulator = {}) const;
 };
-
-/// Whether a run is simulated when it is needed, and its signals are dropped as soon as they are
-/// used: a fitted run, or a test run that does not keep them. False for all where a study needs
-/// them.
-bool is_streamed(const PlannedRun& run, const Plan& plan);
 
 /// The index of a test run's scenario in the experiment's test scenarios.
 std::size_t scene_of(const PlannedRun& run, const Experiment& experiment);
@@ -220,20 +204,5 @@ void plan_tasks(const Experiment& experiment, std::size_t first, Plan& plan);
 /// Errors: `InputError` for a test run that is also a fitted run of the models it tests, and for a
 /// run that would count twice, whatever the names of its scenario and of its robot's file.
 void require_distinct_runs(const Plan& plan, const Experiment& experiment);
-
-/// The size of an experiment. It is known before the plan, which may be too large itself.
-struct Needs {
-  double runs = 0.0;
-  double parts = 0.0;    ///< of the evaluation
-  double seconds = 0.0;  ///< least duration of all runs together, if none fails
-  double steps = 0.0;    ///< control steps of these runs
-  double setups = 1.0;   ///< robots and sensors of the test runs, the experiment's own included
-  bool motion = false;   ///< whether test runs keep their motion
-};
-
-/// Adds runs of a scenario. Each is evaluated with `seeds` noise seeds, and its signals are kept
-/// once for each of `sensors` sensor models.
-void add_runs(Needs& needs, const scenarios::Scenario& scenario, double runs, double seeds,
-              double sensors = 1.0);
 
 }  // namespace touchdown::experiments

@@ -53,10 +53,10 @@ bool is_whole(const PlannedRun& run, const RunDirectory& directory, const std::s
 
 /// The rollout of a run that could not be simulated.
 Rollout failed(const PlannedRun& plan, const std::string& why) {
-  Rollout run{plan,
-              {.outcome = logs::Outcome::diverged,
-               .error = why,
-               .ending = "could not be simulated: " + why},
+  Rollout run{{plan,
+               {.outcome = logs::Outcome::diverged,
+                .error = why,
+                .ending = "could not be simulated: " + why}},
               {}};
   run.signals.info.simulator = plan.simulator;
   run.signals.info.run = plan.run;
@@ -66,12 +66,9 @@ Rollout failed(const PlannedRun& plan, const std::string& why) {
 /// The rollout of a recorded run, with the signals of its sensor model.
 Rollout rollout(const PlannedRun& run, logs::Recording recording, const Plan& plan,
                 const Experiment& experiment, scenarios::CompiledScenes& scenes) {
-  const noise::SensorProfile& sensors = plan.sensors[run.sensors].profile;
-  report_through_sensors(sensors, experiment, run.run, recording);
-  RunSignals signals =
-      signals_of(recording, experiment.labels, experiment.scoring, experiment.intervals.over);
   const std::shared_ptr<const models::RobotModel> robot = scenes.as_described(run.scenario);
-  signals.legs = scenarios::leg_geometry(*robot);
+  RunSignals signals =
+      reported_signals(plan.sensors[run.sensors].profile, experiment, *robot, recording);
   if (plan.needs_motion && run.role == RunRole::test) {
     signals.motion = std::make_shared<RunMotion>(motion_of(recording, *robot));
   }
@@ -84,13 +81,13 @@ Rollout rollout(const PlannedRun& run, logs::Recording recording, const Plan& pl
   scoring::ContactSequence is_alike(left.size());  // both wheels in contact, or none
   std::ranges::transform(left, right, is_alike.begin(),
                          [](auto one, auto other) { return one == other ? 1 : 0; });
-  return {run,
-          {recording.info.outcome.value_or(logs::Outcome::finished),
-           static_cast<double>(recording.steps()) * recording.period(),
-           flights(scoring::any_wheel(signals.contact)),
-           flights(is_alike),
-           {},
-           scenarios::ending_text(recording, run.scenario.end)},
+  return {{run,
+           {recording.info.outcome.value_or(logs::Outcome::finished),
+            static_cast<double>(recording.steps()) * recording.period(),
+            flights(scoring::any_wheel(signals.contact)),
+            flights(is_alike),
+            {},
+            scenarios::ending_text(recording, run.scenario.end)}},
           std::move(signals)};
 }
 
@@ -155,10 +152,10 @@ std::string failures_text(const std::map<std::string, std::string>& ending_by_fi
   return fmt::format("{} {}{}", file, ending, more);
 }
 
-std::string unused_runs_text(const std::vector<Rollout>& runs) {
+std::string unused_runs_text(const std::vector<FinishedRun>& runs) {
   std::string text;
   std::set<std::string> named;
-  for (const Rollout& run : runs) {
+  for (const FinishedRun& run : runs) {
     if (!run.failed() || !named.insert(run.plan.file).second) continue;
     text += fmt::format("Not used: {} ({})\n", run.plan.file, run.report.ending);
   }
@@ -178,22 +175,31 @@ std::string simulation_key(const PlannedRun& run) {
       .text();
 }
 
-bool is_any_scored(const Rollouts& runs) {
+bool is_any_scored(const FinishedRuns& runs) {
   return std::any_of(runs.begin(), runs.end(), [](const auto& entry) {
     return entry.second.plan.role == RunRole::test && !entry.second.failed();
   });
 }
 
-const Rollout* test_run(const std::vector<Rollout>& runs, const std::string& simulator,
-                        std::int64_t index) {
-  const auto found = std::find_if(runs.begin(), runs.end(), [&](const Rollout& run) {
+const FinishedRun* test_run(const std::vector<FinishedRun>& runs, const std::string& simulator,
+                            std::int64_t index) {
+  const auto found = std::find_if(runs.begin(), runs.end(), [&](const FinishedRun& run) {
     return run.plan.role == RunRole::test && run.plan.simulator == simulator &&
            run.plan.run == index;
   });
   return found == runs.end() ? nullptr : &*found;
 }
 
-void for_each_rollout(const Experiment& experiment, const Plan& plan,
+RunSignals reported_signals(const noise::SensorProfile& sensors, const Experiment& experiment,
+                            const models::RobotModel& robot, logs::Recording& recording) {
+  report_through_sensors(sensors, experiment, recording.info.run, recording);
+  RunSignals signals =
+      signals_of(recording, experiment.labels, experiment.scoring, experiment.intervals.over);
+  signals.legs = scenarios::leg_geometry(robot);
+  return signals;
+}
+
+void for_each_rollout(const std::string& title, const Experiment& experiment, const Plan& plan,
                       const std::set<std::size_t>& needed, const RunDirectory& directory,
                       MissingRun missing, const ShouldContinue& should_continue,
                       const UseRollout& use) {
@@ -210,7 +216,7 @@ void for_each_rollout(const Experiment& experiment, const Plan& plan,
     simulations[known->second].runs.push_back(index);
   }
   scenarios::CompiledScenes scenes;
-  Progress progress("simulating", "runs", static_cast<std::int64_t>(simulations.size()));
+  Progress progress(title, "runs", static_cast<std::int64_t>(simulations.size()));
   tbb::parallel_for_each(simulations, [&](const Simulation& simulation) {
     Recorded recorded = simulate_or_read(plan.runs[simulation.runs.front()], simulation.key,
                                          directory, missing, scenes, should_continue);
@@ -239,18 +245,6 @@ bool is_recorded(const PlannedRun& run, const RunDirectory& directory) {
 bool has_stamp(const PlannedRun& run, const RunDirectory& directory) {
   const std::optional<SimulationEnd> end = saved_end(run, directory, simulation_key(run));
   return end && end->is_recorded;
-}
-
-RunPointers fit_runs_of(const Rollouts& runs, const std::string& simulator,
-                        const std::string& fit) {
-  RunPointers all;
-  for (const auto& [index, run] : runs) {
-    const PlannedRun& plan = run.plan;
-    const bool is_wanted =
-        plan.role == RunRole::fit && plan.fit == fit && plan.simulator == simulator;
-    if (is_wanted && !run.failed()) all.push_back(&run.signals);
-  }
-  return all;
 }
 
 }  // namespace touchdown::experiments

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "experiments/plan/plan.hpp"
@@ -19,6 +20,11 @@ struct RunReport {
   int wheel_flights = 0;    ///< with one wheel off the ground, as long
   std::string error = {};   ///< why there is no recording; the outcome is then `diverged`
   std::string ending = {};  ///< outcome, time and reason (scenarios/scenario.hpp)
+
+  static auto members(auto& report) {
+    return std::tie(report.outcome, report.duration, report.flights, report.wheel_flights,
+                    report.error, report.ending);
+  }
 };
 
 /// Whether studies exclude runs with this outcome.
@@ -27,23 +33,28 @@ inline bool is_failure(logs::Outcome outcome) {
          outcome == logs::Outcome::left_terrain;
 }
 
-/// A planned run that was simulated or read.
-struct Rollout {
+/// A planned run that was simulated or read, and how it ended.
+struct FinishedRun {
   PlannedRun plan;
   RunReport report;
-  RunSignals signals;
 
   bool failed() const { return is_failure(report.outcome); }
 };
 
-using Rollouts = std::map<std::size_t, Rollout>;
+/// By index in the plan.
+using FinishedRuns = std::map<std::size_t, FinishedRun>;
+
+/// The same with its signals, which take hundreds of kilobytes per second of the run.
+struct Rollout : FinishedRun {
+  RunSignals signals;
+};
 
 /// Whether any test run can be scored: did not fail.
-bool is_any_scored(const Rollouts& runs);
+bool is_any_scored(const FinishedRuns& runs);
 
 /// The test run with this index on this engine, null if there is none.
-const Rollout* test_run(const std::vector<Rollout>& runs, const std::string& simulator,
-                        std::int64_t index);
+const FinishedRun* test_run(const std::vector<FinishedRun>& runs, const std::string& simulator,
+                            std::int64_t index);
 
 enum class MissingRun : int { simulate, refuse };
 
@@ -59,13 +70,19 @@ std::string simulation_key(const PlannedRun& run);
 
 /// Simulates planned runs in parallel and writes the recordings to keep. It reads complete
 /// recordings that this build made of the same scenario, seed and run. A run that keeps no
-/// recording is always simulated, for either value of `missing`. A run that cannot be simulated is
-/// a failed run and does not stop the others. Errors: `InputError` for an invalid scene; `Error`
-/// for a missing recording with `MissingRun::refuse`; `Stopped`; those of `use`.
-void for_each_rollout(const Experiment& experiment, const Plan& plan,
+/// recording is always simulated, for either value of `missing`. `title` is for the progress. A run
+/// that cannot be simulated is a failed run and does not stop the others. Errors: `InputError` for
+/// an invalid scene; `Error` for a missing recording with `MissingRun::refuse`; `Stopped`; those of
+/// `use`.
+void for_each_rollout(const std::string& title, const Experiment& experiment, const Plan& plan,
                       const std::set<std::size_t>& needed, const RunDirectory& directory,
                       MissingRun missing, const ShouldContinue& should_continue,
                       const UseRollout& use);
+
+/// Replaces a recording's observations by what these sensors report of them, and returns the
+/// signals, without motion.
+RunSignals reported_signals(const noise::SensorProfile& sensors, const Experiment& experiment,
+                            const models::RobotModel& robot, logs::Recording& recording);
 
 /// Whether the run's recording, or its failure, is saved; true for a run that keeps no recording.
 bool is_recorded(const PlannedRun& run, const RunDirectory& directory);
@@ -79,10 +96,6 @@ std::string failures_text(const std::map<std::string, std::string>& ending_by_fi
 
 /// One line for each run that cannot be scored, with the reason. Fits with other sensors share a
 /// recording, which has one line.
-std::string unused_runs_text(const std::vector<Rollout>& runs);
-
-/// The runs of one fit on one engine that did not fail. `runs` must outlive the result.
-RunPointers fit_runs_of(const Rollouts& runs, const std::string& simulator,
-                        const std::string& fit = {});
+std::string unused_runs_text(const std::vector<FinishedRun>& runs);
 
 }  // namespace touchdown::experiments

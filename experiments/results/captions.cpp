@@ -149,7 +149,7 @@ std::string score_notes(const Experiment& experiment, const Summary& summary) {
 
 TestRuns test_runs(const ExperimentResult& result, const std::string& simulator) {
   TestRuns runs;
-  for (const Rollout& run : result.runs) {
+  for (const FinishedRun& run : result.runs) {
     if (run.plan.role != RunRole::test || run.plan.simulator != simulator) continue;
     ++runs.all;
     if (!run.failed()) ++runs.scored;

@@ -26,7 +26,7 @@ struct ExperimentResult {
   std::string id;
   std::vector<RequestInput> inputs;
   RunDirectory directory;
-  std::vector<Rollout> runs = {};
+  std::vector<FinishedRun> runs = {};
   FittedModels models = {};
   std::vector<noise::NoiseCell> cells = {};
   std::vector<CellSummary> summaries = {};       ///< of every noise cell

@@ -64,9 +64,9 @@ Json python_estimators(const Experiment& experiment) {
   return list;
 }
 
-Json failed_runs(const std::vector<Rollout>& runs) {
+Json failed_runs(const std::vector<FinishedRun>& runs) {
   Json list = Json::array();
-  for (const Rollout& run : runs) {
+  for (const FinishedRun& run : runs) {
     if (!run.failed()) continue;
     list.push_back({{"recording", run.plan.file},
                     {"outcome", logs::to_text(run.report.outcome)},
@@ -83,19 +83,19 @@ void write_models(const FittedModels& models, const RunDirectory& directory) {
   }
 }
 
-Columns<Rollout> run_columns() {
-  return Columns<Rollout>()
-      .text("simulator", [](const Rollout& run) { return run.plan.simulator; })
-      .text("scenario", [](const Rollout& run) { return run.plan.scenario.name; })
-      .text("role", [](const Rollout& run) { return to_text(run.plan.role); })
-      .number("run", [](const Rollout& run) { return run.plan.run; })
+Columns<FinishedRun> run_columns() {
+  return Columns<FinishedRun>()
+      .text("simulator", [](const FinishedRun& run) { return run.plan.simulator; })
+      .text("scenario", [](const FinishedRun& run) { return run.plan.scenario.name; })
+      .text("role", [](const FinishedRun& run) { return to_text(run.plan.role); })
+      .number("run", [](const FinishedRun& run) { return run.plan.run; })
       .text("outcome",
-            [](const Rollout& run) {
+            [](const FinishedRun& run) {
               return run.report.error.empty() ? logs::to_text(run.report.outcome) : "error";
             })
-      .count("flights", [](const Rollout& run) { return run.report.flights; })
-      .count("wheel_flights", [](const Rollout& run) { return run.report.wheel_flights; })
-      .metric("duration_s", [](const Rollout& run) { return run.report.duration; });
+      .count("flights", [](const FinishedRun& run) { return run.report.flights; })
+      .count("wheel_flights", [](const FinishedRun& run) { return run.report.wheel_flights; })
+      .metric("duration_s", [](const FinishedRun& run) { return run.report.duration; });
 }
 
 /// A file of LaTeX for each table, and all of the paper's in Markdown.

@@ -87,7 +87,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Summary, runs, cells, scores, differences)
 
 Summary summary_of(const ExperimentResult& result) {
   Summary summary{{}, result.summaries, result.scores, result.differences};
-  for (const Rollout& run : result.runs) {
+  for (const FinishedRun& run : result.runs) {
     summary.runs.push_back({run.plan.role, run.plan.simulator, run.plan.run, run.plan.file,
                             run.report.outcome, run.report.flights, run.report.wheel_flights});
   }

@@ -100,15 +100,4 @@ const Table& RunDirectory::read_table(std::string_view name) const {
   return tables_->emplace(name, std::move(table)).first->second;
 }
 
-void require_free_space(const fs::path& directory, std::uintmax_t needed,
-                        const std::string& what_for, const SpaceNeed& need) {
-  std::error_code unknown;
-  const std::uintmax_t free = fs::space(directory, unknown).available;
-  if (unknown || free >= needed) return;
-  throw Error(fmt::format("{}: this {} may need {:.1f} GB{}, and {:.1f} GB are free: {}",
-                          directory.string(), need.purpose, 1e-9 * static_cast<double>(needed),
-                          what_for.empty() ? "" : fmt::format(" ({})", what_for),
-                          1e-9 * static_cast<double>(free), need.advice));
-}
-
 }  // namespace touchdown::experiments

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -27,6 +29,11 @@ constexpr bool is_block = requires(T list) {
   requires std::is_trivially_copyable_v<typename T::value_type>;
 };
 
+template <typename T>
+constexpr bool is_array = false;
+template <typename T, std::size_t n>
+constexpr bool is_array<std::array<T, n>> = true;
+
 /// Appends a value as bytes that only the same build reads: numbers and structs of numbers in their
 /// memory layout; texts, lists and maps with their size; other structs by their `members`, a static
 /// function that ties them.
@@ -39,6 +46,8 @@ void pack(const T& value, std::string& bytes) {
     pack(value.second, bytes);
   } else if constexpr (std::is_trivially_copyable_v<T>) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  } else if constexpr (is_array<T>) {
+    for (const auto& item : value) pack(item, bytes);
   } else {
     pack(std::uint64_t{value.size()}, bytes);
     if constexpr (is_block<T>) {
@@ -67,6 +76,8 @@ T unpack(std::string_view& bytes) {
     if (bytes.size() < sizeof value) throw Error("a saved part is too short");
     std::memcpy(&value, bytes.data(), sizeof value);
     bytes.remove_prefix(sizeof value);
+  } else if constexpr (is_array<T>) {
+    for (auto& item : value) item = unpack<typename T::value_type>(bytes);
   } else if constexpr (is_block<T>) {
     const auto size = unpack<std::uint64_t>(bytes);
     if (bytes.size() / sizeof(*value.data()) < size) throw Error("a saved part is too short");

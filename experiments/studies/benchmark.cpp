@@ -110,7 +110,7 @@ std::vector<BenchmarkSetup> benchmark_setups(const RunRequest& request, const Pl
 
 Measure extended_scores() {
   return measure_of_predictions<scoring::ExtendedScore>(
-      std::string(extended_measure), 1, [](const MeasuredPrediction& made) {
+      std::string(extended_measure), [](const MeasuredPrediction& made) {
         std::vector<scoring::ExtendedScore> scores;
         if (made.condition.refit > 0) return scores;
         const RunSignals& run = made.run.signals;
@@ -251,21 +251,6 @@ class BenchmarkStudy final : public SectionStudy<BenchmarkConfig> {
     return section;
   }
 
-  void add_needs(const RunRequest& request, Needs& needs) const override {
-    // Each robot may run differently, and each combination of robot and sensors has fitted runs.
-    const Experiment& experiment = request.experiment;
-    const auto& benchmark = section_of(experiment);
-    const auto robots = 1.0 + static_cast<double>(benchmark.robots.size());
-    const auto profiles = 1.0 + static_cast<double>(benchmark.sensors.size());
-    const double others = robots * profiles - 1.0;
-    const auto engines = static_cast<double>(experiment.simulators.size());
-    for (const std::string& file : experiment.fit.scenarios) {
-      add_runs(needs, scenario_of(request, file).scenario, others * engines * experiment.fit.runs,
-               0.0);
-    }
-    needs.setups += others;
-  }
-
   /// Adds runs for fitting and for testing, for every setup but the experiment's own. All test runs
   /// are scored at the highlighted noise, with extended scores.
   void plan(const RunRequest& request, Plan& plan) const override {
@@ -300,10 +285,6 @@ class BenchmarkStudy final : public SectionStudy<BenchmarkConfig> {
       plan.groups.push_back(std::move(group));
     }
     plan_tasks(experiment, first, plan);
-  }
-
-  KeptSignals kept_signals(const Experiment& /*experiment*/) const override {
-    return KeptSignals::none;
   }
 
   StudyResult summarize(const Evaluation& evaluation,

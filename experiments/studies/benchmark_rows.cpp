@@ -70,7 +70,7 @@ std::vector<BenchmarkRow> rows_of(const Evaluation& evaluation) {
                          {},
                          {}};
         for (const std::size_t index : runs) {
-          const Rollout& run = evaluation.runs.at(index);
+          const FinishedRun& run = evaluation.runs.at(index);
           if (run.plan.simulator != simulator) continue;
           ++row.runs;
           row.failed += run.failed() ? 1 : 0;

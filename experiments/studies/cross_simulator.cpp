@@ -210,28 +210,13 @@ class CrossSimulatorStudy final : public SectionStudy<CrossSimulatorConfig> {
     return section;
   }
 
-  void add_needs(const RunRequest& request, Needs& needs) const override {
-    const Experiment& experiment = request.experiment;
-    const auto& config = section_of(experiment);
-    double variations = 0.0;
-    for (const Factor& factor : config.factors) {
-      // One of the values may be the nominal one, which the experiment's own runs cover.
-      variations += static_cast<double>((factor.values.size() - 1) * factor.simulators.size());
-    }
-    double runs = variations * config.sensitivity_runs;
-    for (const CauseSetting& setting : cause_settings(experiment)) {
-      if (!setting.runs.change.empty()) runs += setting.runs.runs;
-    }
-    add_runs(needs, scenario_of(request, experiment.test.scenarios.front()).scenario, runs,
-             experiment.noise.seeds);
-  }
-
   /// Estimators that were fitted in the other engine are evaluated, too. Every value but the
   /// nominal ones, and every setting of `causes`, gets a group of runs. Errors: `InputError` that
   /// names the factor and the invalid value.
   void plan(const RunRequest& request, Plan& plan) const override {
     const Experiment& experiment = request.experiment;
     RunGroup& own = plan.groups.front();
+    add_measure(facts_measure(), own);
     for (const Condition& condition : transfer_conditions(experiment)) {
       if (!condition.is_fitted_in_domain()) own.conditions.push_back(condition);
     }

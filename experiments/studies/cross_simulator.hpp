@@ -138,9 +138,22 @@ struct RunFacts {
   std::array<scoring::Histogram, torque_set_count> torque;
 
   RunFacts& operator+=(const RunFacts& other);
+
+  static auto members(auto& facts) { return std::tie(facts.quantity, facts.torque); }
 };
 
-RunFacts facts_of(const Rollout& run, const Experiment& experiment);
+/// What a run's signals show: all quantities but the time to the bottom.
+RunFacts facts_of(const RunSignals& run, const scoring::ScoringConfig& scoring);
+
+/// Adds the time to the bottom of a run that finished.
+void add_descent(const FinishedRun& run, RunFacts& facts);
+
+/// Measures the facts of each run, with the first noise realisation.
+Measure facts_measure();
+
+/// Those of a run of the plan, with its time to the bottom. Errors: `Error` for one that is not
+/// saved.
+RunFacts saved_facts(std::size_t run, const Evaluation& evaluation);
 
 /// One quantity in both engines, and the second's minus the first's on the same runs.
 struct QuantityAgreement {

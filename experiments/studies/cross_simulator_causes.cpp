@@ -96,6 +96,7 @@ void plan_causes(const RunRequest& request, Plan& plan) {
                                              : own_engine_conditions(experiment),
                                 setting.runs.simulator),
                       setting.has_half_step, plan);
+    add_measure(facts_measure(), plan.groups.back());
   }
 }
 
@@ -152,7 +153,7 @@ Causes causes_of(const Evaluation& evaluation) {
     }
     for (std::size_t s = 0; s < settings.size(); ++s) {
       runs[s].push_back(draw[s]);
-      facts[s].push_back(facts_of(evaluation.runs.at(draw[s]), experiment));
+      facts[s].push_back(saved_facts(draw[s], evaluation));
     }
   }
   if (runs.front().empty()) {

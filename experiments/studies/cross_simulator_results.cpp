@@ -110,15 +110,33 @@ RunFacts& RunFacts::operator+=(const RunFacts& other) {
   return *this;
 }
 
-RunFacts facts_of(const Rollout& run, const Experiment& experiment) {
+RunFacts facts_of(const RunSignals& run, const scoring::ScoringConfig& scoring) {
   RunFacts facts;
-  add_drops(run.signals, experiment.scoring, facts);
-  add_torques(run.signals, experiment.scoring, facts);
-  if (run.report.outcome == logs::Outcome::finished) {
-    const scenarios::End& end = run.plan.scenario.end;
-    mean_of(facts, Quantity::descent)
-        .add(run.report.duration - (std::isfinite(end.x) ? end.settle : 0.0));
-  }
+  add_drops(run, scoring, facts);
+  add_torques(run, scoring, facts);
+  return facts;
+}
+
+void add_descent(const FinishedRun& run, RunFacts& facts) {
+  if (run.report.outcome != logs::Outcome::finished) return;
+  const scenarios::End& end = run.plan.scenario.end;
+  mean_of(facts, Quantity::descent)
+      .add(run.report.duration - (std::isfinite(end.x) ? end.settle : 0.0));
+}
+
+static constexpr const char* facts_name = "facts";
+
+Measure facts_measure() {
+  return {.name = facts_name, .of_run = [](const MeasuredRun& run) {
+            return run.seed > 0 ? std::string() : pack(facts_of(run.signals, run.scoring));
+          }};
+}
+
+RunFacts saved_facts(std::size_t run, const Evaluation& evaluation) {
+  const std::string bytes = measured_of_run(facts_name, run, evaluation.plan, evaluation.saved);
+  std::string_view rest = bytes;
+  RunFacts facts = unpack<RunFacts>(rest);
+  add_descent(evaluation.runs.at(run), facts);
   return facts;
 }
 
@@ -280,11 +298,9 @@ Agreement agreement_of(const Evaluation& evaluation) {
   std::vector<RunFacts> first_facts;
   std::vector<RunFacts> second_facts;
   for (std::size_t i = 0; i < first.size(); ++i) {
-    const Rollout& one = evaluation.runs.at(first[i]);
-    const Rollout& other = evaluation.runs.at(second[i]);
-    if (one.failed() || other.failed()) continue;
-    first_facts.push_back(facts_of(one, experiment));
-    second_facts.push_back(facts_of(other, experiment));
+    if (evaluation.runs.at(first[i]).failed() || evaluation.runs.at(second[i]).failed()) continue;
+    first_facts.push_back(saved_facts(first[i], evaluation));
+    second_facts.push_back(saved_facts(second[i], evaluation));
   }
   if (first_facts.empty()) {
     throw Error("there is no test run that the robot completes in both engines");

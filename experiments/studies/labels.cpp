@@ -28,7 +28,7 @@ std::vector<scoring::LabelConfig> definitions() {
 /// first noise realisation; a score is of type `scoring::Classification`, both wheels added.
 Measure label_measure() {
   return measure_of_predictions<scoring::Classification>(
-      labels_name, definitions().size(), [](const MeasuredPrediction& made) {
+      labels_name, [](const MeasuredPrediction& made) {
         std::vector<scoring::Classification> counts;
         const bool is_wanted =
             made.cell == 0 && made.run.seed == 0 && made.condition.is_fitted_in_domain();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -15,6 +16,9 @@
 namespace touchdown::experiments {
 
 namespace {
+
+/// The key of the study, and its measure.
+constexpr const char* moments_name = "moments";
 
 long cell_of(double torque) { return std::lround(torque / torque_cell); }
 
@@ -234,12 +238,17 @@ std::vector<EngineTorques> torques_by_engine(const Evaluation& evaluation) {
     EngineTorques& engine = engines.emplace_back(EngineTorques{simulator});
     TorqueSegments segments;
     for (const std::size_t index : evaluation.plan.runs_in(0, simulator)) {
-      const Rollout& run = evaluation.runs.at(index);
       ++engine.runs;
-      if (run.failed()) {
+      if (evaluation.runs.at(index).failed()) {
         ++engine.failed;
-      } else {
-        add_torques(run.signals, experiment.scoring.skip, segments);
+        continue;
+      }
+      const std::string bytes =
+          measured_of_run(moments_name, index, evaluation.plan, evaluation.saved);
+      std::string_view rest = bytes;
+      auto of_run = unpack<TorqueSegments>(rest);
+      for (std::size_t state = 0; state < of_run.size(); ++state) {
+        std::ranges::move(of_run[state], std::back_inserter(segments[state]));
       }
     }
     for (std::size_t i = 0; i < robot_torques.size(); ++i) {
@@ -310,11 +319,21 @@ class MomentsStudy final : public SectionStudy<MomentsConfig> {
   std::optional<StudySection> section() const override {
     const auto describe = [](Fields& fields, Experiment& experiment) {
       bool is_requested = experiment.studies.has<MomentsConfig>();
-      if (!fields.present("moments", is_requested)) return;
-      fields("moments", is_requested).doc("Whether torques are compared with the real robot's.");
+      if (!fields.present(moments_name, is_requested)) return;
+      fields(moments_name, is_requested).doc("Whether torques are compared with the real robot's.");
       if (is_requested) experiment.studies.emplace<MomentsConfig>();
     };
-    return StudySection{.key = "moments", .describe = describe};
+    return StudySection{.key = moments_name, .describe = describe};
+  }
+
+  /// Adds the torques of each test run, without noise.
+  void plan(const RunRequest& /*request*/, Plan& plan) const override {
+    const auto measure = [](const MeasuredRun& run) {
+      TorqueSegments segments;
+      if (run.seed == 0) add_torques(run.signals, run.scoring.skip, segments);
+      return run.seed == 0 ? pack(segments) : std::string();
+    };
+    add_measure({.name = moments_name, .of_run = measure}, plan.groups.front());
   }
 
   StudyResult summarize(const Evaluation& evaluation,

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "experiments/signals/run_signals.hpp"
@@ -17,6 +18,10 @@ struct TorqueSegment {
   double period = 0.001;  ///< s
   std::vector<double> knee = {};
   std::vector<double> wheel = {};
+
+  static auto members(auto& segment) {
+    return std::tie(segment.period, segment.knee, segment.wheel);
+  }
 };
 
 using Joint = std::vector<double> TorqueSegment::*;

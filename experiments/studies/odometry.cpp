@@ -63,8 +63,6 @@ Measure scores_measure(const OdometryStudyConfig& config, const std::string& fit
     return to_bytes(
         Scores{score(made.run, {made.prediction[0].p_contact, made.prediction[1].p_contact})});
   };
-  measure.bytes_of_run = oracle_names(config.delay).size() * sizeof(scoring::TrajectoryScore);
-  measure.bytes_of_prediction = sizeof(scoring::TrajectoryScore);
   return measure;
 }
 
@@ -363,10 +361,6 @@ class OdometryStudy final : public SectionStudy<OdometryStudyConfig> {
   std::optional<StudySection> section() const override {
     return optional_section<OdometryStudyConfig>("odometry",
                                                  "Odometry on every test run, by contact source.");
-  }
-
-  void add_needs(const RunRequest& /*request*/, Needs& needs) const override {
-    needs.motion = true;
   }
 
   /// Adds the scores to the test runs of all setups, with contact from the oracles, then from each

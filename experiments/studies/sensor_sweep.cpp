@@ -164,12 +164,6 @@ class SensorSweepStudy final : public SectionStudy<SensorSweepConfig> {
     return section;
   }
 
-  void add_needs(const RunRequest& request, Needs& needs) const override {
-    for (const SensorFactor& factor : section_of(request.experiment).factors) {
-      needs.setups += static_cast<double>(factor.values.size());
-    }
-  }
-
   /// Adds, for every value, the experiment's own test runs with that value in their sensors, at the
   /// first highlighted noise setting. Estimators keep the experiment's own fit. No run is simulated
   /// again.

@@ -24,17 +24,8 @@ class Study {
 
   virtual bool is_requested(const Experiment& experiment) const = 0;
 
-  /// Adds what it will need, before anything is planned.
-  virtual void add_needs(const RunRequest& /*request*/, Needs& /*needs*/) const {}
-
   /// Adds runs, groups, measures and model tasks. Errors: `InputError` for a wrong request.
   virtual void plan(const RunRequest& /*request*/, Plan& /*plan*/) const {}
-
-  /// The test runs that keep their signals after the evaluation, for it or its pictures. The fewer,
-  /// the less memory an experiment takes.
-  virtual KeptSignals kept_signals(const Experiment& /*experiment*/) const {
-    return KeptSignals::all;
-  }
 
   /// Writes its tables and returns its texts. Computes nothing that a task could have computed.
   virtual StudyResult summarize(const Evaluation& evaluation,

@@ -140,6 +140,17 @@ double bytes_at_most(const std::vector<ExportedRun>& runs, const Plan& plan) {
   return bytes;
 }
 
+/// An export is whole or not at all. Errors: `Error` when its disk has fewer free bytes.
+void require_free_space(const fs::path& folder, double needed, std::size_t files) {
+  std::error_code unknown;
+  const auto free = static_cast<double>(fs::space(folder, unknown).available);
+  if (unknown || free >= needed) return;
+  throw Error(fmt::format(
+      "{}: this export may need {:.1f} GB ({} files), and {:.1f} GB are free: free some, choose a "
+      "part (--robot, --sensors, --simulator; --dry-run lists their sizes), or name another folder",
+      folder.string(), 1e-9 * needed, files, 1e-9 * free));
+}
+
 /// Writes the files of these runs. Recordings are read from `directory`; missing ones are
 /// simulated.
 ExportReport export_runs(const RunRequest& request, const Plan& plan,
@@ -147,11 +158,7 @@ ExportReport export_runs(const RunRequest& request, const Plan& plan,
                          const fs::path& folder, const ShouldContinue& should_continue) {
   const ExportFolder place(folder);
   const PartFolder part(place.path() / "export");
-  require_free_space(part.path(), static_cast<std::uintmax_t>(bytes_at_most(runs, plan)),
-                     fmt::format("{} files", runs.size()),
-                     {"export",
-                      "free some, choose a part (--robot, --sensors, --simulator; "
-                      "--dry-run lists their sizes), or name another folder"});
+  require_free_space(part.path(), bytes_at_most(runs, plan), runs.size());
   std::map<std::size_t, std::vector<std::size_t>> exported_by_run;
   std::set<std::size_t> needed;
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -161,8 +168,8 @@ ExportReport export_runs(const RunRequest& request, const Plan& plan,
   std::vector<Written> written(runs.size());  // each by one thread
   std::mutex mutex;
   std::map<std::string, std::string> failed;  // endings by file
-  for_each_rollout(request.experiment, plan, needed, directory, MissingRun::refuse, should_continue,
-                   [&](std::size_t index, const Rollout& run) {
+  for_each_rollout("simulating", request.experiment, plan, needed, directory, MissingRun::refuse,
+                   should_continue, [&](std::size_t index, const Rollout& run) {
                      if (run.failed()) {
                        const std::scoped_lock lock(mutex);
                        failed[run.plan.file] = run.report.ending;

@@ -175,10 +175,10 @@ std::string name_of(const BeliefRequest& wanted) {
   return name;
 }
 
-/// Every run with its outcome alone, from the saved parts: whether it can be scored.
-Rollouts runs_as_saved(const ExperimentContext& context) {
+/// Every run, with the report of test runs from the saved parts.
+FinishedRuns runs_as_saved(const ExperimentContext& context) {
   const Plan& plan = context.plan;
-  Rollouts runs;
+  FinishedRuns runs;
   for (std::size_t i = 0; i < plan.runs.size(); ++i) runs[i].plan = plan.runs[i];
   for (const Task& task : plan.tasks) {
     const std::optional<TaskCounts> counts = saved_counts(plan, task, context.directory.store());
@@ -186,9 +186,7 @@ Rollouts runs_as_saved(const ExperimentContext& context) {
       throw InputError(fmt::format("{}: is not finished: run the same experiment again first",
                                    context.directory.path().string()));
     }
-    if (!counts->is_scored()) {
-      runs.at(task.run).report.outcome = logs::Outcome::fell;
-    }
+    runs.at(task.run).report = counts->report;
   }
   return runs;
 }
@@ -196,7 +194,7 @@ Rollouts runs_as_saved(const ExperimentContext& context) {
 /// The files to score: those of runs with a submitted file for every noise realisation of a noise
 /// setting. The report names the missing files of the other runs that could be scored.
 std::vector<BeliefFile> complete(const std::vector<BeliefFile>& files,
-                                 const std::vector<ExportedRun>& exported, const Rollouts& runs,
+                                 const std::vector<ExportedRun>& exported, const FinishedRuns& runs,
                                  BeliefReport& report) {
   std::set<std::size_t> given;
   for (const BeliefFile& file : files) given.insert(file.run);
@@ -250,8 +248,8 @@ SubmissionScores scores_of(const std::vector<BeliefFile>& files,
   }
   std::mutex mutex;
   for_each_rollout(
-      experiment, plan, needed, context.directory, MissingRun::refuse, context.should_continue,
-      [&](std::size_t index, const Rollout& run) {
+      "scoring", experiment, plan, needed, context.directory, MissingRun::refuse,
+      context.should_continue, [&](std::size_t index, const Rollout& run) {
         for (const BeliefFile* file : by_run.at(index)) {
           if (!context.should_continue()) throw Stopped();
           const ExportedRun& about = exported[file->run];
@@ -271,7 +269,7 @@ BeliefReport scored(const BeliefRequest& wanted, ExperimentContext& context) {
   BeliefReport report;
   report.name = name_of(wanted);
   const std::vector<ExportedRun> exported = exported_runs(context.request, context.plan);
-  const Rollouts runs = runs_as_saved(context);
+  const FinishedRuns runs = runs_as_saved(context);
   const Submission submission = submission_in(wanted.beliefs, exported);
   require_sound(submission.files, context.should_continue);
   report.about_fitted = submission.about_fitted;

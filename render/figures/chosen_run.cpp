@@ -10,9 +10,9 @@
 
 namespace touchdown::render {
 
-const experiments::Rollout& chosen_run(const experiments::ExperimentResult& result,
-                                       const std::string& simulator, int run, const char* key) {
-  const experiments::Rollout* found = experiments::test_run(result.runs, simulator, run);
+const experiments::FinishedRun& chosen_run(const experiments::ExperimentResult& result,
+                                           const std::string& simulator, int run, const char* key) {
+  const experiments::FinishedRun* found = experiments::test_run(result.runs, simulator, run);
   if (found == nullptr || experiments::is_failure(found->report.outcome)) {
     throw InputError(fmt::format("{}.run: run {} in {} is not scored", key, run, simulator));
   }
@@ -27,7 +27,7 @@ logs::Recording chosen_recording(const experiments::ExperimentResult& result,
 
 std::size_t fitted_runs(const experiments::ExperimentResult& result, const std::string& simulator) {
   std::size_t runs = 0;
-  for (const experiments::Rollout& run : result.runs) {
+  for (const experiments::FinishedRun& run : result.runs) {
     runs += run.plan.role == experiments::RunRole::fit && run.plan.simulator == simulator ? 1U : 0U;
   }
   return runs;

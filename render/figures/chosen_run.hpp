@@ -13,8 +13,8 @@ namespace touchdown::render {
 
 /// The test run that the section `key` chooses, in one engine. Errors: `InputError` when it is not
 /// scored.
-const experiments::Rollout& chosen_run(const experiments::ExperimentResult& result,
-                                       const std::string& simulator, int run, const char* key);
+const experiments::FinishedRun& chosen_run(const experiments::ExperimentResult& result,
+                                           const std::string& simulator, int run, const char* key);
 
 /// Its recording. Errors: as above, and when the recording is missing or broken.
 logs::Recording chosen_recording(const experiments::ExperimentResult& result,

@@ -6,11 +6,14 @@
 
 #include <fmt/format.h>
 
+#include "experiments/plan/request.hpp"
+#include "experiments/plan/rollouts.hpp"
 #include "experiments/results/captions.hpp"
 #include "render/figures/chosen_run.hpp"
 #include "render/figures/figures.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/palette.hpp"
+#include "scenarios/engine.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {
@@ -224,11 +227,16 @@ std::string left_out_text(const experiments::Experiment& experiment,
 void draw_detail(const experiments::ExperimentResult& result, const std::string& simulator) {
   const experiments::Experiment& experiment = result.experiment;
   const experiments::DetailConfig& config = *experiment.detail;
-  const experiments::Rollout& run = chosen_run(result, simulator, config.choice.run, "detail");
+  const experiments::FinishedRun& run = chosen_run(result, simulator, config.choice.run, "detail");
   const logs::Recording recording =
       chosen_recording(result, simulator, config.choice.run, "detail");
+  logs::Recording reported = recording;
+  const experiments::RunSignals signals = experiments::reported_signals(
+      experiments::profile_of(experiments::read_sensors(experiment, result.directory.path()),
+                              experiment.sensors),
+      experiment, *scenarios::CompiledScenes().as_described(run.plan.scenario), reported);
   const experiments::DropDetail detail =
-      experiments::drop_detail(experiment, config, recording, run.signals, result.models);
+      experiments::drop_detail(experiment, config, recording, signals, result.models);
   const FigureText text{
       fmt::format("One {} in detail: {}, {}", config.choice.at ? "moment" : "drop", experiment.name,
                   simulators::simulator_title(simulator)),

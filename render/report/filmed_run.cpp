@@ -16,11 +16,11 @@
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/plan/request.hpp"
+#include "experiments/plan/rollouts.hpp"
 #include "logs/log/recording_file.hpp"
 #include "render/figures/chosen_run.hpp"
 #include "render/palette.hpp"
 #include "scenarios/engine.hpp"
-#include "scenarios/leg_geometry.hpp"
 #include "scenarios/scenario.hpp"
 
 namespace touchdown::render {
@@ -102,11 +102,9 @@ FilmedRun filmed(logs::Recording recording, const experiments::Experiment& exper
   const std::int64_t run = recording.info.run;
   const noise::NoiseKey key = experiments::noise_key(experiment, 0, run);
   logs::Recording reported = recording;
-  experiments::report_through_sensors(profile, experiment, run, reported);
-  experiments::RunSignals signals = experiments::signals_of(
-      reported, experiment.labels, experiment.scoring, experiment.intervals.over);
   const scenarios::Scenario scenario = recorded_scenario(recording);
-  signals.legs = scenarios::leg_geometry(*scenarios::CompiledScenes().as_described(scenario));
+  const experiments::RunSignals signals = experiments::reported_signals(
+      profile, experiment, *scenarios::CompiledScenes().as_described(scenario), reported);
   const experiments::NoiseRun drawn = experiments::noise_run(signals, key);
   const std::string& simulator = recording.info.simulator;
   std::vector<BeliefTrack> beliefs;

@@ -63,7 +63,7 @@ constexpr double shown = 2.0;  ///< length of a film (s)
 std::vector<experiments::PlannedRun> worst_runs(const experiments::ExperimentResult& result,
                                                 const TableRow& standing) {
   std::vector<experiments::PlannedRun> runs;
-  for (const experiments::Rollout& run : result.runs) {
+  for (const experiments::FinishedRun& run : result.runs) {
     const experiments::PlannedRun& plan = run.plan;
     if (plan.role == experiments::RunRole::test && !run.failed() && plan.group == 0 &&
         plan.simulator == standing.text("worst_simulator") &&

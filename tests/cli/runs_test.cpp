@@ -146,26 +146,6 @@ TEST_F(Run, ExplainsItselfAndEndsWithResultsPathsAndNextCommands) {
   }
 }
 
-/// The counts of all samples are a table that grows with the grid of noise.
-TEST_F(Run, OutlinesTheDiskThatItsSamplesTake) {
-  write_finished_run(folder_);
-  const auto samples = static_cast<double>(fs::file_size(folder_ / "a/tables/samples.csv"));
-  const auto outlined = [&](const std::string& more) {
-    const std::string text =
-        folder_.output_of("run tiny.yaml --dry-run --out b --set recordings=none" + more);
-    return std::stod(text.substr(text.find("at most", text.find("disk")) + 8));
-  };
-  std::string levels = "0";
-  for (int level = 1; level < 60; ++level) levels += fmt::format(",{}", level);
-  const double more = outlined(
-      fmt::format(" --set noise.torque=[{0}] --set noise.accelerometer=[{0}] --set noise.seeds=1 "
-                  "--set test.runs=30",
-                  levels));
-  const double larger = 900.0 * 10.0 * samples;  // cells times runs
-  EXPECT_GE(1e6 * (more - outlined("")), larger);
-  EXPECT_LE(1e6 * more, 4.0 * larger + 100e6);
-}
-
 TEST_F(Run, UsesExistingRecordings) {
   write_finished_run(folder_);
   const fs::path recording = folder_ / "a/recordings/mujoco_step_test_000.mpack";

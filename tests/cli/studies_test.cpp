@@ -195,9 +195,7 @@ TEST_F(DryRun, PrintsTheRunDirectoryAndWritesNothing) {
   const std::string output = folder_.output_of(run + " --dry-run");
   EXPECT_THAT(output,
               AllOf(HasSubstr("results   runs/tiny/"), HasSubstr("\nparts     12\n"),
-                    HasSubstr("\nruns      2 fitted, 6 tested, at most 20 s of simulation\n"),
-                    ContainsRegex("\nmemory    at least [0-9]+ MB\n"),
-                    ContainsRegex("\ndisk      at most [0-9]+ MB\n$")));
+                    HasSubstr("\nruns      2 fitted, 6 tested, at most 20 s of simulation\n")));
   EXPECT_FALSE(folder_.has("runs"));
   folder_.output_of(run + " --shard 1/12");
   EXPECT_TRUE(folder_.has(output.substr(10, output.find('\n') - 10) + "/state/key"));

@@ -41,14 +41,15 @@ Experiment with(const ScratchFolder& folder, const std::string& section) {
 /// a flight is missed.
 std::vector<int> delays(const ExperimentResult& result, const std::string& estimator) {
   std::vector<int> all;
-  for (const Rollout& run : result.runs) {
+  for (const FinishedRun& run : result.runs) {
     if (run.plan.role != RunRole::test) continue;
-    const auto runner = make_estimator(result.experiment, {"mujoco", "mujoco", estimator},
-                                       result.models, run.signals);
-    const NoiseRun noise = noise_run(run.signals, noise_key(result.experiment, 0, run.plan.run));
-    const auto decided = decide(*runner, run.signals, noise, result.cells.front().levels());
+    const RunSignals signals = signals_of(run, result.experiment);
+    const auto runner =
+        make_estimator(result.experiment, {"mujoco", "mujoco", estimator}, result.models, signals);
+    const NoiseRun noise = noise_run(signals, noise_key(result.experiment, 0, run.plan.run));
+    const auto decided = decide(*runner, signals, noise, result.cells.front().levels());
     for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-      const auto& truth = run.signals.contact[wheel];
+      const auto& truth = signals.contact[wheel];
       int since = -1;  // steps since the takeoff of a flight that is not detected
       for (std::size_t k = 1; k < truth.size(); ++k) {
         if (truth[k] != 0 && since >= 0) all.push_back(-1);

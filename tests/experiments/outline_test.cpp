@@ -38,8 +38,6 @@ TEST(NightlyOutline, CountsTheRunsAndPartsOfEveryShippedExperimentAndWritesNothi
     EXPECT_EQ(outline.tasks, outline.test_runs * static_cast<std::size_t>(experiment.noise.seeds))
         << name;
     EXPECT_GT(outline.simulated, 0.0) << name;
-    EXPECT_GT(outline.memory, 0.0) << name;
-    EXPECT_GT(outline.disk, 0.0) << name;
     EXPECT_EQ(outline.model_tasks.empty(), !name.starts_with("closed_loop")) << name;
     ++experiments;
   }

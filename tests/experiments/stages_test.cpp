@@ -12,7 +12,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-/// Two fitted runs and a test run, with these contacts of both wheels at every step.
+/// Two fitted runs, with these contacts of both wheels at every step.
 struct Case {
   std::vector<std::string> estimators;
   std::array<scoring::ContactSequence, 2> first;
@@ -20,7 +20,7 @@ struct Case {
 };
 
 Rollout rollout(const PlannedRun& plan, const std::array<scoring::ContactSequence, 2>& contact) {
-  Rollout run{plan, {}, {}};
+  Rollout run{{plan, {}}, {}};
   run.signals.contact = contact;
   return run;
 }
@@ -29,27 +29,23 @@ Rollout rollout(const PlannedRun& plan, const std::array<scoring::ContactSequenc
 void check(const Case& given, logs::Outcome second = logs::Outcome::finished) {
   Experiment experiment;
   experiment.estimators = given.estimators;
-  Plan plan;
-  for (const RunRole role : {RunRole::fit, RunRole::fit, RunRole::test}) {
+  std::vector<Rollout> runs;
+  for (const auto& contact : {given.first, given.second}) {
     PlannedRun run;
-    run.role = role;
+    run.role = RunRole::fit;
     run.simulator = "bullet";
-    run.scenario.name = "scene_" + std::to_string(plan.runs.size());
-    plan.runs.push_back(run);
+    run.scenario.name = "scene_" + std::to_string(runs.size());
+    runs.push_back(rollout(run, contact));
   }
-  FitRunCheck check(experiment, plan, {0, 1, 2});
-  check.add(rollout(plan.runs[2], {{{1, 1}, {1, 1}}}));
-  check.add(rollout(plan.runs[0], given.first));
-  Rollout last = rollout(plan.runs[1], given.second);
-  last.report.outcome = second;
-  check.add(last);
+  runs.back().report.outcome = second;
+  require_fittable(experiment, runs);
 }
 
 const std::array<scoring::ContactSequence, 2> rolls = {{{1, 1}, {1, 1}}};
 const std::array<scoring::ContactSequence, 2> hangs = {{{0, 0}, {0, 0}}};
 const std::array<scoring::ContactSequence, 2> lifts_left = {{{1, 0}, {1, 1}}};
 
-TEST(FitRunCheck, NamesWhatTheRunsOfAFitLackTheEstimatorsAndTheScenes) {
+TEST(RequireFittable, NamesWhatTheRunsOfAFitLackTheEstimatorsAndTheScenes) {
   EXPECT_THAT(
       [] {
         check({{"free_fall", "robust", "load_filter", "paper"}, rolls, rolls});
@@ -65,13 +61,13 @@ TEST(FitRunCheck, NamesWhatTheRunsOfAFitLackTheEstimatorsAndTheScenes) {
       ThrowsMessage<InputError>(HasSubstr("contain no contact")));
 }
 
-TEST(FitRunCheck, AcceptsRunsThatHaveItTogether) {
+TEST(RequireFittable, AcceptsRunsThatHaveItTogether) {
   EXPECT_NO_THROW(check({{"robust", "paper"}, rolls, hangs}));
   EXPECT_NO_THROW(check({{"robust"}, rolls, lifts_left}));
   EXPECT_NO_THROW(check({{"free_fall", "load_filter"}, rolls, rolls}));
 }
 
-TEST(FitRunCheck, DoesNotUseRunsThatFell) {
+TEST(RequireFittable, DoesNotUseRunsThatFell) {
   EXPECT_THROW(check({{"robust"}, rolls, hangs}, logs::Outcome::fell), InputError);
 }
 
@@ -79,25 +75,21 @@ TEST(FitRunCheck, DoesNotUseRunsThatFell) {
 void check_failing(const std::vector<std::string>& estimators) {
   Experiment experiment;
   experiment.estimators = estimators;
-  Plan plan;
-  const auto failures = {logs::Outcome::left_terrain, logs::Outcome::fell, logs::Outcome::diverged};
-  for (const logs::Outcome failure : failures) {
-    PlannedRun run;
-    run.role = RunRole::fit;
-    run.simulator = "bullet";
-    run.file = "run_" + std::to_string(static_cast<int>(failure));
-    plan.runs.push_back(run);
+  std::vector<Rollout> runs;
+  for (const logs::Outcome failure :
+       {logs::Outcome::left_terrain, logs::Outcome::fell, logs::Outcome::diverged}) {
+    PlannedRun plan;
+    plan.role = RunRole::fit;
+    plan.simulator = "bullet";
+    plan.file = "run_" + std::to_string(static_cast<int>(failure));
+    runs.push_back(rollout(plan, rolls));
+    runs.back().report.outcome = failure;
+    runs.back().report.ending = "ended badly";
   }
-  FitRunCheck check(experiment, plan, {0, 1, 2});
-  for (std::size_t i = 0; i < failures.size(); ++i) {
-    Rollout run = rollout(plan.runs[i], rolls);
-    run.report.outcome = failures.begin()[i];
-    run.report.ending = "ended badly";
-    check.add(run);
-  }
+  require_fittable(experiment, runs);
 }
 
-TEST(FitRunCheck, NamesTheFirstFailureIfEveryRunFails) {
+TEST(RequireFittable, NamesTheFirstFailureIfEveryRunFails) {
   EXPECT_THAT(
       [] {
         check_failing({"robust", "free_fall", "paper"});

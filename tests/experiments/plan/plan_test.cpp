@@ -49,8 +49,8 @@ TEST(KeepRecordings, KeepsAllOrNoneOfThem) {
   EXPECT_THAT(kept(experiment), IsEmpty());
 }
 
-Rollout run(const std::string& file, logs::Outcome outcome, const std::string& ending) {
-  Rollout run;
+FinishedRun run(const std::string& file, logs::Outcome outcome, const std::string& ending) {
+  FinishedRun run;
   run.plan.file = file;
   run.report.outcome = outcome;
   run.report.ending = ending;
@@ -67,9 +67,9 @@ TEST(FailuresText, NamesTheFirstAndCountsTheOthers) {
 /// The same simulated run, with the errors of three sensor profiles, is three runs of a plan.
 TEST(UnusedRuns, HaveOneLineForEachRecording) {
   using logs::Outcome;
-  const Rollout fallen = run("mujoco_stairs_fit_001.mpack", Outcome::fell, "fell after 13.6 s");
-  const Rollout upright = run("mujoco_stairs_fit_000.mpack", Outcome::finished, "");
-  const Rollout diverged =
+  const FinishedRun fallen = run("mujoco_stairs_fit_001.mpack", Outcome::fell, "fell after 13.6 s");
+  const FinishedRun upright = run("mujoco_stairs_fit_000.mpack", Outcome::finished, "");
+  const FinishedRun diverged =
       run("bullet_hop_test_000.mpack", Outcome::diverged, "diverged after 2 s");
   EXPECT_EQ(unused_runs_text({fallen, upright, fallen, diverged, fallen}),
             "Not used: mujoco_stairs_fit_001.mpack (fell after 13.6 s)\n"

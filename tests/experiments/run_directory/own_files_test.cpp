@@ -252,22 +252,5 @@ TEST(UntrackedFiles, AreAllowedElsewhere) {
   EXPECT_NO_THROW(require_no_untracked_files(folder.path()));
 }
 
-TEST(FreeSpace, TooLittleIsAnErrorWithItsPurposeAndAdvice) {
-  const ScratchFolder folder;
-  constexpr std::uintmax_t too_much = std::uintmax_t{1} << 62;
-  EXPECT_NO_THROW(require_free_space(folder.path(), 1));
-  EXPECT_THAT([&] { require_free_space(folder.path(), too_much, "so many parts"); },
-              ThrowsMessage<Error>(
-                  AllOf(HasSubstr(folder.path().string()), HasSubstr("GB are free"),
-                        HasSubstr("this run may need 4611686018.4 GB (so many parts), and "),
-                        HasSubstr("recordings=pictured"))));
-  EXPECT_THAT(
-      [&] {
-        require_free_space(folder.path(), too_much, "", {"export", "choose a part"});
-      },
-      ThrowsMessage<Error>(
-          AllOf(HasSubstr("this export may need"), HasSubstr("are free: choose a part"))));
-}
-
 }  // namespace
 }  // namespace touchdown::experiments

@@ -114,17 +114,17 @@ TEST(BayesAblation, EndsInRobustToTheBitOnASimulatedRun) {
   experiment.highlights = {{}};
   experiment.video.enabled = false;
   const ExperimentResult result = run_in(folder, experiment);
-  const Rollout* const run = test_run(result.runs, "mujoco", 0);
+  const FinishedRun* const run = test_run(result.runs, "mujoco", 0);
   ASSERT_FALSE(run == nullptr || run->failed());
+  const RunSignals signals = signals_of(*run, experiment);
   const auto& models = result.models.at("mujoco");
 
   EstimatorEntry last = estimator_entry(experiment, steps_from_paper_to_robust().back().name);
   const noise::SensorNoise noise{0.5, 0.5, 3.0};
-  const auto robust =
-      p_contact_of(estimator_entry("robust"), models.at("robust"), run->signals, noise);
-  EXPECT_NE(p_contact_of(last, models.at(last.name), run->signals, noise), robust);
+  const auto robust = p_contact_of(estimator_entry("robust"), models.at("robust"), signals, noise);
+  EXPECT_NE(p_contact_of(last, models.at(last.name), signals, noise), robust);
   last.configuration["transition.row_stochastic"] = "true";
-  EXPECT_EQ(p_contact_of(last, models.at(last.name), run->signals, noise), robust);
+  EXPECT_EQ(p_contact_of(last, models.at(last.name), signals, noise), robust);
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ TEST_P(LostScene, IsARowWithoutScoresAndNoPartOfTheMean) {
   EXPECT_THAT(result.studies,
               Contains(HasSubstr("Without a scored run, not in mean and worst: lost")));
   int named = 0;
-  for (const Rollout& run : result.runs) {
+  for (const FinishedRun& run : result.runs) {
     if (!run.failed()) continue;
     ++named;
     EXPECT_THAT(run.report.ending, HasSubstr(" s: ")) << "its time and its reason";

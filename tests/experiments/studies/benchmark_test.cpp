@@ -209,30 +209,6 @@ std::string table_text(const std::filesystem::path& run, const std::string& name
   return read_file(run / "tables" / name);
 }
 
-TEST(ABenchmark, HasTheSameTablesWhetherItKeepsSignalsInMemoryOrNot) {
-  const ScratchFolder folder;
-  const auto run = [&](const std::string& name, bool has_films, const std::string& more) {
-    Experiment experiment = with_benchmark(folder,
-                                           "{robots: [models/upkie_heavy.yaml], sensors: "
-                                           "[noise/profiles/upkie.yaml], refits: 1, clips: true}" +
-                                               more);
-    experiment.video.enabled = has_films;
-    const Plan plan = whole_plan(request_of(experiment));
-    (void)run_experiment(experiment, {.out = folder / name, .command = "test"});
-    return plan.kept_signals;
-  };
-  EXPECT_EQ(run("streamed", false, ""), KeptSignals::none);
-  EXPECT_EQ(run("own", true, ""), KeptSignals::own);
-  EXPECT_EQ(run("kept", false, "\nmoments: true"), KeptSignals::all);
-  for (const char* name : {"benchmark.csv", "benchmark_standings.csv", "success.csv", "runs.csv",
-                           "transitions.csv", "latency.csv"}) {
-    const std::string expected = table_text(folder / "kept", name);
-    EXPECT_FALSE(expected.empty()) << name;
-    EXPECT_EQ(table_text(folder / "streamed", name), expected) << name;
-    EXPECT_EQ(table_text(folder / "own", name), expected) << name;
-  }
-}
-
 TEST(ABenchmark, RefitsInAShardOfOneEngineAreThoseOfTheWholeRun) {
   const ScratchFolder folder;
   Experiment experiment = with_benchmark(folder, "{refits: 2}");

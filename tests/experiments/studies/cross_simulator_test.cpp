@@ -112,7 +112,8 @@ TEST(RunFacts, CountAnEdgeContactAfterTheNosingAndABounce) {
   // the end.
   const Rollout run =
       hand_made({{1, 500}, {0, 8}, {1, 12}, {0, 150}, {1, 20}, {0, 15}, {1, 295}}, 680);
-  const RunFacts facts = facts_of(run, Experiment{});
+  RunFacts facts = facts_of(run.signals, {});
+  add_descent(run, facts);
   const auto value = [&](Quantity q) {
     return facts.quantity[static_cast<std::size_t>(q)].value();
   };

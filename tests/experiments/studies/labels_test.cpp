@@ -39,7 +39,7 @@ class LabelSensitivity : public ::testing::Test {
   static double contact_share(const ExperimentResult& result, double threshold) {
     double in_contact = 0.0;
     double all = 0.0;
-    for (const Rollout& rollout : result.runs) {
+    for (const FinishedRun& rollout : result.runs) {
       if (rollout.plan.role != RunRole::test) continue;
       const logs::Recording recording =
           logs::read_recording(result.directory.file("recordings", rollout.plan.file));

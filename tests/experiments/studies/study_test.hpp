@@ -7,12 +7,22 @@
 
 #include "core/files.hpp"
 #include "experiments/config/experiment_yaml.hpp"
+#include "experiments/plan/rollouts.hpp"
 #include "experiments/run_directory/shard.hpp"
 #include "experiments/run_experiment.hpp"
+#include "scenarios/engine.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {
+
+/// The signals of a run with ideal sensors, simulated once more.
+inline RunSignals signals_of(const FinishedRun& run, const Experiment& experiment) {
+  const PlannedRun& plan = run.plan;
+  logs::Recording recording = scenarios::play(plan.scenario, plan.simulator, plan.seed, plan.run);
+  return reported_signals({}, experiment, *scenarios::CompiledScenes().as_described(plan.scenario),
+                          recording);
+}
 
 /// Runs an experiment in `<folder>/<name>`.
 inline ExperimentResult run_in(const ScratchFolder& folder, const Experiment& experiment,
