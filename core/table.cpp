@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/csv.hpp"
+#include "core/error.hpp"
 #include "core/terminal_text.hpp"
 
 namespace touchdown {
@@ -120,6 +121,38 @@ std::vector<std::string> TableRow::texts() const {
 std::string bound_name(const std::string& name, const char* end) {
   const bool has_unit = name.ends_with("_ms") || name.ends_with("_nm");
   return std::string(name).insert(name.size() - (has_unit ? 3 : 0), end);
+}
+
+Table select(const Table& table, const std::vector<std::string>& columns) {
+  std::vector<std::size_t> places;
+  for (const std::string& name : columns) {
+    const auto found = std::ranges::find(table.columns, name, &Column::name);
+    if (found == table.columns.end()) throw Error("a table lacks the column " + name);
+    auto place = static_cast<std::size_t>(found - table.columns.begin());
+    do {
+      places.push_back(place++);
+    } while (place < table.columns.size() && (table.columns[place].role == ColumnRole::low ||
+                                              table.columns[place].role == ColumnRole::high));
+  }
+  Table part;
+  for (const std::size_t place : places) part.columns.push_back(table.columns[place]);
+  for (const std::vector<Cell>& row : table.rows) {
+    std::vector<Cell>& cells = part.rows.emplace_back();
+    for (const std::size_t place : places) cells.push_back(row[place]);
+  }
+  return part;
+}
+
+void add_columns(Table& table, const Table& more) {
+  if (table.columns.empty()) table.rows.resize(more.rows.size());
+  for (std::size_t c = 0; c < more.columns.size(); ++c) {
+    const auto same = std::ranges::find(table.columns, more.columns[c].name, &Column::name);
+    if (same != table.columns.end()) continue;
+    table.columns.push_back(more.columns[c]);
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
+      table.rows[row].push_back(more.rows[row][c]);
+    }
+  }
 }
 
 TextTable texts_of(const Table& table) {

@@ -84,6 +84,14 @@ class TableRow {
 /// `name_low_ms`.
 std::string bound_name(const std::string& name, const char* end);
 
+/// These columns of a table, in this order. A metric brings the ends of its interval along. Errors:
+/// `Error` for a column that it lacks.
+Table select(const Table& table, const std::vector<std::string>& columns);
+
+/// Adds the columns that a table lacks from one with as many rows. A table without columns takes
+/// all.
+void add_columns(Table& table, const Table& more);
+
 /// A table for readers: a header, then rows with as many formatted cells.
 struct TextTable {
   std::vector<std::string> header;

@@ -47,11 +47,7 @@ ExperimentResult score(ExperimentContext& context, Computed& done) {
   const StageTimer timer(context, "score");
   const CollectedCounts counts = collect(plan, plan.runs_in(0), context.directory.store());
   write_samples(counts, plan, context.directory);
-  const scoring::BootstrapConfig& bootstrap = experiment.intervals.bootstrap;
-  result.summaries = summarise(own(counts.counted), result.cells, bootstrap);
-  const std::vector<ConditionScores> scored = own(counts.scored);
-  result.scores = summarise(scored, experiment.highlights, bootstrap);
-  result.differences = differences(scored, experiment.highlights, bootstrap);
+  result.tables = score_tables(counts, plan, experiment);
   if (experiment.tuning) {
     add(summarize_tuning(done.trials, experiment, context.directory));
   }
@@ -78,6 +74,7 @@ void write_result(const ExperimentContext& context, Computed& done, ExperimentRe
   for (auto& [index, run] : done.runs) {
     if (run.plan.group == 0) result.runs.push_back(std::move(run));
   }
+  result.tables.runs = runs_table(result.runs);
   release_free_memory();  // of the studies' tables
   result.provenance = context.provenance;
   write_result_files(result);

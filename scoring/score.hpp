@@ -29,6 +29,12 @@ struct Calibration {
     std::int64_t contact = 0;
     double probability_sum = 0.0;
 
+    Bin& operator+=(const Bin& other) {
+      points += other.points;
+      contact += other.contact;
+      probability_sum += other.probability_sum;
+      return *this;
+    }
     double mean_probability() const { return probability_sum / static_cast<double>(points); }
     double contact_frequency() const {
       return static_cast<double>(contact) / static_cast<double>(points);

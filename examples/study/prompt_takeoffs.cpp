@@ -1,6 +1,6 @@
+#include "experiments/evaluation/query.hpp"
 #include "experiments/figures/figure_spec.hpp"
 #include "experiments/results/captions.hpp"
-#include "experiments/results/estimates.hpp"
 #include "experiments/studies/registry.hpp"
 
 namespace touchdown::experiments {
@@ -42,9 +42,16 @@ class PromptTakeoffsStudy final : public SectionStudy<PromptTakeoffs> {
   }
   StudyResult summarize(const Evaluation& evaluation,
                         const RunDirectory& directory) const override {
-    const Table table =
-        directory.write_table("prompt_takeoffs.csv", estimate_columns<Share>("prompt_share"),
-                              estimates<Share>(study_name, &Share::value, evaluation));
+    const Plan& plan = evaluation.plan;
+    Query<Share> query;
+    query.by = setting_keys<Share>();
+    query.statistics.push_back({"prompt_share", &Share::value});
+    query.runs = "runs";
+    const Table table = directory.write_measured(
+        "prompt_takeoffs.csv",
+        answer(rows_of<Share>(study_name, plan.runs_in(0), plan, evaluation.saved), query,
+               evaluation.request.experiment.intervals.bootstrap)
+            .table);
     FigureSpec figure{.name = study_name, .table = "prompt_takeoffs.csv"};
     figure.panels = noise_panels(table);
     figure.series = groups_in(table, "simulator", [](const auto& engine) { return engine; });

@@ -9,7 +9,7 @@
 #include "core/files.hpp"
 #include "core/yaml.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "experiments/results/summary_file.hpp"
+#include "experiments/results/json.hpp"
 
 namespace touchdown::experiments {
 

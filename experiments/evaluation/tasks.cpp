@@ -246,11 +246,11 @@ CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs, con
     const TaskCounts found = counts_of(plan, task, store);
     if (!found.is_scored()) continue;
     const std::string& simulator = plan.runs[task.run].simulator;
-    const std::size_t segments = add_samples(all.counted, found.counted, simulator, task.seed == 0);
-    for (std::size_t i = 0; task.seed == 0 && i < segments; ++i) {
+    const std::size_t counted = add_samples(all.counted, found.counted, simulator, task.seed == 0);
+    const std::size_t scored = add_samples(all.scored, found.scored, simulator, task.seed == 0);
+    for (std::size_t i = 0; task.seed == 0 && i < std::max(counted, scored); ++i) {
       all.origins[simulator].push_back({task.run, i});
     }
-    add_samples(all.scored, found.scored, simulator, task.seed == 0);
   }
   return all;
 }

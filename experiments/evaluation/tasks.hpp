@@ -168,7 +168,7 @@ struct SampleOrigin {
 struct CollectedCounts {
   std::vector<ConditionCounts> counted;
   std::vector<ConditionScores> scored;
-  /// Of the counted samples, by engine.
+  /// Of the samples, by engine.
   std::map<std::string, std::vector<SampleOrigin>> origins = {};
 };
 

@@ -41,4 +41,16 @@ noise::NoiseKey noise_key(const Experiment& experiment, int noise_seed, std::int
   return draws_of(experiment.seed, noise_stream, static_cast<std::uint64_t>(noise_seed), run);
 }
 
+Columns<noise::NoiseCell> noise_columns() {
+  return Columns<noise::NoiseCell>()
+      .level("torque_noise_nm", &noise::NoiseCell::torque)
+      .level("accelerometer_noise_mps2", &noise::NoiseCell::accelerometer);
+}
+
+Columns<noise::NoiseCell> knee_wheel_columns() {
+  return Columns<noise::NoiseCell>()
+      .level("knee_noise_nm", &noise::NoiseCell::knee)
+      .level("wheel_noise_nm", &noise::NoiseCell::wheel);
+}
+
 }  // namespace touchdown::experiments

@@ -5,8 +5,10 @@
 #include <string_view>
 #include <vector>
 
+#include "core/columns.hpp"
 #include "experiments/config/experiment.hpp"
 #include "noise/gaussian.hpp"
+#include "noise/sensor_noise.hpp"
 
 namespace touchdown::experiments {
 
@@ -33,6 +35,13 @@ struct Condition {
 std::string model_key(const std::string& simulator, const std::string& fit, int refit = 0);
 /// Whether the key belongs to a fit to resampled runs, or to a training set of a part of the runs.
 bool is_of_refit(std::string_view model_key);
+
+/// The columns of a noise setting: `torque_noise_nm`, `accelerometer_noise_mps2`.
+Columns<noise::NoiseCell> noise_columns();
+
+/// The separate levels of a setting, for tables of the knee × wheel grid: `knee_noise_nm`,
+/// `wheel_noise_nm`.
+Columns<noise::NoiseCell> knee_wheel_columns();
 
 /// The experiment's estimators, each tested on the engine of its fit, "always contact" last.
 std::vector<Condition> own_engine_conditions(const Experiment& experiment);

@@ -9,7 +9,7 @@
 
 #include "experiments/estimators/registry.hpp"
 #include "experiments/results/result.hpp"
-#include "experiments/results/summary_file.hpp"
+#include "experiments/results/scores.hpp"
 
 namespace touchdown::experiments {
 
@@ -105,26 +105,29 @@ bool is_fitted_to_test(const Experiment& experiment, const std::string& estimato
          std::ranges::any_of(experiment.test.scenarios, is_fitted_to);
 }
 
-std::string score_notes(const Experiment& experiment, const Summary& summary) {
+std::string score_notes(const Experiment& experiment, const ScoreTables& tables) {
   std::vector<std::string> notes, silent, fitted;
   for (const std::string& name : experiment.estimators) {
-    const bool is_silent = std::ranges::any_of(summary.cells, [&](const CellSummary& cell) {
-      return cell.condition.estimator == name && cell.is_silent() &&
-             std::ranges::find(experiment.highlights, cell.cell) != experiment.highlights.end();
+    const bool is_ever_silent = std::ranges::any_of(tables.cells.all(), [&](const TableRow& cell) {
+      return cell.text("estimator") == name && is_silent(cell) &&
+             std::ranges::any_of(experiment.highlights, [&](const noise::NoiseCell& highlight) {
+               return is_at(cell, highlight);
+             });
     });
     const EstimatorEntry& entry = estimator_entry(experiment, name);
-    if (is_silent && entry.fits()) silent.push_back(entry.title);
+    if (is_ever_silent && entry.fits()) silent.push_back(entry.title);
     if (is_fitted_to_test(experiment, name)) fitted.push_back(entry.title);
   }
-  int scored = 0, flights = 0;
-  std::array<int, 2> of_one_wheel{};  // of the fit and of the test
-  for (const RunSummary& run : summary.runs) {
-    const bool is_test = run.role == RunRole::test;
-    of_one_wheel.at(is_test ? 1 : 0) += run.wheel_flights;
-    scored += is_test && !is_failure(run.outcome) ? 1 : 0;
-    flights += is_test ? run.flights : 0;
+  int scored = 0;
+  double flights = 0.0;
+  std::array<double, 2> of_one_wheel{};  // of the fit and of the test
+  for (const TableRow& run : tables.runs.all()) {
+    const bool is_test = run.text("role") == to_text(RunRole::test);
+    of_one_wheel.at(is_test ? 1 : 0) += run.number("wheel_flights");
+    scored += is_test && is_scored(run) ? 1 : 0;
+    flights += is_test ? run.number("flights") : 0.0;
   }
-  if (scored > 0 && flights + of_one_wheel[1] == 0) {
+  if (scored > 0 && flights + of_one_wheel[1] == 0.0) {
     notes.emplace_back(
         "The test has no flight of a wheel: no takeoff can be missed, and to answer “contact” "
         "always is right.");
@@ -138,7 +141,7 @@ std::string score_notes(const Experiment& experiment, const Summary& summary) {
                                 fmt::join(silent, ", "), is_one ? "reports" : "report",
                                 is_one ? "it decides" : "they decide"));
   }
-  if (!silent.empty() && of_one_wheel[0] == 0 && of_one_wheel[1] > 0) {
+  if (!silent.empty() && of_one_wheel[0] == 0.0 && of_one_wheel[1] > 0.0) {
     notes.push_back(fmt::format(
         "{} has no flight of one wheel alone, as the test has: add scenarios/push_off.yaml to "
         "fit.scenarios.",

@@ -14,7 +14,6 @@
 namespace touchdown::experiments {
 
 struct ExperimentResult;
-struct Summary;
 
 /// "1 run", "2 runs".
 std::string plural(std::size_t count, const std::string& thing);
@@ -46,7 +45,7 @@ bool is_fitted_to_test(const Experiment& experiment, const std::string& estimato
 /// What a reader of the scores has to know: a test without a flight, estimators that are fitted to
 /// its scenes, fitted ones that report hardly any flight in a highlighted cell, with the likely
 /// cause. Empty without any.
-std::string score_notes(const Experiment& experiment, const Summary& summary);
+std::string score_notes(const Experiment& experiment, const ScoreTables& tables);
 /// The test runs of one engine.
 struct TestRuns {
   std::size_t scored = 0;  ///< that did not fail

@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/evaluation/summary.hpp"
 #include "experiments/figures/figure_spec.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/plan/request.hpp"
@@ -29,9 +28,7 @@ struct ExperimentResult {
   std::vector<FinishedRun> runs = {};
   FittedModels models = {};
   std::vector<noise::NoiseCell> cells = {};
-  std::vector<CellSummary> summaries = {};       ///< of every noise cell
-  std::vector<ScoreSummary> scores = {};         ///< of the highlighted ones
-  std::vector<Difference> differences = {};      ///< likewise
+  ScoreTables tables = {};
   std::vector<std::string> studies = {};         ///< terminal text of each study
   std::vector<FigureSpec> figures = {};          ///< of the studies' tables
   std::vector<std::string> failed_demands = {};  ///< estimators that fail a demanded verdict

@@ -22,7 +22,6 @@
 #include "experiments/plan/condition.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/results/scores.hpp"
-#include "experiments/results/summary_file.hpp"
 #include "experiments/results/text_tables.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "logs/model_file.hpp"
@@ -83,7 +82,9 @@ void write_models(const FittedModels& models, const RunDirectory& directory) {
   }
 }
 
-Columns<FinishedRun> run_columns() {
+}  // namespace
+
+Table runs_table(const std::vector<FinishedRun>& runs) {
   return Columns<FinishedRun>()
       .text("simulator", [](const FinishedRun& run) { return run.plan.simulator; })
       .text("scenario", [](const FinishedRun& run) { return run.plan.scenario.name; })
@@ -95,8 +96,11 @@ Columns<FinishedRun> run_columns() {
             })
       .count("flights", [](const FinishedRun& run) { return run.report.flights; })
       .count("wheel_flights", [](const FinishedRun& run) { return run.report.wheel_flights; })
-      .metric("duration_s", [](const FinishedRun& run) { return run.report.duration; });
+      .metric("duration_s", [](const FinishedRun& run) { return run.report.duration; })
+      .table(runs);
 }
+
+namespace {
 
 /// A file of LaTeX for each table, and all of the paper's in Markdown.
 void write_text_tables(const ExperimentResult& result) {
@@ -125,10 +129,8 @@ void write_model_of(const std::string& key, const std::string& estimator, const 
 void write_result_files(const ExperimentResult& result) {
   write_models(result.models, result.directory);
   const RunDirectory& directory = result.directory;
-  directory.write_table("runs.csv", run_columns().table(result.runs));
-  write_score_tables(result.summaries, result.scores, result.differences, directory);
+  write_score_tables(result.tables, directory);
   write_text_tables(result);
-  write_summary(summary_of(result), result.directory.path());
 }
 
 std::map<std::string, std::string> table_digests(const std::filesystem::path& run_directory) {

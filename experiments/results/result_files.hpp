@@ -12,6 +12,9 @@ namespace touchdown::experiments {
 void write_model_of(const std::string& key, const std::string& estimator, const Model& model,
                     const RunDirectory& directory);
 
+/// The table `runs.csv`.
+Table runs_table(const std::vector<FinishedRun>& runs);
+
 /// Writes an experiment's result into its run directory: `tables/` and `models/`.
 void write_result_files(const ExperimentResult& result);
 

@@ -1,182 +1,260 @@
 #include "experiments/results/scores.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "experiments/evaluation/query.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-/// The columns that all tables of scores have: engine, estimator, noise.
-template <typename Summary>
-Columns<Summary> setting_columns() {
-  return Columns<Summary>()
-      .text("simulator", [](const Summary& s) { return s.condition.test_simulator; })
-      .text("estimator", [](const Summary& s) { return s.condition.estimator; })
-      .part(&Summary::cell, noise_columns());
+using scoring::Score;
+using ScoreRow = Scored<Score>;
+
+Answer<scoring::Classification> cells_of(const CollectedCounts& counts, const Plan& plan,
+                                         const Experiment& experiment) {
+  using Row = Scored<scoring::Classification>;
+  const std::vector<ConditionCounts> counted = own(counts.counted);
+  Query<scoring::Classification> query;
+  query.by = setting_keys<scoring::Classification>().part(
+      [](const Row& row) -> const noise::NoiseCell& { return *row.noise; }, knee_wheel_columns());
+  for (const PointMetric& metric : point_metrics) {
+    query.statistics.push_back({metric.name, metric.of});
+  }
+  query.totals.metric("always_contact_success", [](const scoring::Classification& all) {
+    return scoring::ratio(all.contact(), all.points());
+  });
+  return answer(rows_of(counted, plan.groups.front().counted, counts, plan), query,
+                experiment.intervals.bootstrap);
 }
 
-using CountOf = std::int64_t (*)(const scoring::Score&);
-
-/// Columns: the setting and the view, then metrics with their intervals, then counts.
-Columns<ScoreSummary> columns_of(const std::vector<std::string>& metrics,
-                                 const std::vector<std::pair<std::string, CountOf>>& counts) {
-  Columns<ScoreSummary> columns = setting_columns<ScoreSummary>();
-  columns.text("view", &ScoreSummary::view);
-  for (const std::string& name : metrics) {
-    columns.interval(name, [name](const ScoreSummary& summary) { return summary[name]; });
+/// A row for each view of each score, the cell first.
+std::vector<ScoreRow> rows_by_view(const std::vector<Scored<scoring::RobotScore>>& robots) {
+  std::vector<ScoreRow> rows;
+  for (const Scored<scoring::RobotScore>& robot : robots) {
+    for (std::size_t view = 0; view < scoring::scored_views().size(); ++view) {
+      rows.push_back({robot.run, robot.segment, robot.condition, robot.noise, view,
+                      scoring::score_of_view(robot.score, view)});
+    }
   }
-  for (const auto& [name, count] : counts) {
-    columns.count(name, [count = count](const ScoreSummary& s) { return count(s.total); });
-  }
-  return columns;
+  std::ranges::stable_sort(rows, {}, &ScoreRow::noise);
+  return rows;
 }
 
-/// `reliability.csv`: a row per bin of the calibration.
-void write_reliability(const std::vector<ScoreSummary>& scores, const RunDirectory& directory) {
-  struct Row {
-    const ScoreSummary* summary;
-    std::size_t bin;
+const std::string& view_of(std::size_t item) { return scoring::scored_views()[item]; }
+
+Answer<Score> scores_of(const std::vector<ScoreRow>& rows,
+                        const scoring::BootstrapConfig& bootstrap) {
+  Query<Score> query;
+  query.by =
+      setting_keys<Score>().text("view", [](const ScoreRow& row) { return view_of(row.item); });
+  for (const scoring::Metric& metric : scoring::metrics()) {
+    query.statistics.push_back({metric.name, metric.of, metric.events});
+  }
+  query.totals.count("true_events", [](const Score& s) { return s.events.truth; })
+      .count("decided_events", [](const Score& s) { return s.events.decided; })
+      .count("matched_events", [](const Score& s) { return s.events.matched; })
+      .count("contact_steps", [](const Score& s) { return s.points.contact(); })
+      .count("no_contact_steps", [](const Score& s) { return s.points.flight(); })
+      .count("takeoffs", [](const Score& s) { return s.takeoff.events; })
+      .count("false_takeoffs", [](const Score& s) { return s.takeoff.false_alarms; })
+      .count("landings", [](const Score& s) { return s.landing.events; })
+      .count("false_landings", [](const Score& s) { return s.landing.false_alarms; })
+      .count("takeoffs_detected", [](const Score& s) { return s.takeoff.detected; })
+      .count("landings_detected", [](const Score& s) { return s.landing.detected; })
+      .count("steps", [](const Score& s) { return s.calibration.points; });
+  return answer(rows, query, bootstrap);
+}
+
+Table reliability_of(const std::vector<ScoreRow>& rows, const scoring::BootstrapConfig& bootstrap) {
+  using Bin = scoring::Calibration::Bin;
+  constexpr std::size_t bins = scoring::Calibration::bins;
+  std::vector<Scored<Bin>> by_bin;
+  for (const ScoreRow& row : rows) {
+    for (std::size_t b = 0; b < bins; ++b) {
+      by_bin.push_back({row.run, row.segment, row.condition, row.noise, row.item * bins + b,
+                        row.score.calibration.bin[b]});
+    }
+  }
+  Query<Bin> query;
+  query.by = setting_keys<Bin>()
+                 .text("view", [](const Scored<Bin>& row) { return view_of(row.item / bins); })
+                 .number("bin", [](const Scored<Bin>& row) { return row.item % bins; });
+  query.statistics = {{"contact_frequency", &Bin::contact_frequency}};
+  query.totals.count("steps", &Bin::points).metric("mean_probability", &Bin::mean_probability);
+  return answer(by_bin, query, bootstrap).table;
+}
+
+/// Both wheels' scores of a condition in one noise setting, by sample.
+std::vector<Score> wheels_of(const ConditionScores& scores, std::size_t cell) {
+  std::vector<Score> samples;
+  for (const scoring::RobotScore& robot : scores.samples[cell]) samples.push_back(robot.wheels());
+  return samples;
+}
+
+Table differences_of(const std::vector<ConditionScores>& scores, const Experiment& experiment) {
+  struct Pair {
+    const ConditionScores* first;
+    const ConditionScores* second;
+    std::size_t cell;
+    std::vector<Interval> difference = {};  ///< by metric
   };
+  std::vector<Pair> pairs;
+  for (std::size_t cell = 0; cell < experiment.highlights.size(); ++cell) {
+    const ConditionScores* first = nullptr;
+    for (const ConditionScores& other : scores) {
+      const bool is_new_engine =
+          first == nullptr || first->condition.test_simulator != other.condition.test_simulator;
+      if (is_new_engine) {
+        first = &other;
+      } else {
+        pairs.push_back({first, &other, cell});
+      }
+    }
+  }
+  std::vector<std::function<double(const Score&)>> statistics;
+  for (const scoring::Metric& metric : scoring::metrics()) statistics.push_back(metric.of);
+  tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
+    pairs[i].difference = scoring::bootstrap_differences(
+        wheels_of(*pairs[i].first, pairs[i].cell), wheels_of(*pairs[i].second, pairs[i].cell),
+        statistics, experiment.intervals.bootstrap);
+  });
+  using Row = std::pair<const Pair*, std::size_t>;  // and a metric
   std::vector<Row> rows;
-  for (const ScoreSummary& summary : scores) {
-    for (std::size_t b = 0; b < scoring::Calibration::bins; ++b) rows.push_back({&summary, b});
+  for (const Pair& pair : pairs) {
+    for (std::size_t m = 0; m < statistics.size(); ++m) rows.emplace_back(&pair, m);
   }
-  const auto counts = [](const Row& row) -> const scoring::Calibration::Bin& {
-    return row.summary->total.calibration.bin[row.bin];
-  };
-  const auto columns =
-      Columns<Row>()
-          .part([](const Row& row) -> const ScoreSummary& { return *row.summary; },
-                columns_of({}, {}))
-          .number("bin", &Row::bin)
-          .count("steps", [counts](const Row& row) { return counts(row).points; })
-          .metric("mean_probability",
-                  [counts](const Row& row) { return counts(row).mean_probability(); })
-          .interval("contact_frequency",
-                    [](const Row& row) { return row.summary->contact_frequency[row.bin]; });
-  directory.write_table("reliability.csv", columns, rows);
+  return Columns<Row>()
+      .text("simulator", [](const Row& row) { return row.first->first->condition.test_simulator; })
+      .part([&](const Row& row) { return experiment.highlights[row.first->cell]; }, noise_columns())
+      .text("first", [](const Row& row) { return row.first->first->condition.estimator; })
+      .text("second", [](const Row& row) { return row.first->second->condition.estimator; })
+      .text("metric", [](const Row& row) { return scoring::metrics()[row.second].name; })
+      .interval("difference", [](const Row& row) { return row.first->difference[row.second]; })
+      .table(rows);
 }
 
-/// `differences.csv`: a row per pair of estimators and metric.
-void write_differences(const std::vector<Difference>& differences, const RunDirectory& directory) {
-  struct Row {
-    const Difference* pair;
-    std::size_t metric;  ///< in the order of `metrics()`
-  };
-  std::vector<Row> rows;
-  for (const Difference& difference : differences) {
-    for (std::size_t m = 0; m < scoring::metrics().size(); ++m) rows.push_back({&difference, m});
-  }
-  const auto columns =
-      Columns<Row>()
-          .text("simulator", [](const Row& row) { return row.pair->simulator; })
-          .part([](const Row& row) { return row.pair->cell; }, noise_columns())
-          .text("first", [](const Row& row) { return row.pair->first; })
-          .text("second", [](const Row& row) { return row.pair->second; })
-          .text("metric", [](const Row& row) { return scoring::metrics()[row.metric].name; })
-          .interval("difference", [](const Row& row) { return row.pair->metric[row.metric]; });
-  directory.write_table("differences.csv", columns, rows);
+using Names = std::vector<std::string>;
+
+/// A file of some columns of one of the tables.
+struct Print {
+  const char* file;
+  Table ScoreTables::*table;
+  Names columns;
+};
+
+Names with_setting(const Names& columns) {
+  Names all = {"simulator", "estimator", "torque_noise_nm", "accelerometer_noise_mps2"};
+  all.insert(all.end(), columns.begin(), columns.end());
+  return all;
+}
+
+std::vector<Print> prints() {
+  return {
+      {"success.csv", &ScoreTables::cells,
+       with_setting({"success", "always_contact_success", "knee_noise_nm", "wheel_noise_nm"})},
+      {"classification.csv", &ScoreTables::cells,
+       with_setting({"contact_precision", "contact_recall", "no_contact_precision",
+                     "no_contact_recall", "balanced_accuracy", "knee_noise_nm", "wheel_noise_nm"})},
+      {"ranking.csv", &ScoreTables::scores,
+       with_setting({"view", "event_f1", "extra_switches_per_minute", "long_errors_s_per_minute",
+                     "takeoff_latency_median_ms", "landing_latency_median_ms",
+                     "no_contact_precision", "balanced_accuracy", "true_events", "decided_events",
+                     "matched_events"})},
+      {"views.csv", &ScoreTables::scores,
+       with_setting({"view", "success", "contact_precision", "contact_recall",
+                     "no_contact_precision", "no_contact_recall", "contact_steps",
+                     "no_contact_steps"})},
+      {"transitions.csv", &ScoreTables::scores,
+       with_setting({"view", "takeoff_precision", "takeoff_recall", "landing_precision",
+                     "landing_recall", "false_takeoffs_per_minute", "takeoffs", "false_takeoffs",
+                     "landings", "false_landings"})},
+      {"latency.csv", &ScoreTables::scores,
+       with_setting({"view", "takeoff_latency_ms", "takeoff_latency_deviation_ms",
+                     "landing_latency_ms", "landing_latency_deviation_ms", "takeoffs_detected",
+                     "landings_detected"})},
+      {"calibration.csv", &ScoreTables::scores, with_setting({"view", "brier", "steps"})},
+      {"reliability.csv", &ScoreTables::reliability,
+       with_setting({"view", "bin", "steps", "mean_probability", "contact_frequency"})},
+      {"differences.csv", &ScoreTables::differences, {}}};
 }
 
 }  // namespace
-
-Columns<noise::NoiseCell> noise_columns() {
-  return Columns<noise::NoiseCell>()
-      .level("torque_noise_nm", &noise::NoiseCell::torque)
-      .level("accelerometer_noise_mps2", &noise::NoiseCell::accelerometer);
-}
-
-Columns<noise::NoiseCell> knee_wheel_columns() {
-  return Columns<noise::NoiseCell>()
-      .level("knee_noise_nm", &noise::NoiseCell::knee)
-      .level("wheel_noise_nm", &noise::NoiseCell::wheel);
-}
 
 const PointMetric& mapped_metric(const Experiment& experiment) {
   return *std::ranges::find(point_metrics, experiment.figures.heatmap,
                             [](const PointMetric& metric) { return std::string(metric.name); });
 }
 
-std::vector<CellSummary> summarise(const std::vector<ConditionCounts>& counts,
-                                   const std::vector<noise::NoiseCell>& cells,
-                                   const scoring::BootstrapConfig& bootstrap_config) {
-  std::vector<std::function<double(const scoring::Classification&)>> statistics;
-  for (const PointMetric& metric : point_metrics) statistics.emplace_back(metric.of);
-  std::vector<CellSummary> summaries(counts.size() * cells.size());
-  tbb::parallel_for(std::size_t{0}, summaries.size(), [&](std::size_t i) {
-    const ConditionCounts& condition = counts[i / cells.size()];
-    const std::vector<scoring::Classification>& samples = condition.samples[i % cells.size()];
-    const std::vector<Interval> intervals =
-        scoring::bootstrap<scoring::Classification>(samples, statistics, bootstrap_config);
-    CellSummary& summary = summaries[i];
-    summary.condition = condition.condition;
-    summary.cell = cells[i % cells.size()];
-    for (std::size_t m = 0; m < point_metrics.size(); ++m) {
-      summary.*point_metrics[m].interval = intervals[m];
-    }
-    const scoring::Classification all = scoring::sum(samples);
-    summary.always_contact = scoring::ratio(all.contact(), all.points());
-  });
-  return summaries;
+ScoreTables score_tables(const CollectedCounts& counts, const Plan& plan,
+                         const Experiment& experiment) {
+  const scoring::BootstrapConfig& bootstrap = experiment.intervals.bootstrap;
+  const std::vector<ConditionScores> scored = own(counts.scored);
+  const std::vector<ScoreRow> rows =
+      rows_by_view(rows_of(scored, experiment.highlights, counts, plan));
+  Answer<Score> scores = scores_of(rows, bootstrap);
+  return {.cells = cells_of(counts, plan, experiment).table,
+          .scores = std::move(scores.table),
+          .reliability = reliability_of(rows, bootstrap),
+          .differences = differences_of(scored, experiment),
+          .totals = std::move(scores.totals)};
 }
 
-void write_score_tables(const std::vector<CellSummary>& cells,
-                        const std::vector<ScoreSummary>& scores,
-                        const std::vector<Difference>& differences, const RunDirectory& directory) {
-  using scoring::Score;
-  directory.write_table("success.csv",
-                        setting_columns<CellSummary>()
-                            .interval("success", &CellSummary::success)
-                            .metric("always_contact_success", &CellSummary::always_contact)
-                            .part(&CellSummary::cell, knee_wheel_columns()),
-                        cells);
-  Columns<CellSummary> classification = setting_columns<CellSummary>();
-  for (const PointMetric& metric : point_metrics) {
-    if (metric.interval == &CellSummary::success) continue;
-    classification.interval(metric.name, metric.interval);
+void write_score_tables(const ScoreTables& tables, const RunDirectory& directory) {
+  directory.write_table("runs.csv", tables.runs);
+  for (const Print& print : prints()) {
+    const Table& table = tables.*print.table;
+    directory.write_measured(print.file,
+                             print.columns.empty() ? table : select(table, print.columns));
   }
-  classification.part(&CellSummary::cell, knee_wheel_columns());
-  directory.write_table("classification.csv", classification, cells);
-  directory.write_table(
-      "ranking.csv",
-      columns_of({"event_f1", "extra_switches_per_minute", "long_errors_s_per_minute",
-                  "takeoff_latency_median_ms", "landing_latency_median_ms", "no_contact_precision",
-                  "balanced_accuracy"},
-                 {{"true_events", [](const Score& s) { return s.events.truth; }},
-                  {"decided_events", [](const Score& s) { return s.events.decided; }},
-                  {"matched_events", [](const Score& s) { return s.events.matched; }}}),
-      scores);
-  directory.write_table(
-      "views.csv",
-      columns_of({"success", "contact_precision", "contact_recall", "no_contact_precision",
-                  "no_contact_recall"},
-                 {{"contact_steps", [](const Score& s) { return s.points.contact(); }},
-                  {"no_contact_steps", [](const Score& s) { return s.points.flight(); }}}),
-      scores);
-  directory.write_table(
-      "transitions.csv",
-      columns_of({"takeoff_precision", "takeoff_recall", "landing_precision", "landing_recall",
-                  "false_takeoffs_per_minute"},
-                 {{"takeoffs", [](const Score& s) { return s.takeoff.events; }},
-                  {"false_takeoffs", [](const Score& s) { return s.takeoff.false_alarms; }},
-                  {"landings", [](const Score& s) { return s.landing.events; }},
-                  {"false_landings", [](const Score& s) { return s.landing.false_alarms; }}}),
-      scores);
-  directory.write_table(
-      "latency.csv",
-      columns_of({"takeoff_latency_ms", "takeoff_latency_deviation_ms", "landing_latency_ms",
-                  "landing_latency_deviation_ms"},
-                 {{"takeoffs_detected", [](const Score& s) { return s.takeoff.detected; }},
-                  {"landings_detected", [](const Score& s) { return s.landing.detected; }}}),
-      scores);
-  directory.write_table(
-      "calibration.csv",
-      columns_of({"brier"}, {{"steps", [](const Score& s) { return s.calibration.points; }}}),
-      scores);
-  write_reliability(scores, directory);
-  write_differences(differences, directory);
+}
+
+ScoreTables read_score_tables(const std::filesystem::path& run_directory) {
+  const auto read = [&](const char* name) {
+    const std::filesystem::path file = run_directory / "tables" / name;
+    if (!is_there(file)) {
+      throw InputError(fmt::format(
+          "{}: is not finished, or was made by an older touchdown: it has no tables/{}; run "
+          "`touchdown run` again",
+          run_directory.string(), name));
+    }
+    return table_of(from_csv(read_file(file)));
+  };
+  ScoreTables tables{.runs = read("runs.csv")};
+  for (const Print& print : prints()) {
+    Table& whole = tables.*print.table;
+    const Table part = read(print.file);
+    if (!whole.columns.empty() && whole.rows.size() != part.rows.size()) {
+      throw InputError(fmt::format(
+          "{}: tables/{}: has {} rows, expected {} as in the other tables of the same scores",
+          run_directory.string(), print.file, part.rows.size(), whole.rows.size()));
+    }
+    add_columns(whole, part);
+  }
+  return tables;
+}
+
+bool is_at(const TableRow& row, const noise::NoiseCell& cell) {
+  return row.number("torque_noise_nm") == cell.torque &&
+         row.number("accelerometer_noise_mps2") == cell.accelerometer;
+}
+
+bool loses(const TableRow& cell) {
+  return cell.number("success") <= cell.number("always_contact_success");
+}
+
+bool is_silent(const TableRow& cell) { return cell.number("no_contact_recall") < 0.02; }
+
+bool is_scored(const TableRow& run) {
+  const std::string outcome = run.text("outcome");
+  return outcome != "error" && !is_failure(logs::outcome_from_text(outcome));
 }
 
 }  // namespace touchdown::experiments

@@ -1,77 +1,71 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "core/columns.hpp"
+#include "core/table.hpp"
 #include "experiments/config/experiment.hpp"
-#include "experiments/evaluation/summary.hpp"
+#include "experiments/evaluation/tasks.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "noise/sensor_noise.hpp"
 
 namespace touchdown::experiments {
 
-/// The columns of a noise setting: `torque_noise_nm`, `accelerometer_noise_mps2`.
-Columns<noise::NoiseCell> noise_columns();
-
-/// The separate levels of a setting, for tables of the knee × wheel grid: `knee_noise_nm`,
-/// `wheel_noise_nm`.
-Columns<noise::NoiseCell> knee_wheel_columns();
-
-/// Scores of one condition in one noise cell, with intervals over runs or drops.
-struct CellSummary {
-  Condition condition;
-  noise::NoiseCell cell;
-  Interval success;  ///< accuracy
-  Interval contact_precision;
-  Interval contact_recall;
-  Interval no_contact_precision;
-  Interval no_contact_recall;
-  Interval balanced_accuracy;
-  double always_contact = 0.0;  ///< accuracy of "always contact" in the same runs
-
-  /// Whether "always contact" is at least as accurate.
-  bool loses() const { return success.estimate <= always_contact; }
-  /// Whether it reports hardly any of the flight.
-  bool is_silent() const { return no_contact_recall.estimate < 0.02; }
-};
-
-/// A metric of a `CellSummary`, by name. `title` stands in sentences.
+/// A point-wise metric, by the name of its column. `title` stands in sentences.
 struct PointMetric {
   const char* name;
   const char* title;
-  Interval CellSummary::*interval;
   double (scoring::Classification::*of)() const;
 };
 inline constexpr std::array<PointMetric, 6> point_metrics = {{
-    {"success", "success rate", &CellSummary::success, &scoring::Classification::success},
-    {"contact_precision", "precision of contact", &CellSummary::contact_precision,
-     &scoring::Classification::contact_precision},
-    {"contact_recall", "recall of contact", &CellSummary::contact_recall,
-     &scoring::Classification::contact_recall},
-    {"no_contact_precision", "precision of air", &CellSummary::no_contact_precision,
-     &scoring::Classification::no_contact_precision},
-    {"no_contact_recall", "recall of air", &CellSummary::no_contact_recall,
-     &scoring::Classification::no_contact_recall},
-    {"balanced_accuracy", "balanced accuracy", &CellSummary::balanced_accuracy,
-     &scoring::Classification::balanced_accuracy},
+    {"success", "success rate", &scoring::Classification::success},
+    {"contact_precision", "precision of contact", &scoring::Classification::contact_precision},
+    {"contact_recall", "recall of contact", &scoring::Classification::contact_recall},
+    {"no_contact_precision", "precision of air", &scoring::Classification::no_contact_precision},
+    {"no_contact_recall", "recall of air", &scoring::Classification::no_contact_recall},
+    {"balanced_accuracy", "balanced accuracy", &scoring::Classification::balanced_accuracy},
 }};
 
 /// The metric that the experiment's heatmaps show.
 const PointMetric& mapped_metric(const Experiment& experiment);
 
-/// By condition, then cell.
-std::vector<CellSummary> summarise(const std::vector<ConditionCounts>& counts,
-                                   const std::vector<noise::NoiseCell>& cells,
-                                   const scoring::BootstrapConfig& bootstrap);
+/// The scores of an experiment as tables, of which terminal, report, figures and files are prints.
+/// Intervals are over runs or drops.
+struct ScoreTables {
+  Table runs = {};   ///< by run
+  Table cells = {};  ///< by condition and noise cell: `point_metrics`, and always contact's success
+  Table scores = {};  ///< by highlighted cell, condition and view: `scoring::metrics`, and counts
+  Table reliability = {};  ///< likewise, a row per bin of the calibration
+  /// By highlighted cell, the differences of each engine's first estimator from the others, a row
+  /// per metric: both wheels pooled, the same runs or drops resampled.
+  Table differences = {};
+  std::vector<scoring::Score> totals = {};  ///< by row of `scores`; no file holds them
+};
 
-/// Writes the tables of these scores: `success.csv` and `classification.csv` (point-wise metrics in
-/// every noise cell); of the highlighted ones `ranking.csv`, `views.csv` (per wheel, pooled, and
-/// for the robot), `transitions.csv`, `latency.csv` (over detected events), `calibration.csv`,
-/// `reliability.csv` and `differences.csv`.
-void write_score_tables(const std::vector<CellSummary>& cells,
-                        const std::vector<ScoreSummary>& scores,
-                        const std::vector<Difference>& differences, const RunDirectory& directory);
+/// All but the runs. The experiment's own fits count, each tested on its engine.
+ScoreTables score_tables(const CollectedCounts& counts, const Plan& plan,
+                         const Experiment& experiment);
+
+/// Writes `runs.csv`; `success.csv` and `classification.csv` (every noise cell); of the highlighted
+/// ones `ranking.csv`, `views.csv` (per wheel, pooled, and for the robot), `transitions.csv`,
+/// `latency.csv` (over detected events), `calibration.csv`, `reliability.csv` and
+/// `differences.csv`.
+void write_score_tables(const ScoreTables& tables, const RunDirectory& directory);
+
+/// Reads them. Errors: `InputError` when one is missing, as in a run that is not finished.
+ScoreTables read_score_tables(const std::filesystem::path& run_directory);
+
+/// Whether a row is about this noise setting.
+bool is_at(const TableRow& row, const noise::NoiseCell& cell);
+
+/// Of a row of `cells`: whether "always contact" is at least as accurate; whether hardly any of the
+/// flight is reported.
+bool loses(const TableRow& cell);
+bool is_silent(const TableRow& cell);
+
+/// Of a row of `runs`: whether it counts in the scores.
+bool is_scored(const TableRow& run);
 
 }  // namespace touchdown::experiments

@@ -1,9 +1,11 @@
 #include "experiments/results/text_tables.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -11,23 +13,28 @@
 #include "experiments/estimators/baselines.hpp"
 #include "experiments/plan/rollouts.hpp"
 #include "experiments/results/captions.hpp"
-#include "experiments/results/summary_file.hpp"
+#include "experiments/results/scores.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-/// The score of both wheels; null for a condition without one.
-const ScoreSummary* score_of(const std::vector<ScoreSummary>& scores, const CellSummary& cell) {
-  const auto found = std::ranges::find_if(scores, [&](const ScoreSummary& score) {
-    return score.condition == cell.condition && score.cell == cell.cell && score.view == "wheels";
+using Rows = std::vector<TableRow>;
+
+/// The scores of both wheels in one noise setting.
+Rows wheels_at(const Table& scores, const noise::NoiseCell& cell) {
+  return where(scores.all(), [&](const TableRow& row) {
+    return row.text("view") == scoring::scored_views().front() && is_at(row, cell);
   });
-  return found == scores.end() ? nullptr : &*found;
+}
+
+Rows of_engine(const Rows& rows, const std::string& simulator) {
+  return where(rows, [&](const TableRow& row) { return row.text("simulator") == simulator; });
 }
 
 /// A metric without its interval; a dash where it is not defined.
-std::string plain(const ScoreSummary& score, std::string_view metric, const char* format) {
-  const double value = score[metric].estimate;
+std::string plain(const TableRow& score, const char* metric, const char* format) {
+  const double value = score.number(metric);
   return std::isnan(value) ? "–" : fmt::format(fmt::runtime(format), value);
 }
 
@@ -38,40 +45,37 @@ TextTable cell_table(const ExperimentResult& result, const std::string& simulato
       {"estimator", "F1 of takeoffs and landings", "extra switches/min", "long errors (s/min)",
        "takeoff (ms)", "landing (ms)", "precision of air", "balanced accuracy"},
       {}};
-  for (const CellSummary& summary : result.summaries) {
-    if (summary.condition.test_simulator != simulator || !(summary.cell == cell)) continue;
-    const ScoreSummary* const score = score_of(result.scores, summary);
-    if (score == nullptr) continue;
-    table.rows.push_back({estimator_title_in(result.experiment, summary.condition.estimator),
-                          with_interval((*score)["event_f1"]),
-                          plain(*score, "extra_switches_per_minute", "{:.1f}"),
-                          plain(*score, "long_errors_s_per_minute", "{:.2f}"),
-                          plain(*score, "takeoff_latency_median_ms", "{:+.1f}"),
-                          plain(*score, "landing_latency_median_ms", "{:+.1f}"),
-                          plain(*score, "no_contact_precision", "{:.3f}"),
-                          with_interval((*score)["balanced_accuracy"])});
+  for (const TableRow& score : of_engine(wheels_at(result.tables.scores, cell), simulator)) {
+    table.rows.push_back({estimator_title_in(result.experiment, score.text("estimator")),
+                          with_interval(score.interval("event_f1")),
+                          plain(score, "extra_switches_per_minute", "{:.1f}"),
+                          plain(score, "long_errors_s_per_minute", "{:.2f}"),
+                          plain(score, "takeoff_latency_median_ms", "{:+.1f}"),
+                          plain(score, "landing_latency_median_ms", "{:+.1f}"),
+                          plain(score, "no_contact_precision", "{:.3f}"),
+                          with_interval(score.interval("balanced_accuracy"))});
   }
   return table;
 }
 
 /// One estimator's success rate over the noise grid.
-TextTable grid_table(const std::vector<CellSummary>& summaries, const std::string& simulator,
-                     const std::string& estimator, const noise::NoiseGridConfig& noise) {
+TextTable grid_table(const Table& cells, const std::string& simulator, const std::string& estimator,
+                     const noise::NoiseGridConfig& noise) {
   TextTable table{{"torque noise"}, {}};
   for (const double level : noise.accelerometer) {
     table.header.push_back(fmt::format("{} m/s²", level));
   }
   for (const double torque : noise.torque) table.rows.push_back({fmt::format("{} N·m", torque)});
-  for (const CellSummary& summary : summaries) {
-    const Condition& condition = summary.condition;
-    if (condition.test_simulator != simulator || condition.estimator != estimator) continue;
-    const auto row = std::find(noise.torque.begin(), noise.torque.end(), summary.cell.torque);
-    const bool on_grid = row != noise.torque.end() &&
-                         std::find(noise.accelerometer.begin(), noise.accelerometer.end(),
-                                   summary.cell.accelerometer) != noise.accelerometer.end();
+  for (const TableRow& cell : of_engine(cells.all(), simulator)) {
+    if (cell.text("estimator") != estimator) continue;
+    const auto row = std::ranges::find(noise.torque, cell.number("torque_noise_nm"));
+    const bool on_grid =
+        row != noise.torque.end() &&
+        std::ranges::find(noise.accelerometer, cell.number("accelerometer_noise_mps2")) !=
+            noise.accelerometer.end();
     if (!on_grid) continue;
     table.rows[static_cast<std::size_t>(row - noise.torque.begin())].push_back(
-        fmt::format("{:.3f}{}", summary.success.estimate, summary.loses() ? "*" : ""));
+        fmt::format("{:.3f}{}", cell.number("success"), loses(cell) ? "*" : ""));
   }
   return table;
 }
@@ -99,40 +103,39 @@ const PaperRow* paper_row(const std::string& estimator) {
   return found == rows.end() ? nullptr : found->second;
 }
 
-std::string latency_cell(const ScoreSummary& summary, const std::string& event) {
-  const Interval& mean = summary[event + "_latency_ms"];
-  const Interval& deviation = summary[event + "_latency_deviation_ms"];
+std::string latency_cell(const TableRow& score, const std::string& event) {
+  const Interval mean = score.interval(event + "_latency_ms");
+  const Interval deviation = score.interval(event + "_latency_deviation_ms");
   if (std::isnan(mean.estimate)) return "–";
   std::string text = fmt::format("{} ± {}", fixed(mean.estimate, 1), fixed(deviation.estimate, 1));
   if (std::isnan(mean.low)) return text;
   return fmt::format("{} [{}, {}]", text, fixed(mean.low, 1), fixed(mean.high, 1));
 }
 
-std::string metric_cell(const ScoreSummary& summary, const std::string& metric) {
-  return with_interval(summary[metric]);
+std::string metric_cell(const TableRow& score, const std::string& metric) {
+  return with_interval(score.interval(metric));
 }
 
 /// One column per name, filled by `cell`; the last column has the paper's numbers, if one of the
 /// estimators is among its own.
-TextTable table_of(const Experiment& experiment, const std::vector<ScoreSummary>& summaries,
+TextTable table_of(const Experiment& experiment, const Rows& scores,
                    const std::vector<std::string>& names,
-                   std::string (*cell)(const ScoreSummary&, const std::string&),
+                   std::string (*cell)(const TableRow&, const std::string&),
                    std::string PaperRow::*reference) {
   TextTable table{{"simulator", "estimator"}, {}};
   for (std::string name : names) {
     std::replace(name.begin(), name.end(), '_', ' ');
     table.header.push_back(name);
   }
-  const bool has_paper = std::ranges::any_of(summaries, [](const ScoreSummary& summary) {
-    return paper_row(summary.condition.estimator) != nullptr;
-  });
+  const bool has_paper = std::ranges::any_of(
+      scores, [](const TableRow& score) { return paper_row(score.text("estimator")) != nullptr; });
   if (has_paper) table.header.emplace_back("paper, real robot");
-  for (const ScoreSummary& summary : summaries) {
-    if (summary.view != "wheels") continue;
-    std::vector<std::string> row = {summary.condition.test_simulator,
-                                    estimator_title_in(experiment, summary.condition.estimator)};
-    for (const std::string& name : names) row.push_back(cell(summary, name));
-    const PaperRow* paper = paper_row(summary.condition.estimator);
+  for (const TableRow& score : scores) {
+    const std::string estimator = score.text("estimator");
+    std::vector<std::string> row = {score.text("simulator"),
+                                    estimator_title_in(experiment, estimator)};
+    for (const std::string& name : names) row.push_back(cell(score, name));
+    const PaperRow* paper = paper_row(estimator);
     if (has_paper) row.push_back(paper == nullptr ? "–" : paper->*reference);
     table.rows.push_back(std::move(row));
   }
@@ -194,40 +197,36 @@ std::string how_scored(const Experiment& experiment, const noise::NoiseCell& cel
                      intervals_text(experiment));
 }
 
-template <typename Row>
-std::vector<Row> in_cell(std::vector<Row> rows, const noise::NoiseCell& cell) {
-  std::erase_if(rows, [&](const Row& row) { return !(row.cell == cell); });
-  return rows;
-}
-
 }  // namespace
 
-TextTable accuracy_table(const Experiment& experiment, const std::vector<CellSummary>& cells,
-                         const std::vector<ScoreSummary>& scores, const noise::NoiseCell& noise,
-                         const std::vector<std::string>& engines) {
+TextTable accuracy_table(const Experiment& experiment, const ScoreTables& tables,
+                         const noise::NoiseCell& noise, const std::vector<std::string>& engines) {
   TextTable table{{"estimator"}, {}};
   for (const std::string& engine : engines) {
     table.header.insert(table.header.end(),
                         {engine + ": F1", "extra switches/min", "balanced accuracy"});
   }
-  for (const std::string& estimator :
-       unique(cells, [](const CellSummary& cell) { return cell.condition.estimator; })) {
+  const Rows scores = wheels_at(tables.scores, noise);
+  const auto silent = where(tables.cells.all(), [&](const TableRow& cell) {
+    return is_at(cell, noise) && is_silent(cell);
+  });
+  const auto estimator_of = [](const TableRow& row) { return row.text("estimator"); };
+  for (const std::string& estimator : unique(tables.cells.all(), estimator_of)) {
     std::vector<std::string>& row =
         table.rows.emplace_back(std::vector{estimator_title_in(experiment, estimator)});
+    const auto is_own = [&](const TableRow& one) { return estimator_of(one) == estimator; };
     for (const std::string& simulator : experiment.simulators) {
-      const auto cell = std::find_if(cells.begin(), cells.end(), [&](const CellSummary& one) {
-        return one.condition.test_simulator == simulator && one.condition.estimator == estimator &&
-               one.cell == noise;
-      });
-      const ScoreSummary* const score = cell == cells.end() ? nullptr : score_of(scores, *cell);
-      if (score == nullptr) {
+      const Rows own = where(of_engine(scores, simulator), is_own);
+      if (own.empty()) {
         row.insert(row.end(), 3, "–");
         continue;
       }
-      row.push_back(with_interval((*score)["event_f1"]));
-      if (cell->is_silent() && estimator != always_contact_name) row.back() += ", never air";
-      row.push_back(plain(*score, "extra_switches_per_minute", "{:.1f}"));
-      row.push_back(with_interval((*score)["balanced_accuracy"]));
+      const TableRow& score = own.front();
+      row.push_back(with_interval(score.interval("event_f1")));
+      const bool is_never_air = !where(of_engine(silent, simulator), is_own).empty();
+      if (is_never_air && estimator != always_contact_name) row.back() += ", never air";
+      row.push_back(plain(score, "extra_switches_per_minute", "{:.1f}"));
+      row.push_back(with_interval(score.interval("balanced_accuracy")));
     }
   }
   return table;
@@ -254,14 +253,14 @@ std::string summary_text(const ExperimentResult& result) {
           "\n{}: success rate of {} by torque and accelerometer noise "
           "(* no better than always contact){}\n\n",
           simulator, estimator_title_in(experiment, first), setup_caption(experiment));
-      text += to_text(grid_table(result.summaries, simulator, first, experiment.noise));
+      text += to_text(grid_table(result.tables.cells, simulator, first, experiment.noise));
     }
   }
   if (experiment.paper_tables) {
     for (const CaptionedTable& table : paper_tables(result)) text += '\n' + to_text(table);
   }
   for (const std::string& study : result.studies) text += '\n' + study;
-  const std::string notes = score_notes(experiment, summary_of(result));
+  const std::string notes = score_notes(experiment, result.tables);
   if (!notes.empty()) text += fmt::format("\n{}\n", notes);
   text += fmt::format("\n{}\n", conditions_text(experiment));
   return text + unused_runs_text(result.runs);
@@ -270,48 +269,56 @@ std::string summary_text(const ExperimentResult& result) {
 std::string closing_text(const ExperimentResult& result) {
   const Experiment& experiment = result.experiment;
   const noise::NoiseCell& cell = experiment.highlights.back();
-  return fmt::format("\nF1 of takeoffs and landings within 20 ms, {}{}\n\n{}", noise_text(cell),
-                     setup_caption(experiment),
-                     to_text(accuracy_table(experiment, result.summaries, result.scores, cell,
-                                            experiment.simulators)));
+  return fmt::format(
+      "\nF1 of takeoffs and landings within 20 ms, {}{}\n\n{}", noise_text(cell),
+      setup_caption(experiment),
+      to_text(accuracy_table(experiment, result.tables, cell, experiment.simulators)));
 }
 
-std::vector<CaptionedTable> paper_tables(const Experiment& experiment,
-                                         const std::vector<ScoreSummary>& summaries,
-                                         const std::string& how) {
+std::vector<CaptionedTable> paper_tables(const Experiment& experiment, const ScoreTables& tables,
+                                         const noise::NoiseCell& cell, const std::string& how) {
+  const Rows scores = wheels_at(tables.scores, cell);
   return {
       {"Point-wise classification. " + how, "classification",
        table_of(
-           experiment, summaries,
+           experiment, scores,
            {"contact_precision", "contact_recall", "no_contact_precision", "no_contact_recall"},
            metric_cell, &PaperRow::classification)},
       {"Transitions. " + how, "transitions",
-       table_of(experiment, summaries,
+       table_of(experiment, scores,
                 {"takeoff_precision", "takeoff_recall", "landing_precision", "landing_recall"},
                 metric_cell, &PaperRow::transitions)},
       {"Latency of detected transitions (ms): mean ± standard deviation [interval of the mean]. " +
            how,
        "latency",
-       table_of(experiment, summaries, {"takeoff", "landing"}, latency_cell, &PaperRow::latency)},
+       table_of(experiment, scores, {"takeoff", "landing"}, latency_cell, &PaperRow::latency)},
   };
 }
 
-CaptionedTable difference_text_table(const Experiment& experiment,
-                                     const std::vector<Difference>& differences) {
-  const auto value = [](const Difference& difference, const char* name, int decimals) {
-    return with_interval(difference.metric[scoring::metric_index(name)], decimals);
-  };
+CaptionedTable difference_text_table(const Experiment& experiment, const ScoreTables& tables,
+                                     const noise::NoiseCell& cell) {
   CaptionedTable result{"Paired differences",
                         "differences",
                         {{"simulator", "difference", "success rate", "no contact recall",
                           "takeoff precision", "takeoff latency (ms)", "landing latency (ms)"},
                          {}}};
-  for (const Difference& d : differences) {
-    result.table.rows.push_back(
-        {d.simulator,
-         estimator_title_in(experiment, d.first) + " − " + estimator_title_in(experiment, d.second),
-         value(d, "success", 3), value(d, "no_contact_recall", 3), value(d, "takeoff_precision", 3),
-         value(d, "takeoff_latency_ms", 1), value(d, "landing_latency_ms", 1)});
+  const Rows rows =
+      where(tables.differences.all(), [&](const TableRow& row) { return is_at(row, cell); });
+  const auto pair_of = [](const TableRow& row) {
+    return std::array{row.text("simulator"), row.text("first"), row.text("second")};
+  };
+  for (const auto& [pair, metrics] : group_by(rows, pair_of)) {
+    std::vector<std::string>& cells = result.table.rows.emplace_back(std::vector{
+        pair[0],
+        estimator_title_in(experiment, pair[1]) + " − " + estimator_title_in(experiment, pair[2])});
+    for (const char* name : {"success", "no_contact_recall", "takeoff_precision",
+                             "takeoff_latency_ms", "landing_latency_ms"}) {
+      const auto metric = std::ranges::find_if(
+          metrics, [&](const TableRow& row) { return row.text("metric") == name; });
+      const int decimals = std::string_view(name).ends_with("_ms") ? 1 : 3;
+      cells.push_back(
+          metric == metrics.end() ? "–" : with_interval(metric->interval("difference"), decimals));
+    }
   }
   return result;
 }
@@ -335,8 +342,8 @@ std::vector<CaptionedTable> paper_tables(const ExperimentResult& result) {
   const Experiment& experiment = result.experiment;
   return of_highlights(experiment, [&](const noise::NoiseCell& cell) {
     std::vector<CaptionedTable> tables =
-        paper_tables(experiment, in_cell(result.scores, cell), how_scored(experiment, cell));
-    tables.push_back(difference_text_table(experiment, in_cell(result.differences, cell)));
+        paper_tables(experiment, result.tables, cell, how_scored(experiment, cell));
+    tables.push_back(difference_text_table(experiment, result.tables, cell));
     tables.back().caption += setup_caption(experiment);
     return tables;
   });
@@ -347,7 +354,7 @@ std::vector<CaptionedTable> accuracy_tables(const ExperimentResult& result) {
   return of_highlights(experiment, [&](const noise::NoiseCell& cell) {
     return std::vector<CaptionedTable>{
         {"Success rate and false takeoffs. " + how_scored(experiment, cell), "accuracy",
-         accuracy_table(experiment, result.summaries, result.scores, cell, experiment.simulators)}};
+         accuracy_table(experiment, result.tables, cell, experiment.simulators)}};
   });
 }
 

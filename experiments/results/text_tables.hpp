@@ -17,17 +17,15 @@ struct CaptionedTable {
 
 /// The accuracy and the false takeoffs per minute of every estimator at one noise setting: two
 /// columns for each engine of the experiment, with these names.
-TextTable accuracy_table(const Experiment& experiment, const std::vector<CellSummary>& cells,
-                         const std::vector<ScoreSummary>& scores, const noise::NoiseCell& noise,
-                         const std::vector<std::string>& engines);
+TextTable accuracy_table(const Experiment& experiment, const ScoreTables& tables,
+                         const noise::NoiseCell& noise, const std::vector<std::string>& engines);
 
 /// Tables I to III of the paper (point-wise classification, transitions, latency), one row per
-/// engine and estimator. If the paper has one of the estimators, the last column has its numbers
-/// from the real robot. They are a
-/// reference, not a target: another robot, other drops, hand labels.
-std::vector<CaptionedTable> paper_tables(const Experiment& experiment,
-                                         const std::vector<ScoreSummary>& summaries,
-                                         const std::string& how);
+/// engine and estimator, in one noise setting. If the paper has one of the estimators, the last
+/// column has its numbers from the real robot. They are a reference, not a target: another robot,
+/// other drops, hand labels.
+std::vector<CaptionedTable> paper_tables(const Experiment& experiment, const ScoreTables& tables,
+                                         const noise::NoiseCell& cell, const std::string& how);
 
 /// Those tables for every highlighted cell of a result, each with its differences. From the second
 /// cell on, labels end with its number.
@@ -37,8 +35,8 @@ std::vector<CaptionedTable> paper_tables(const ExperimentResult& result);
 std::vector<CaptionedTable> accuracy_tables(const ExperimentResult& result);
 
 /// The differences of the first estimator from the others, with intervals.
-CaptionedTable difference_text_table(const Experiment& experiment,
-                                     const std::vector<Difference>& differences);
+CaptionedTable difference_text_table(const Experiment& experiment, const ScoreTables& tables,
+                                     const noise::NoiseCell& cell);
 
 std::string to_text(const CaptionedTable& table);
 std::string to_markdown(const CaptionedTable& table);

@@ -63,11 +63,14 @@ class RunDirectory {
   /// this. Returns it as `read_table` does.
   const Table& write_table(std::string_view name, Table table) const;
   /// The same for measured rows, which `results.csv` repeats. Saves the columns.
+  const Table& write_measured(std::string_view name, Table table) const {
+    store_.put(column_parts, name, table.columns);
+    return write_table(name, std::move(table));
+  }
   template <typename Row>
   const Table& write_table(std::string_view name, const Columns<Row>& columns,
                            const std::vector<Row>& rows) const {
-    store_.put(column_parts, name, columns.list());
-    return write_table(name, columns.table(rows));
+    return write_measured(name, columns.table(rows));
   }
   /// A table of `tables/`: as it was written, or else read once from its file. The reference is
   /// valid until the table is written again. Errors: `Error` when it cannot be read.

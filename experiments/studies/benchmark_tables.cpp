@@ -11,8 +11,8 @@
 #include "core/rows.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/results/captions.hpp"
+#include "experiments/results/json.hpp"
 #include "experiments/results/scores.hpp"
-#include "experiments/results/summary_file.hpp"
 #include "experiments/studies/benchmark.hpp"
 
 namespace touchdown::experiments {

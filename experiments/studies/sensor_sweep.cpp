@@ -1,11 +1,11 @@
 #include <array>
-#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/rows.hpp"
 #include "experiments/config/experiment_yaml.hpp"
-#include "experiments/evaluation/summary.hpp"
+#include "experiments/evaluation/query.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/results/value_figure.hpp"
 #include "experiments/studies/registry.hpp"
@@ -67,61 +67,54 @@ constexpr std::array shown_metrics = {
     "success",        "no_contact_precision",      "no_contact_recall",  "takeoff_recall",
     "landing_recall", "false_takeoffs_per_minute", "takeoff_latency_ms", "landing_latency_ms"};
 
-/// One estimator at one value, both wheels added.
-struct SweepRow {
-  SensorVariation variation;
-  ScoreSummary score;
-
-  const std::string& simulator() const { return score.condition.test_simulator; }
-  const std::string& estimator() const { return score.condition.estimator; }
-};
-
-/// Rows in the order of `sensor_variations`, then by engine.
-std::vector<SweepRow> sweep_rows(const Evaluation& evaluation) {
+/// By value in the order of `sensor_variations`, then engine and estimator; both wheels added.
+Table sweep_table(const Evaluation& evaluation) {
+  using Score = scoring::Score;
+  using Row = Scored<Score>;
+  const Plan& plan = evaluation.plan;
   const Experiment& experiment = evaluation.request.experiment;
-  std::vector<SweepRow> rows;
-  for (const SensorVariation& variation : sensor_variations(experiment)) {
-    const auto group = evaluation.plan.group_called(name_of(variation)).value();
-    const CollectedCounts counts =
-        collect(evaluation.plan, evaluation.plan.runs_in(group), evaluation.saved);
-    for (ScoreSummary& summary : summarise(counts.scored, {&experiment.highlights.front(), 1},
-                                           experiment.intervals.bootstrap)) {
-      if (summary.view != scoring::scored_views().front()) continue;
-      rows.push_back({variation, std::move(summary)});
+  const std::vector<SensorVariation> variations = sensor_variations(experiment);
+  std::vector<CollectedCounts> counts;  // rows refer to them
+  counts.reserve(variations.size());
+  std::vector<Row> rows;
+  for (std::size_t v = 0; v < variations.size(); ++v) {
+    const std::size_t group = plan.group_called(name_of(variations[v])).value();
+    counts.push_back(collect(plan, plan.runs_in(group), evaluation.saved));
+    for (const auto& row :
+         rows_of(counts.back().scored, plan.groups[group].scored, counts.back(), plan)) {
+      rows.push_back({row.run, row.segment, row.condition, row.noise, v, row.score.wheels()});
     }
   }
-  return rows;
-}
-
-Columns<SweepRow> sweep_columns() {
-  Columns<SweepRow> columns;
-  columns.text("simulator", &SweepRow::simulator)
-      .text("disturbance", [](const SweepRow& row) { return row.variation.key; })
-      .level("value", [](const SweepRow& row) { return row.variation.value; })
-      .text("estimator", &SweepRow::estimator);
+  Query<Score> query;
+  query.by.text("simulator", [](const Row& row) { return row.condition->test_simulator; })
+      .text("disturbance", [&](const Row& row) { return variations[row.item].key; })
+      .level("value", [&](const Row& row) { return variations[row.item].value; })
+      .text("estimator", [](const Row& row) { return row.condition->estimator; });
   for (const char* const name : shown_metrics) {
-    columns.interval(name, [name](const SweepRow& row) { return row.score[name]; });
+    const scoring::Metric& metric = scoring::metrics()[scoring::metric_index(name)];
+    query.statistics.push_back({metric.name, metric.of, metric.events});
   }
-  return columns.count("takeoffs",
-                       [](const SweepRow& row) { return row.score.total.takeoff.events; });
+  query.totals.count("takeoffs", [](const Score& all) { return all.takeoff.events; });
+  return answer(rows, query, experiment.intervals.bootstrap).table;
 }
 
 /// For the terminal: a table for every disturbance and engine.
-std::string sweep_text(const std::vector<SweepRow>& rows, const Experiment& experiment) {
+std::string sweep_text(const Table& sweep, const Experiment& experiment) {
   std::string text = fmt::format(
       "Success rate by sensor disturbance ({}{}; {}); estimators are fitted without the "
       "disturbance\n",
       noise_text(experiment.highlights.front()), setup_caption(experiment),
       intervals_text(experiment));
-  const auto engine_and_disturbance = [](const SweepRow& row) {
-    return std::pair(row.variation.key, row.simulator());
+  const auto disturbance_and_engine = [](const TableRow& row) {
+    return fmt::format("{}, {}", row.text("disturbance"), row.text("simulator"));
   };
-  for (const auto& [key, alike] : group_by(rows, engine_and_disturbance)) {
+  for (const auto& [heading, alike] : group_by(sweep.all(), disturbance_and_engine)) {
     TextTable table = pivot(
-        alike, [&](const SweepRow& row) { return estimator_title_in(experiment, row.estimator()); },
-        [](const SweepRow& row) { return exact(row.variation.value); },
-        [](const SweepRow& row) { return with_interval(row.score["success"]); });
-    table.header.front() = fmt::format("{}, {}", key.first, key.second);
+        alike,
+        [&](const TableRow& row) { return estimator_title_in(experiment, row.text("estimator")); },
+        [](const TableRow& row) { return row.text("value"); },
+        [](const TableRow& row) { return with_interval(row.interval("success")); });
+    table.header.front() = heading;
     text += fmt::format("\n{}", to_text(table));
   }
   return text;
@@ -185,9 +178,8 @@ class SensorSweepStudy final : public SectionStudy<SensorSweepConfig> {
   StudyResult summarize(const Evaluation& evaluation,
                         const RunDirectory& directory) const override {
     const Experiment& experiment = evaluation.request.experiment;
-    const std::vector<SweepRow> rows = sweep_rows(evaluation);
-    const Table table = directory.write_table("sensor_sweep.csv", sweep_columns(), rows);
-    return {{sweep_text(rows, experiment)}, {}, sweep_figures(table, experiment)};
+    const Table& sweep = directory.write_measured("sensor_sweep.csv", sweep_table(evaluation));
+    return {{sweep_text(sweep, experiment)}, {}, sweep_figures(sweep, experiment)};
   }
 };
 

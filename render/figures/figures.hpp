@@ -89,7 +89,7 @@ inline constexpr std::size_t most_numbered_cells = 64;
 
 /// A noise level that maps vary.
 struct NoiseAxis {
-  double noise::NoiseCell::*level;
+  const char* column;  ///< of `experiments::ScoreTables::cells`
   const char* unit;
   const char* name;   ///< in a sentence
   const char* title;  ///< of the axis
@@ -103,11 +103,13 @@ struct NoiseMaps {
   NoiseAxis x, y;
   std::optional<double> accelerometer = {};  ///< where it is no axis (m/s²)
 
-  /// The scores in a cell of a panel; null where the study has none.
-  const experiments::CellSummary* cell(const std::vector<experiments::CellSummary>& cells,
-                                       const std::string& simulator, const std::string& estimator,
-                                       double at_x, double at_y) const;
+  /// The scores in a cell of a panel with these rows; null where the study has none.
+  const TableRow* cell(const std::vector<TableRow>& cells, double at_x, double at_y) const;
 };
+
+/// The rows of `experiments::ScoreTables::cells` about one estimator in one engine.
+std::vector<TableRow> mapped_cells(const experiments::ScoreTables& tables,
+                                   const std::string& simulator, const std::string& estimator);
 
 /// The maps that `draw_heatmaps` draws for every engine of an experiment.
 std::vector<NoiseMaps> noise_maps(const experiments::Experiment& experiment);

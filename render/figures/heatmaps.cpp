@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/rows.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/baselines.hpp"
 #include "experiments/results/captions.hpp"
@@ -18,7 +19,7 @@ namespace {
 
 /// Only this metric is compared with that of always contact.
 bool is_success(const experiments::PointMetric& metric) {
-  return metric.interval == &experiments::CellSummary::success;
+  return metric.of == &scoring::Classification::success;
 }
 
 std::string capitalised(std::string text) {
@@ -29,19 +30,21 @@ std::string capitalised(std::string text) {
 HeatmapPanel panel_of(const experiments::ExperimentResult& result, const std::string& simulator,
                       const std::string& estimator, const NoiseMaps& maps) {
   const experiments::PointMetric& metric = experiments::mapped_metric(result.experiment);
+  const std::vector<TableRow> cells = mapped_cells(result.tables, simulator, estimator);
   HeatmapPanel panel;
   panel.title = experiments::estimator_entry(result.experiment, estimator).title;
   for (const double y : maps.y.levels) {
     for (auto* rows : {&panel.value, &panel.low, &panel.high}) rows->emplace_back();
     panel.marked.emplace_back();
     for (const double x : maps.x.levels) {
-      const experiments::CellSummary* const cell =
-          maps.cell(result.summaries, simulator, estimator, x, y);
-      const Interval value = cell == nullptr ? Interval{NAN, NAN, NAN} : cell->*metric.interval;
+      const TableRow* const cell = maps.cell(cells, x, y);
+      const Interval value =
+          cell == nullptr ? Interval{NAN, NAN, NAN} : cell->interval(metric.name);
       panel.value.back().push_back(error_percent(value.estimate));
       panel.low.back().push_back(error_percent(value.high));
       panel.high.back().push_back(error_percent(value.low));
-      panel.marked.back().push_back(cell != nullptr && is_success(metric) && cell->loses());
+      panel.marked.back().push_back(cell != nullptr && is_success(metric) &&
+                                    experiments::loses(*cell));
     }
   }
   return panel;
@@ -68,8 +71,8 @@ std::string levels_text(const std::vector<double>& errors) {
 }
 
 double always_contact(const experiments::ExperimentResult& result, const std::string& simulator) {
-  for (const experiments::CellSummary& summary : result.summaries) {
-    if (summary.condition.test_simulator == simulator) return summary.always_contact;
+  for (const TableRow& cell : result.tables.cells.all()) {
+    if (cell.text("simulator") == simulator) return cell.number("always_contact_success");
   }
   return NAN;
 }
@@ -116,34 +119,37 @@ std::vector<std::string> mapped_estimators(const experiments::Experiment& experi
 }
 
 std::vector<NoiseMaps> noise_maps(const experiments::Experiment& experiment) {
-  using noise::NoiseCell;
   const noise::NoiseGridConfig& noise = experiment.noise;
   const noise::KneeWheelGridConfig& joints = noise.knee_wheel;
   const std::string metric = capitalised(experiments::mapped_metric(experiment).title);
   std::vector<NoiseMaps> maps = {
       {"error",
        metric + " under sensor noise",
-       {&NoiseCell::accelerometer, "m/s²", "accelerometer noise", "accelerometer noise",
+       {"accelerometer_noise_mps2", "m/s²", "accelerometer noise", "accelerometer noise",
         noise.accelerometer},
-       {&NoiseCell::torque, "N·m", "torque noise", "torque noise", noise.torque}}};
+       {"torque_noise_nm", "N·m", "torque noise", "torque noise", noise.torque}}};
   if (joints.knee.empty()) return maps;
   maps.push_back({"knee_wheel",
                   fmt::format("{} under torque noise, {} m/s² on the accelerometer", metric,
                               joints.accelerometer),
-                  {&NoiseCell::wheel, "N·m", "wheel noise", "wheel torque noise", joints.wheel},
-                  {&NoiseCell::knee, "N·m", "knee noise", "knee torque noise", joints.knee},
+                  {"wheel_noise_nm", "N·m", "wheel noise", "wheel torque noise", joints.wheel},
+                  {"knee_noise_nm", "N·m", "knee noise", "knee torque noise", joints.knee},
                   joints.accelerometer});
   return maps;
 }
 
-const experiments::CellSummary* NoiseMaps::cell(const std::vector<experiments::CellSummary>& cells,
-                                                const std::string& simulator,
-                                                const std::string& estimator, double at_x,
-                                                double at_y) const {
-  const auto found = std::ranges::find_if(cells, [&](const experiments::CellSummary& one) {
-    return one.condition.test_simulator == simulator && one.condition.estimator == estimator &&
-           one.cell.*x.level == at_x && one.cell.*y.level == at_y &&
-           one.cell.accelerometer == accelerometer.value_or(one.cell.accelerometer);
+std::vector<TableRow> mapped_cells(const experiments::ScoreTables& tables,
+                                   const std::string& simulator, const std::string& estimator) {
+  return where(tables.cells.all(), [&](const TableRow& cell) {
+    return cell.text("simulator") == simulator && cell.text("estimator") == estimator;
+  });
+}
+
+const TableRow* NoiseMaps::cell(const std::vector<TableRow>& cells, double at_x,
+                                double at_y) const {
+  const auto found = std::ranges::find_if(cells, [&](const TableRow& one) {
+    return one.number(x.column) == at_x && one.number(y.column) == at_y &&
+           (!accelerometer || one.number("accelerometer_noise_mps2") == *accelerometer);
   });
   return found == cells.end() ? nullptr : &*found;
 }

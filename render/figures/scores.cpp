@@ -85,17 +85,26 @@ std::vector<ScorePanel> score_panels(const experiments::ExperimentResult& result
   std::vector<ScorePanel> panels;
   for (const noise::NoiseCell& cell : result.experiment.highlights) {
     ScorePanel panel{title_of(cell), {}};
-    for (const experiments::ScoreSummary& score : result.scores) {
-      const bool shown = score.condition.test_simulator == simulator && score.cell == cell &&
-                         score.view == scoring::scored_views().front() &&
-                         score.condition.estimator != experiments::always_contact_name &&
-                         score.condition.estimator != "oracle";
-      if (!shown) continue;
-      panel.rows.push_back(
-          {experiments::estimator_entry(result.experiment, score.condition.estimator).title,
-           line_type_of(result.experiment.estimators, score.condition.estimator),
-           score.total.calibration, score.contact_frequency, score.total.takeoff,
-           score.total.landing});
+    const auto is_shown = [&](const TableRow& row) {
+      return row.text("simulator") == simulator && experiments::is_at(row, cell) &&
+             row.text("view") == scoring::scored_views().front();
+    };
+    const std::vector<TableRow> scores = result.tables.scores.all();
+    for (std::size_t i = 0; i < scores.size(); ++i) {
+      const std::string estimator = scores[i].text("estimator");
+      const bool is_constant =
+          estimator == experiments::always_contact_name || estimator == "oracle";
+      if (is_constant || !is_shown(scores[i])) continue;
+      std::vector<Interval> contact_frequency;
+      for (const TableRow& bin : result.tables.reliability.all()) {
+        if (bin.text("estimator") != estimator || !is_shown(bin)) continue;
+        contact_frequency.push_back(bin.interval("contact_frequency"));
+      }
+      const scoring::Score& total = result.tables.totals[i];
+      panel.rows.push_back({experiments::estimator_entry(result.experiment, estimator).title,
+                            line_type_of(result.experiment.estimators, estimator),
+                            total.calibration, std::move(contact_frequency), total.takeoff,
+                            total.landing});
     }
     if (!panel.rows.empty()) panels.push_back(std::move(panel));
   }

@@ -83,21 +83,20 @@ void sort_by_engine(std::vector<fs::path>& files, const std::vector<std::string>
   });
 }
 
-using Cells = std::vector<experiments::CellSummary>;
-
 /// What a cell shows when the reader chooses it.
-std::string readout(const experiments::CellSummary& cell, const NoiseMaps& maps,
+std::string readout(const TableRow& cell, const NoiseMaps& maps,
                     const experiments::Experiment& experiment) {
   const auto level = [&](const NoiseAxis& axis) {
-    return fmt::format("{} {:.4g} {}", axis.name, cell.cell.*axis.level, axis.unit);
+    return fmt::format("{} {:.4g} {}", axis.name, cell.number(axis.column), axis.unit);
   };
   const experiments::PointMetric& metric = experiments::mapped_metric(experiment);
   std::string text = fmt::format(
-      "{}, {}: {}, {}: {} {}", simulators::simulator_title(cell.condition.test_simulator),
-      experiments::estimator_title_in(experiment, cell.condition.estimator), level(maps.y),
-      level(maps.x), metric.title, with_interval(cell.*metric.interval));
-  if (metric.interval == &experiments::CellSummary::success && std::isfinite(cell.always_contact)) {
-    text += fmt::format("; always contact {:.3f}", cell.always_contact);
+      "{}, {}: {}, {}: {} {}", simulators::simulator_title(cell.text("simulator")),
+      experiments::estimator_title_in(experiment, cell.text("estimator")), level(maps.y),
+      level(maps.x), metric.title, with_interval(cell.interval(metric.name)));
+  const double always_contact = cell.number("always_contact_success");
+  if (metric.of == &scoring::Classification::success && std::isfinite(always_contact)) {
+    text += fmt::format("; always contact {:.3f}", always_contact);
   }
   return text;
 }
@@ -106,9 +105,10 @@ std::string readout(const experiments::CellSummary& cell, const NoiseMaps& maps,
 nlohmann::ordered_json readouts(const ReportSubject& subject, const std::string& simulator,
                                 const std::string& estimator, const NoiseMaps& maps) {
   nlohmann::ordered_json texts = nlohmann::ordered_json::array();
+  const std::vector<TableRow> cells = mapped_cells(subject.tables, simulator, estimator);
   for (const double y : maps.y.levels) {
     for (const double x : maps.x.levels) {
-      const auto* const cell = maps.cell(subject.summary.cells, simulator, estimator, x, y);
+      const TableRow* const cell = maps.cell(cells, x, y);
       texts.push_back(cell == nullptr ? "not part of this study"
                                       : readout(*cell, maps, subject.experiment));
     }

@@ -144,12 +144,16 @@ std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
     return true;
   });
   std::vector<FilmedRun> all;
-  for (const experiments::RunSummary& run : subject.summary.runs) {
-    if (run.role != experiments::RunRole::test || run.run != video.run) continue;
-    const fs::path log = subject.directory / "recordings" / run.recording;
+  for (const TableRow& run : subject.tables.runs.all()) {
+    const std::string role(experiments::to_text(experiments::RunRole::test));
+    if (run.text("role") != role || run.number("run") != video.run) continue;
+    const std::string simulator = run.text("simulator");
+    const fs::path log =
+        subject.directory / "recordings" /
+        experiments::recording_name(simulator, run.text("scenario"), role, video.run);
     if (!is_there(log)) continue;
     const experiments::FittedModels models =
-        read_models(subject.directory, experiment, run.simulator, shown);
+        read_models(subject.directory, experiment, simulator, shown);
     all.push_back(filmed(logs::read_recording(log), experiment, profile, {shown, models, levels}));
   }
   return all;

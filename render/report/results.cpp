@@ -2,11 +2,11 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <iterator>
 #include <set>
 
 #include <fmt/format.h>
 
+#include "core/rows.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/baselines.hpp"
 #include "experiments/results/captions.hpp"
@@ -18,7 +18,7 @@ namespace touchdown::render {
 
 namespace {
 
-using Scores = std::vector<experiments::ScoreSummary>;
+using Scores = std::vector<TableRow>;
 
 /// "knee torques, wheel torques and the accelerometer"; "no noisy signal".
 std::string inputs_text(const experiments::Sensors& sensors) {
@@ -32,15 +32,14 @@ std::string inputs_text(const experiments::Sensors& sensors) {
   return inputs.empty() ? "no noisy signal" : in_words(inputs);
 }
 
-double f1_of(const experiments::ScoreSummary& score) { return score["event_f1"].estimate; }
+double f1_of(const TableRow& score) { return score.number("event_f1"); }
 
 /// The estimators' scores in one engine and noise cell, the highest F1 first.
-Scores ranked(const Scores& all, const std::string& simulator, const noise::NoiseCell& noise) {
-  Scores scores;
-  std::ranges::copy_if(all, std::back_inserter(scores), [&](const auto& score) {
-    return score.condition.test_simulator == simulator && score.cell == noise &&
-           score.view == "wheels" &&
-           score.condition.estimator != experiments::always_contact_name &&
+Scores ranked(const Table& all, const std::string& simulator, const noise::NoiseCell& noise) {
+  Scores scores = where(all.all(), [&](const TableRow& score) {
+    return score.text("simulator") == simulator && experiments::is_at(score, noise) &&
+           score.text("view") == scoring::scored_views().front() &&
+           score.text("estimator") != experiments::always_contact_name &&
            std::isfinite(f1_of(score));
   });
   std::ranges::stable_sort(scores, std::greater<>(), f1_of);
@@ -49,13 +48,14 @@ Scores ranked(const Scores& all, const std::string& simulator, const noise::Nois
 
 /// "Without noise, Phase filter finds takeoffs and landings best: F1 .906 [.890, .920], ahead of
 /// Free fall (.841) and NMN (.713). …" Estimators with the same number share the place.
-std::string finding(const experiments::Experiment& experiment, const Scores& scores) {
-  const experiments::ScoreSummary& best = scores.front();
+std::string finding(const experiments::Experiment& experiment, const noise::NoiseCell& noise,
+                    const Scores& scores) {
+  const TableRow& best = scores.front();
   const auto text_of = [](double f1) { return fmt::format("{:.3f}", f1); };
-  const bool is_noiseless = best.cell.torque == 0.0 && best.cell.accelerometer == 0.0;
+  const bool is_noiseless = noise.torque == 0.0 && noise.accelerometer == 0.0;
   std::vector<std::string> leaders, next;
-  for (const experiments::ScoreSummary& score : scores) {
-    const std::string& name = score.condition.estimator;
+  for (const TableRow& score : scores) {
+    const std::string name = score.text("estimator");
     const std::string title = experiments::estimator_title_in(experiment, name);
     if (text_of(f1_of(score)) == text_of(f1_of(best))) {
       const bool is_own = experiments::is_fitted_to_test(experiment, name);
@@ -64,11 +64,12 @@ std::string finding(const experiments::Experiment& experiment, const Scores& sco
       next.push_back(fmt::format("{} ({})", title, text_of(f1_of(score))));
     }
   }
-  return fmt::format("{}, {} {} takeoffs and landings best: F1 {}{}. ",
-                     is_noiseless ? "Without noise" : "With " + experiments::noise_text(best.cell),
-                     in_words(leaders), leaders.size() == 1 ? "finds" : "find",
-                     leaders.size() == 1 ? with_interval(best["event_f1"]) : text_of(f1_of(best)),
-                     next.empty() ? "" : ", ahead of " + in_words(next));
+  return fmt::format(
+      "{}, {} {} takeoffs and landings best: F1 {}{}. ",
+      is_noiseless ? "Without noise" : "With " + experiments::noise_text(noise), in_words(leaders),
+      leaders.size() == 1 ? "finds" : "find",
+      leaders.size() == 1 ? with_interval(best.interval("event_f1")) : text_of(f1_of(best)),
+      next.empty() ? "" : ", ahead of " + in_words(next));
 }
 
 std::vector<std::string> engines_of(const experiments::Experiment& experiment) {
@@ -79,14 +80,6 @@ std::vector<std::string> engines_of(const experiments::Experiment& experiment) {
   return engines;
 }
 
-template <typename Row>
-std::vector<Row> rows_at(const std::vector<Row>& rows, const noise::NoiseCell& cell) {
-  std::vector<Row> found;
-  std::copy_if(rows.begin(), rows.end(), std::back_inserter(found),
-               [&](const Row& row) { return row.cell == cell; });
-  return found;
-}
-
 std::string with_engine_titles(experiments::CaptionedTable table) {
   for (auto& row : table.table.rows) row[0] = simulators::simulator_title(row[0]);
   return table_html(table, 2);
@@ -95,16 +88,12 @@ std::string with_engine_titles(experiments::CaptionedTable table) {
 /// A paragraph per engine: the estimator with the highest F1 at each highlighted noise setting, and
 /// those of the next two. Empty without scores.
 std::string findings_html(const ReportSubject& subject) {
-  const Scores& all = subject.summary.scores;
-  if (all.empty()) return {};
-  std::vector<noise::NoiseCell> settings = subject.experiment.highlights;
-  if (settings.empty()) settings.push_back(all.front().cell);
   std::string html;
   for (const std::string& simulator : subject.experiment.simulators) {
     std::string text;
-    for (const noise::NoiseCell& noise : settings) {
-      const Scores scores = ranked(all, simulator, noise);
-      if (!scores.empty()) text += finding(subject.experiment, scores);
+    for (const noise::NoiseCell& noise : subject.experiment.highlights) {
+      const Scores scores = ranked(subject.tables.scores, simulator, noise);
+      if (!scores.empty()) text += finding(subject.experiment, noise, scores);
     }
     if (text.empty()) continue;
     text.pop_back();
@@ -130,18 +119,20 @@ ReportSection estimators_section(const ReportSubject& subject) {
 
 std::string header_html(const ReportSubject& subject) {
   const experiments::Experiment& experiment = subject.experiment;
-  int test_runs = 0, unusable = 0, flights = 0, of_one_wheel = 0;
-  for (const experiments::RunSummary& run : subject.summary.runs) {
-    if (run.role != experiments::RunRole::test) continue;
-    const bool scored = !experiments::is_failure(run.outcome);
+  int test_runs = 0, unusable = 0;
+  double flights = 0.0, of_one_wheel = 0.0;
+  for (const TableRow& run : subject.tables.runs.all()) {
+    if (run.text("role") != experiments::to_text(experiments::RunRole::test)) continue;
+    const bool scored = experiments::is_scored(run);
     (scored ? test_runs : unusable) += 1;
     if (!scored) continue;
-    flights += run.flights;
-    of_one_wheel += run.wheel_flights;
+    flights += run.number("flights");
+    of_one_wheel += run.number("wheel_flights");
   }
   std::set<std::array<double, 3>> settings;
-  for (const experiments::CellSummary& score : subject.summary.cells) {
-    settings.insert({score.cell.accelerometer, score.cell.knee, score.cell.wheel});
+  for (const TableRow& cell : subject.tables.cells.all()) {
+    settings.insert({cell.number("accelerometer_noise_mps2"), cell.number("knee_noise_nm"),
+                     cell.number("wheel_noise_nm")});
   }
   std::string html = fmt::format(
       "<p class=\"kicker\">Contact estimation on a wheeled biped</p>\n<h1>{}</h1>\n"
@@ -153,8 +144,8 @@ std::string header_html(const ReportSubject& subject) {
       escaped(in_words(engines_of(experiment))));
   html += fact_html("physics engines", std::to_string(experiment.simulators.size()));
   html += fact_html("test runs scored", std::to_string(test_runs));
-  html += fact_html("flights of both wheels at once", std::to_string(flights));
-  html += fact_html("flights of one wheel alone", std::to_string(of_one_wheel));
+  html += fact_html("flights of both wheels at once", fmt::format("{:.0f}", flights));
+  html += fact_html("flights of one wheel alone", fmt::format("{:.0f}", of_one_wheel));
   html += fact_html("noise settings", std::to_string(settings.size()));
   html += fact_html("noise seeds per run", std::to_string(experiment.noise.seeds));
   html += "</dl>\n";
@@ -171,15 +162,12 @@ std::string header_html(const ReportSubject& subject) {
 
 ReportSection results_section(const ReportSubject& subject) {
   ReportSection section{"results", "Results", {}};
-  const std::vector<experiments::CellSummary>& scores = subject.summary.cells;
-  if (scores.empty()) return section;
+  if (subject.tables.cells.rows.empty()) return section;
   section.html = findings_html(subject);
-  const std::string notes = experiments::score_notes(subject.experiment, subject.summary);
+  const std::string notes = experiments::score_notes(subject.experiment, subject.tables);
   if (!notes.empty()) section.html += fmt::format("<p>{}</p>\n", escaped(notes));
   const experiments::Experiment& experiment = subject.experiment;
-  std::vector<noise::NoiseCell> cells = experiment.highlights;
-  if (cells.empty()) cells.push_back(scores.front().cell);
-  for (const noise::NoiseCell& cell : cells) {
+  for (const noise::NoiseCell& cell : experiment.highlights) {
     experiments::CaptionedTable table{
         fmt::format(
             "F1 of takeoffs and landings within 20 ms, decided switches that detect none of them, "
@@ -188,8 +176,7 @@ ReportSection results_section(const ReportSubject& subject) {
             "and accelerometer noise of {} m/s². “Always contact” is the constant answer{}.",
             cell.torque, cell.accelerometer, experiments::setup_caption(experiment)),
         fmt::format("F1 at {} N·m and {} m/s²", cell.torque, cell.accelerometer),
-        experiments::accuracy_table(experiment, scores, subject.summary.scores, cell,
-                                    engines_of(experiment))};
+        experiments::accuracy_table(experiment, subject.tables, cell, engines_of(experiment))};
     section.html += table_html(table, 1);
   }
   return section;
@@ -198,26 +185,22 @@ ReportSection results_section(const ReportSubject& subject) {
 ReportSection paper_section(const ReportSubject& subject) {
   ReportSection section{"paper", "Comparison with the paper", {}};
   for (const noise::NoiseCell& cell : subject.experiment.highlights) {
-    const std::vector<experiments::ScoreSummary> scores = rows_at(subject.summary.scores, cell);
-    if (scores.empty()) continue;
+    const auto is_here = [&](const TableRow& row) { return experiments::is_at(row, cell); };
+    if (where(subject.tables.scores.all(), is_here).empty()) continue;
     const std::string how = fmt::format(
         "Torque noise {} N·m, accelerometer noise {} m/s², {}{}.", cell.torque, cell.accelerometer,
         experiments::plural(static_cast<std::size_t>(subject.experiment.noise.seeds), "noise seed"),
         experiments::setup_caption(subject.experiment));
     std::string tables;
     for (const experiments::CaptionedTable& table :
-         experiments::paper_tables(subject.experiment, scores, how)) {
+         experiments::paper_tables(subject.experiment, subject.tables, cell, how)) {
       tables += with_engine_titles(table);
     }
-    const std::vector<experiments::Difference> compared =
-        rows_at(subject.summary.differences, cell);
-    if (!compared.empty()) {
-      experiments::CaptionedTable table =
-          experiments::difference_text_table(subject.experiment, compared);
-      table.caption =
-          "Paired differences: both estimators processed the same runs with the same noise. " + how;
-      tables += with_engine_titles(table);
-    }
+    experiments::CaptionedTable compared =
+        experiments::difference_text_table(subject.experiment, subject.tables, cell);
+    compared.caption =
+        "Paired differences: both estimators processed the same runs with the same noise. " + how;
+    if (!compared.table.rows.empty()) tables += with_engine_titles(compared);
     section.html +=
         fmt::format("<details{}><summary>{} N·m, {} m/s²</summary>\n{}</details>\n",
                     section.html.empty() ? " open" : "", cell.torque, cell.accelerometer, tables);

@@ -6,8 +6,8 @@
 #include "core/files.hpp"
 #include "experiments/config/experiment_yaml.hpp"
 #include "experiments/estimators/registry.hpp"
+#include "experiments/results/json.hpp"
 #include "experiments/results/result_files.hpp"
-#include "experiments/results/summary_file.hpp"
 
 namespace touchdown::render {
 
@@ -34,7 +34,7 @@ ReportSubject read_subject(const std::filesystem::path& run_directory) {
       experiments::experiment_from_yaml(YamlDocument::load(run_directory / "config.yaml"),
                                         experiments::written_estimators(run_directory));
   subject.config_text = read_file(run_directory / "config.yaml");
-  subject.summary = experiments::read_summary(run_directory);
+  subject.tables = experiments::read_score_tables(run_directory);
   const std::map<std::string, std::string> digests = experiments::table_digests(run_directory);
   const auto written = subject.manifest.value("tables", nlohmann::ordered_json::object());
   for (const auto& [name, digest] : written.items()) {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "experiments/config/experiment.hpp"
-#include "experiments/results/summary_file.hpp"
+#include "experiments/results/scores.hpp"
 
 namespace touchdown::render {
 
@@ -15,7 +15,7 @@ struct ReportSubject {
   nlohmann::ordered_json manifest;
   std::string config_text;
   experiments::Experiment experiment;
-  experiments::Summary summary;
+  experiments::ScoreTables tables;
   /// The files in `tables/` that differ from what the run wrote. None for runs of older programs:
   /// their manifests hold no digests.
   std::vector<std::string> edited_tables;

@@ -262,7 +262,7 @@ TEST_F(Merge, LetsTheReportNameTablesThatWereEditedSince) {
   write_finished_run(folder_);
   const std::string report = "report a --no-video --no-replay";
   EXPECT_EQ(folder_.run(report).errors, "");
-  for (const std::string table : {"results.csv", "summary.json"}) {
+  for (const std::string table : {"results.csv", "success.csv"}) {
     const std::string before = folder_.text("a/tables/" + table);
     folder_.write("a/tables/" + table, before + "\n");
     EXPECT_THAT(folder_.run(report).errors,

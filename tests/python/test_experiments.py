@@ -105,7 +105,7 @@ class Experiment(InExperimentFolder):
         scores = result.tables["success"]
         self.assertEqual(set(scores["estimator"]), {"free_fall", "robust", "always_contact"})
         self.assertEqual(scores["success"].dtype, np.float64)
-        self.assertEqual(len(result.summary["runs"]), 3)  # one of them for fitting
+        self.assertEqual(len(result.tables["runs"]["role"]), 3)  # one of them for fitting
 
     def test_takes_python_values_as_overrides(self):
         result = touchdown.run("hops.yaml", overrides={"test.runs": 1, "noise.torque": np.array([0.0, 1.0]),

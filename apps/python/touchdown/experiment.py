@@ -75,11 +75,6 @@ class Result:
         self.failed_demands = failed_demands
         self.tables = Tables(path / "tables")
 
-    @property
-    def summary(self) -> dict[str, Any]:
-        """`summary.json` of the run directory."""
-        return json.loads((self.path / "tables" / "summary.json").read_text(encoding="utf-8"))
-
     def __repr__(self) -> str:
         return f"<Result: {self.path}>"
 

@@ -35,9 +35,9 @@ std::map<std::string, std::map<double, Recall>> recall_on_robot_like_scenes() {
   const ExperimentResult result =
       run_experiment(experiment, {.out = folder / "run", .command = "test"});
   std::map<std::string, std::map<double, Recall>> recall;
-  for (const CellSummary& summary : result.summaries) {
-    recall[summary.condition.estimator][summary.cell.torque] = {summary.contact_recall.estimate,
-                                                                summary.no_contact_recall.estimate};
+  for (const TableRow& cell : result.tables.cells.all()) {
+    recall[cell.text("estimator")][cell.number("torque_noise_nm")] = {
+        cell.number("contact_recall"), cell.number("no_contact_recall")};
   }
   return recall;
 }

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "experiments/results/summary_file.hpp"
+#include "experiments/results/json.hpp"
 
 namespace touchdown::experiments {
 namespace {

@@ -73,8 +73,8 @@ struct OwnFiles : ::testing::Test {
     store.put("recordings", "mujoco_step_test_000.mpack", 1);
     store.put("evaluation", "mujoco_step_test_000_seed_0000", 1);
     store.put("submissions", "mine", 1);
-    for (const char* file : {"models/mujoco_robust.npz", "tables/success.csv",
-                             "tables/summary.json", "videos/mujoco_step.mp4"}) {
+    for (const char* file : {"models/mujoco_robust.npz", "tables/success.csv", "tables/success.csv",
+                             "videos/mujoco_step.mp4"}) {
       write_atomically(record_file(folder.path(), file), "ours");
     }
     for (const std::string& file : untracked) folder.write(file, "precious");

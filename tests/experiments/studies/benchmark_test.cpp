@@ -129,7 +129,7 @@ TEST(ABenchmark, ScoresTransfersBesideInDomainFits) {
                                               {"upkie ideal", 4},
                                               {"upkie_actuated ideal", 4}}));
   // The experiment's own tables hold in-domain fits alone.
-  EXPECT_EQ(result.scores.size(), 2U * 2 * scoring::scored_views().size());
+  EXPECT_EQ(result.tables.scores.rows.size(), 2U * 2 * scoring::scored_views().size());
   // A density overlaps fully with itself, and less with another robot's.
   const Table overlap = result.directory.read_table("density_overlap.csv");
   ASSERT_EQ(overlap.rows.size(), 2U * 2 * 2);

@@ -178,7 +178,7 @@ TEST_F(CrossSimulatorRun, ComparesTransfersVariesAndJudges) {
   ASSERT_EQ(rows("verdicts.csv").size(), 1U);
   EXPECT_EQ(rows("verdicts.csv")[0][2], "1");
   // The experiment's own tables hold in-domain fits alone.
-  EXPECT_EQ(result.summaries.size(), 4U);
+  EXPECT_EQ(result.tables.cells.rows.size(), 4U);
   EXPECT_THAT(result.studies, ::testing::ElementsAre(HasSubstr("Verdicts")));
   ASSERT_EQ(result.figures.size(), 3U);
   EXPECT_EQ(result.figures[0].name, "transfer");

@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/rows.hpp"
 #include "core/table.hpp"
 #include "experiments/config/experiment_yaml.hpp"
 #include "experiments/run_experiment.hpp"
@@ -35,11 +36,10 @@ TEST(ASensorSweep, EvaluatesTheExperimentsOwnRunsForEveryValue) {
   const Table table = result.directory.read_table("sensor_sweep.csv");
   ASSERT_EQ(table.rows.size(), 6U);  // three values, the filter and always contact
   const auto success = [&](std::size_t row) { return TableRow(table, row).number("success"); };
-  const auto own =
-      std::find_if(result.scores.begin(), result.scores.end(), [](const ScoreSummary& score) {
-        return score.view == "wheels" && score.condition.estimator == "measurement_only";
-      });
-  EXPECT_EQ(success(0), rounded((*own)["success"].estimate));  // a value without effect
+  const auto own = where(result.tables.scores.all(), [](const TableRow& score) {
+    return score.text("view") == "wheels" && score.text("estimator") == "measurement_only";
+  });
+  EXPECT_EQ(success(0), own.at(0).number("success"));  // a value without effect
   EXPECT_EQ(success(4), success(0));
   EXPECT_LT(success(2), success(0) - 0.05);
   EXPECT_EQ(success(3), success(1));  // always contact uses no sensor

@@ -3,15 +3,16 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "experiments/results/summary_file.hpp"
 #include "render/figures/figures.hpp"
 #include "render/report/html.hpp"
+#include "tests/render/report/score_files.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {
@@ -31,36 +32,14 @@ noise: {torque: [0.0, 1.0], accelerometer: [0.0, 5.0]}
 highlights: [{torque: 1.0, accelerometer: 5.0}]
 )";
 
-/// The summary of a noise cell in one engine.
-experiments::CellSummary cell(const std::string& estimator, double torque, double accelerometer,
-                              const Interval& success) {
-  experiments::CellSummary summary;
-  summary.condition = {"mujoco", "mujoco", estimator};
-  summary.cell = {torque, accelerometer};
-  summary.success = success;
-  summary.always_contact = 0.87;
-  return summary;
-}
-
-/// The F1 of both wheels at 1 N·m and 5 m/s² in MuJoCo.
-experiments::ScoreSummary score(const std::string& estimator, const Interval& f1) {
-  experiments::ScoreSummary summary;
-  summary.condition = {"mujoco", "mujoco", estimator};
-  summary.cell = {1, 5};
-  summary.view = "wheels";
-  summary.metric.resize(scoring::metrics().size());
-  summary.metric[scoring::metric_index("event_f1")] = f1;
-  summary.contact_frequency.resize(scoring::Calibration::bins);
-  return summary;
-}
-
-const experiments::Summary success = {
-    {},
-    {cell("robust", 0, 0, {0.99, 0.98, 0.995}), cell("robust", 0, 5, {0.97, 0.96, 0.98}),
-     cell("robust", 1, 0, {0.98, 0.97, 0.99}), cell("robust", 1, 5, {0.86, 0.85, 0.875}),
-     cell("<script>alert(1)</script>", 1, 5, {0.5, 0.4, 0.6})},
-    {score("robust", {0.86, 0.85, 0.875}), score("<script>alert(1)</script>", {0.5, 0.4, 0.6})},
-    {}};
+/// Point-wise metrics of two estimators in MuJoCo.
+const char* const some_cells =
+    "mujoco,robust,0,0,0.99,0.98,0.995\nmujoco,robust,0,5,0.97,0.96,0.98\n"
+    "mujoco,robust,1,0,0.98,0.97,0.99\nmujoco,robust,1,5,0.86,0.85,0.875\n"
+    "mujoco,<script>alert(1)</script>,1,5,0.5,0.4,0.6\n";
+/// Their F1 at 1 N·m and 5 m/s².
+const char* const some_scores =
+    "mujoco,robust,1,5,0.86,0.85,0.875\nmujoco,<script>alert(1)</script>,1,5,0.5,0.4,0.6\n";
 
 class Report : public ::testing::Test {
  protected:
@@ -68,7 +47,7 @@ class Report : public ::testing::Test {
     folder_.write("config.yaml", config);
     folder_.write("manifest.json", R"({"command": "touchdown run <x> && y", "id": "abc",
       "versions": {"touchdown": "0.1.0", "commit": "v0.1.0-3-gabc<"}, "seeds": {"experiment": 1}})");
-    experiments::write_summary({}, folder_.path());
+    write_score_files(folder_);
   }
   std::string page(const std::vector<StudyPictures>& studies = {}) const {
     return read_file(make_report(read_subject(folder_.path()), {}, studies));
@@ -84,7 +63,7 @@ TEST_F(Report, LeavesOutWhatTheDirectoryLacks) {
 }
 
 TEST_F(Report, EscapesMarkupInFiles) {
-  experiments::write_summary(success, folder_.path());
+  write_score_files(folder_, some_cells, some_scores);
   folder_.write("tables/other.csv", "a,\"b <i>\"\n<img src=x>,\"1,5\"\n");
   folder_.write("figures/f.png", "not a picture");
   folder_.write("figures/f.gp", "# Caption: <img onerror=1>\n");
@@ -118,7 +97,7 @@ nlohmann::json overlay_in(const std::string& html) {
 }
 
 TEST_F(Report, LaysEveryCellsNumbersOverItsPlaceInTheDrawnMap) {
-  experiments::write_summary(success, folder_.path());
+  write_score_files(folder_, some_cells, some_scores);
   const std::string caption = "Two runs.";
   Heatmap map{.title = "Success rate",
               .x_label = "accelerometer",
@@ -157,7 +136,7 @@ TEST_F(Report, LaysEveryCellsNumbersOverItsPlaceInTheDrawnMap) {
 }
 
 TEST_F(Report, ShowsAMapWithOtherPanelsAmongTheFigures) {
-  experiments::write_summary(success, folder_.path());
+  write_score_files(folder_, some_cells, some_scores);
   folder_.write("figures/error_mujoco.svg", "<svg viewBox=\"0 0 300 100\"></svg>");
   EXPECT_THAT(page(), AllOf(Not(HasSubstr("id=\"noise\"")), HasSubstr("id=\"figures\""),
                             HasSubstr("href=\"figures/error_mujoco.svg\"")));
@@ -165,13 +144,13 @@ TEST_F(Report, ShowsAMapWithOtherPanelsAmongTheFigures) {
 
 TEST_F(Report, RanksNoEstimatorAheadOfAnEqualOne) {
   const auto text = [&](double first, double second, double third, double low) {
-    experiments::write_summary(
-        {{},
-         {cell("robust", 1, 5, {}), cell("reference", 1, 5, {}), cell("free_fall", 1, 5, {})},
-         {score("robust", {first, low, first}), score("reference", {second, low, second}),
-          score("free_fall", {third, low, third})},
-         {}},
-        folder_.path());
+    std::string cells, scores;
+    for (const auto& [estimator, f1] : {std::pair("robust", first), std::pair("reference", second),
+                                        std::pair("free_fall", third)}) {
+      cells += fmt::format("mujoco,{},1,5,nan,nan,nan\n", estimator);
+      scores += fmt::format("mujoco,{},1,5,{},{},{}\n", estimator, f1, low, f1);
+    }
+    write_score_files(folder_, cells, scores);
     const std::string html = page();
     const std::size_t begin = html.find("<b>MuJoCo.</b>");
     return html.substr(begin, html.find("</p>", begin) - begin);
@@ -186,7 +165,7 @@ TEST_F(Report, RanksNoEstimatorAheadOfAnEqualOne) {
 }
 
 TEST_F(Report, ListsEstimatorsResultsAndCommit) {
-  experiments::write_summary(success, folder_.path());
+  write_score_files(folder_, some_cells, some_scores);
   const std::string html = page();
   EXPECT_THAT(
       html,
@@ -223,11 +202,8 @@ TEST_F(Report, ShowsFiguresInTheExperimentsOrderOfEngines) {
 }
 
 TEST_F(Report, PutsThePapersNumbersBesideOurs) {
-  experiments::ScoreSummary score{{"mujoco", "mujoco", "robust"}, {1.0, 5.0}, "wheels", {}, {}, {}};
-  score.metric.assign(scoring::metrics().size(), {NAN, NAN, NAN});
-  score.metric[scoring::metric_index("takeoff_latency_ms")] = {9.5, 2.7, 14.9};
-  score.metric[scoring::metric_index("takeoff_latency_deviation_ms")] = {12.4, NAN, NAN};
-  experiments::write_summary({{}, {}, {score}, {}}, folder_.path());
+  write_score_files(folder_, "mujoco,robust,1,5,nan,nan,nan\n",
+                    "mujoco,robust,1,5,nan,nan,nan,9.5,2.7,14.9,12.4\n");
   EXPECT_THAT(page(), AllOf(HasSubstr("9.5 ± 12.4"), HasSubstr("[2.7, 14.9]"),
                             HasSubstr("77.1 ± 31.8 / 17.9 ± 9.1")));
 }
@@ -263,17 +239,19 @@ TEST_F(Report, RefusesOtherDirectories) {
               ThrowsMessage<InputError>(HasSubstr("manifest.json")));
 }
 
-TEST_F(Report, RefusesRunsOfOlderProgramsAndBrokenSummaries) {
-  folder_.write("tables/summary.json", "{\"runs\": []}");
+TEST_F(Report, RefusesRunsOfOlderProgramsAndTablesThatDoNotMatch) {
+  write_score_files(folder_, some_cells, some_scores);
+  folder_.write("tables/views.csv", "simulator,view\nmujoco,wheels\n");
   EXPECT_THAT([&] { read_subject(folder_.path()); },
-              ThrowsMessage<InputError>(HasSubstr("summary.json")));
-  experiments::write_summary(
-      {{}, {}, {{{"mujoco", "mujoco", "robust"}, {}, "wheels", {}, {}, {}}}, {}}, folder_.path());
-  EXPECT_THAT([&] { read_subject(folder_.path()); },
-              ThrowsMessage<InputError>(HasSubstr("other metrics")));
-  std::filesystem::remove(folder_ / "tables/summary.json");
-  EXPECT_THAT([&] { read_subject(folder_.path()); },
-              ThrowsMessage<InputError>(HasSubstr("`touchdown run` again")));
+              ThrowsMessage<InputError>(
+                  AllOf(HasSubstr("tables/views.csv: has 1 rows"), HasSubstr("expected 2"))));
+  for (const char* table : {"ranking.csv", "runs.csv", "success.csv"}) {
+    write_score_files(folder_, some_cells, some_scores);
+    std::filesystem::remove(folder_ / "tables" / table);
+    EXPECT_THAT(
+        [&] { read_subject(folder_.path()); },
+        ThrowsMessage<InputError>(AllOf(HasSubstr(table), HasSubstr("`touchdown run` again"))));
+  }
 }
 
 TEST(Html, EncodesBytesAsRfc4648Does) {

@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
-#include "experiments/results/summary_file.hpp"
 #include "render/report/report.hpp"
 #include "render/studies/registry.hpp"
+#include "tests/render/report/score_files.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {
@@ -35,7 +35,7 @@ class BenchmarkPage : public ::testing::Test {
   BenchmarkPage() {
     folder_.write("config.yaml", study_config);
     folder_.write("manifest.json", "{}");
-    experiments::write_summary({}, folder_.path());
+    write_score_files(folder_);
     folder_.write(
         "tables/benchmark.csv",
         "simulator,robot,sensors,scene,split,estimator,balanced_accuracy,balanced_accuracy_low,"

@@ -1,0 +1,126 @@
+#include "experiments/evaluation/query.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/rows.hpp"
+#include "experiments/results/scores.hpp"
+
+namespace touchdown::experiments {
+namespace {
+
+/// A condition that decides `delay` steps late in ten runs with one flight each.
+ConditionScores delayed_by(const std::string& estimator, std::ptrdiff_t delay) {
+  ConditionScores scores{{"mujoco", "mujoco", estimator}, {{}}};
+  for (std::ptrdiff_t run = 0; run < 10; ++run) {
+    const auto sequence = [&](std::ptrdiff_t shift) {
+      scoring::ContactSequence contact(2000, 1);
+      std::fill(contact.begin() + 1000 + shift, contact.begin() + 1100 + 10 * run + shift, 0);
+      return contact;
+    };
+    const scoring::ContactSequence predicted = sequence(delay);
+    scoring::Prediction prediction;
+    prediction.fill({predicted, {predicted.begin(), predicted.end()}});
+    const auto segments = scoring::score({sequence(0), sequence(0)}, prediction, {0}, 1000, {});
+    scores.samples[0].push_back(segments.front());
+  }
+  return scores;
+}
+
+/// The tables of conditions with ten runs each.
+ScoreTables tables_of(std::vector<ConditionScores> scores, const noise::NoiseCell& cell) {
+  Experiment experiment;
+  experiment.highlights = {cell};
+  experiment.intervals.bootstrap.resamples = 50;
+  Plan plan;
+  plan.groups.emplace_back();
+  CollectedCounts counts{.counted = {}, .scored = std::move(scores)};
+  for (std::size_t run = 0; run < 10; ++run) {
+    plan.runs.emplace_back();
+    counts.origins["mujoco"].push_back({run, 0});
+  }
+  return score_tables(counts, plan, experiment);
+}
+
+TEST(ScoreTables, CoverEveryViewAndMetric) {
+  const ScoreTables tables = tables_of({delayed_by("robust", 12)}, {0.25, 0.0});
+  const std::vector<TableRow> scores = tables.scores.all();
+  ASSERT_EQ(scores.size(), scoring::scored_views().size());
+  for (const TableRow& row : scores) {
+    EXPECT_EQ(row.number("takeoff_recall"), 1.0);
+    EXPECT_DOUBLE_EQ(row.number("takeoff_latency_ms"), 12.0);
+    EXPECT_NEAR(row.number("landing_latency_deviation_ms"), 0.0, 1e-9);
+    // 88 of 100 to 178 of 190 steps: the runs differ in this, so its interval has a width.
+    const Interval recall = row.interval("no_contact_recall");
+    EXPECT_LT(recall.low, recall.high);
+  }
+  EXPECT_EQ(scores[0].text("view"), "wheels");
+  EXPECT_EQ(scores[0].number("takeoffs"), 20.0);
+  EXPECT_EQ(scores[1].number("takeoffs"), 10.0);
+  EXPECT_EQ(tables.totals[0].takeoff.events, 20);
+  // All of them were found, in every resample.
+  EXPECT_NEAR(scores[0].interval("takeoff_recall").low, std::pow(0.025, 1.0 / 20.0), 1e-6);
+  EXPECT_NEAR(scores[1].interval("takeoff_recall").low, std::pow(0.025, 1.0 / 10.0), 1e-6);
+  EXPECT_EQ(tables.reliability.rows.size(), scores.size() * scoring::Calibration::bins);
+}
+
+TEST(ScoreTables, PairDifferencesByRun) {
+  const ScoreTables tables = tables_of({delayed_by("robust", 5), delayed_by("paper", 12)}, {});
+  const auto latency = where(tables.differences.all(), [](const TableRow& row) {
+    return row.text("metric") == "takeoff_latency_ms";
+  });
+  ASSERT_EQ(latency.size(), 1U);
+  EXPECT_EQ(latency[0].text("second"), "paper");
+  // Every run has the same difference, however different the runs are.
+  EXPECT_NEAR(latency[0].number("difference"), -7.0, 1e-9);
+  EXPECT_NEAR(latency[0].interval("difference").low, -7.0, 1e-9);
+  EXPECT_NEAR(latency[0].interval("difference").high, -7.0, 1e-9);
+}
+
+TEST(ScoreTables, KeepTheRowOfAConditionWithoutAScoredRun) {
+  const ScoreTables tables =
+      tables_of({delayed_by("robust", 5), {{"bullet", "bullet", "robust"}, {{}}}}, {});
+  const std::vector<TableRow> scores = tables.scores.all();
+  ASSERT_EQ(scores.size(), 2 * scoring::scored_views().size());
+  EXPECT_EQ(scores.back().text("simulator"), "bullet");
+  EXPECT_TRUE(std::isnan(scores.back().number("event_f1")));
+}
+
+/// A count of events in a made-up run.
+struct Count {
+  double value = 0.0;
+  Count& operator+=(const Count& other) {
+    value += other.value;
+    return *this;
+  }
+};
+
+TEST(AQuery, HasALineForEachCombinationOfKeysAndASampleForEachRunAndSegment) {
+  std::vector<PlannedRun> runs(3);
+  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].simulator = i < 2 ? "mujoco" : "bullet";
+  std::vector<Scored<Count>> rows;
+  for (const PlannedRun& run : runs) {
+    for (const std::size_t segment : {0U, 1U}) {
+      for (const double value : {1.0, 10.0}) {  // two items of one sample
+        Scored<Count> row{.run = &run, .segment = segment};
+        row.score.value = value;
+        rows.push_back(row);
+      }
+    }
+  }
+  Query<Count> query;
+  query.by.text("engine", [](const Scored<Count>& row) { return row.run->simulator; });
+  query.statistics = {{"sum", [](const Count& all) { return all.value; }}};
+  query.totals.metric("double", [](const Count& all) { return 2.0 * all.value; });
+  query.runs = "samples";
+  const Answer<Count> found = answer(rows, query, {.resamples = 20});
+  EXPECT_EQ(to_csv(found.table),
+            "engine,sum,sum_low,sum_high,double,samples\n"
+            "mujoco,44.000000,44.000000,44.000000,88.000000,4\n"
+            "bullet,22.000000,22.000000,22.000000,44.000000,2\n");
+  EXPECT_EQ(found.totals[1].value, 22.0);
+}
+
+}  // namespace
+}  // namespace touchdown::experiments
