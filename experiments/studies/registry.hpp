@@ -12,7 +12,6 @@ std::unique_ptr<const Study> ablation_study();
 std::unique_ptr<const Study> benchmark_study();
 std::unique_ptr<const Study> closed_loop_study();
 std::unique_ptr<const Study> cross_simulator_study();
-std::unique_ptr<const Study> labels_study();
 std::unique_ptr<const Study> moments_study();
 std::unique_ptr<const Study> odometry_study();
 std::unique_ptr<const Study> sensor_sweep_study();

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 using Studies = InFolder;
 
-/// An experiment with every study with numbers from tasks: labels, odometry with its
+/// An experiment with every study with numbers from tasks: odometry with its
 /// trajectories, runs in closed loop.
 TEST_F(Studies, EndInTheSameBytesAfterKillsAndFromShards) {
   folder_.write("studies.yaml", folder_.text(write_tiny_experiment(folder_)) +
@@ -35,7 +35,7 @@ TEST_F(Studies, EndInTheSameBytesAfterKillsAndFromShards) {
   folder_.output_of(run + "whole");
   const auto expected = result_files(folder_ / "whole");
   for (const char* file :
-       {"tables/labels.csv", "tables/odometry.csv", "tables/survival.csv",
+       {"tables/odometry.csv", "tables/survival.csv",
         "trajectories/mujoco_step_ground_truth.tum",
         "trajectories/bullet_step_truth_delayed_20ms.tum", "trajectories/bullet_step_robust.tum"}) {
     EXPECT_EQ(expected.count(file), 1U) << file;

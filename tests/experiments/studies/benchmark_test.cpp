@@ -130,18 +130,6 @@ TEST(ABenchmark, ScoresTransfersBesideInDomainFits) {
                                               {"upkie_actuated ideal", 4}}));
   // The experiment's own tables hold in-domain fits alone.
   EXPECT_EQ(result.tables.scores.rows.size(), 2U * 2 * scoring::scored_views().size());
-  // A density overlaps fully with itself, and less with another robot's.
-  const Table overlap = result.directory.read_table("density_overlap.csv");
-  ASSERT_EQ(overlap.rows.size(), 2U * 2 * 2);
-  for (const TableRow& row : overlap.all()) {
-    const double contact = row.number("contact_overlap");
-    if (row.text("robot") == row.text("other_robot")) {
-      EXPECT_NEAR(contact, 1.0, 1e-6);
-    } else {
-      EXPECT_LT(contact, 0.97);
-      EXPECT_GT(contact, 0.1);
-    }
-  }
 }
 
 TEST(ABenchmark, ResamplesFitsAndRunsTogether) {
