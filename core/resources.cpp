@@ -169,6 +169,30 @@ void require_below(const YamlDocument& document, const YAML::Node& node, const s
 
 }  // namespace
 
+/// `open`: the files that are being completed.
+static YamlDocument with_base(YamlDocument document, std::vector<std::filesystem::path> open) {
+  YAML::Node root = document.root();
+  const YAML::Node base = root["base"];
+  if (!base.IsDefined()) return document;
+  try {
+    if (!base.IsScalar()) throw InputError("expected a file");
+    open.push_back(find_resource(base.Scalar()));
+    const auto same = [&](const auto& file) {
+      return std::filesystem::equivalent(file, open.back());
+    };
+    if (std::any_of(open.begin(), open.end() - 1, same)) {
+      throw InputError(fmt::format("'{}' is based on itself", base.Scalar()));
+    }
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: base: {}", document.place_of(base, "base"), error.what()));
+  }
+  root.remove("base");
+  document.put_on(with_base(YamlDocument::load(open.back()), open));
+  return document;
+}
+
+YamlDocument with_base(YamlDocument document) { return with_base(std::move(document), {}); }
+
 void require_resources(const YamlDocument& document, const std::vector<std::string>& keys,
                        const std::function<void(const std::string&)>& require) {
   for (const std::string& key : keys) require_below(document, document.root(), "", key, require);

@@ -41,6 +41,11 @@ void require_file(const std::filesystem::path& path);
 std::vector<std::filesystem::path> resources_in(const std::filesystem::path& folder,
                                                 const std::string& extension);
 
+/// Completes a document by the file that its key `base` names, and by that file's own base: the
+/// document states only what differs (`YamlDocument::put_on`). Errors: `InputError` at the key for
+/// a missing file, and for one that is based on itself.
+YamlDocument with_base(YamlDocument document);
+
 /// Checks the names that a document has under these dotted keys, for example
 /// "fit.segments.scenario", by `require`, which throws `InputError` for a wrong one. Keys apply to
 /// all items of a list. Errors: `InputError` for the first wrong name, with its position in the

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <set>
@@ -230,6 +231,7 @@ YamlDocument YamlDocument::parse(const std::string& text, const std::string& nam
   YamlDocument document;
   document.name_ = name;
   document.root_ = parse_or_complain(text, name);
+  document.origins_ = {{"", name, false, document.root_.Mark()}};
   return document;
 }
 
@@ -267,17 +269,56 @@ void YamlDocument::override_value(std::string_view assignment) {
   } else {
     parent[keys.back()] = value;
   }
-  overrides_.push_back({std::string(assignment.substr(0, equals)), std::string(assignment)});
+  origins_.push_back({std::string(assignment.substr(0, equals)),
+                      fmt::format("--set {}", assignment), true, YAML::Mark::null_mark()});
 }
 
 std::string YamlDocument::place_of(const YAML::Node& node, std::string_view key) const {
-  for (auto last = overrides_.rbegin(); last != overrides_.rend(); ++last) {
-    const bool within = key.starts_with(last->key) &&
-                        (key.size() == last->key.size() || key[last->key.size()] == '.');
-    if (within) return "--set " + last->assignment;
+  const Origin& origin = origin_of(key);
+  if (origin.is_assignment) return origin.source;
+  YAML::Mark mark = node ? node.Mark() : YAML::Mark::null_mark();
+  if (mark.is_null() && node) mark = origin.mark;
+  return mark.is_null() ? origin.source
+                        : fmt::format("{}:{}:{}", origin.source, mark.line + 1, mark.column + 1);
+}
+
+const YamlDocument::Origin& YamlDocument::origin_of(std::string_view key) const {
+  return *std::find_if(origins_.rbegin(), origins_.rend(), [&](const Origin& one) {
+    return one.key.empty() || key == one.key || key.starts_with(one.key + ".");
+  });
+}
+
+void YamlDocument::put_on(const YamlDocument& base) {
+  origins_.clear();
+  root_ = merged(root_, base.root_, "", base);
+}
+
+YAML::Node YamlDocument::merged(const YAML::Node& own, const YAML::Node& base,
+                                const std::string& key, const YamlDocument& of_base) {
+  YAML::Node both(YAML::NodeType::Map);
+  origins_.push_back({key, name_, false, own.Mark()});
+  // The order of the base stays, because the order of some keys is that of tables.
+  for (const auto& entry : base) {
+    const auto same = std::find_if(own.begin(), own.end(), [&](const auto& other) {
+      return other.first.Scalar() == entry.first.Scalar();
+    });
+    const std::string path = (key.empty() ? "" : key + ".") + entry.first.Scalar();
+    if (same == own.end()) {
+      both.force_insert(entry.first, entry.second);
+      origins_.push_back(of_base.origin_of(path));
+      origins_.back().key = path;
+      std::ranges::copy_if(of_base.origins_, std::back_inserter(origins_),
+                           [&](const Origin& one) { return one.key.starts_with(path + "."); });
+    } else if (same->second.IsMap() && entry.second.IsMap()) {
+      both.force_insert(same->first, merged(same->second, entry.second, path, of_base));
+    } else if (!same->second.IsNull()) {
+      both.force_insert(same->first, same->second);
+    }
   }
-  const YAML::Mark mark = node ? node.Mark() : YAML::Mark::null_mark();
-  return mark.is_null() ? name_ : fmt::format("{}:{}:{}", name_, mark.line + 1, mark.column + 1);
+  for (const auto& entry : own) {
+    if (!base[entry.first.Scalar()]) both.force_insert(entry.first, entry.second);
+  }
+  return both;
 }
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {

@@ -27,22 +27,33 @@ class YamlDocument {
   /// Does not check whether the key is valid: the code that reads the document does.
   void override_value(std::string_view assignment);
 
+  /// Adds what `base` has and this document has not. Mappings are merged key by key; of lists and
+  /// scalars this document's own stay. A key without a value (`~`) removes the key of the base.
+  void put_on(const YamlDocument& base);
+
   const YAML::Node& root() const { return root_; }
   const std::string& name() const { return name_; }
 
-  /// The origin of the value under a dotted key: `file:line:column`, or the assignment that set
-  /// it.
+  /// The origin of the value under a dotted key: `file:line:column`, also in a base, or the
+  /// assignment that set it.
   std::string place_of(const YAML::Node& node, std::string_view key) const;
 
  private:
-  struct Override {
-    std::string key;  ///< dotted
-    std::string assignment;
+  /// Where the value under a key comes from, with all that is nested in it and has no later origin.
+  struct Origin {
+    std::string key;     ///< dotted; empty: the whole document
+    std::string source;  ///< the file, or the assignment
+    bool is_assignment = false;
+    YAML::Mark mark;  ///< of merged mappings, which have none of their own
   };
+
+  const Origin& origin_of(std::string_view key) const;
+  YAML::Node merged(const YAML::Node& own, const YAML::Node& base, const std::string& key,
+                    const YamlDocument& of_base);
 
   YAML::Node root_;
   std::string name_;
-  std::vector<Override> overrides_;
+  std::vector<Origin> origins_ = {{}};
 };
 
 /// The entry of `candidates` with the smallest edit distance to `word`; empty if none is near.

@@ -96,9 +96,9 @@ void outline(const experiments::Experiment& experiment, const experiments::RunOp
 void run(const RunFlags& flags, const CliSession& session) {
   std::optional<experiments::Shard> shard;
   if (!flags.shard.empty()) shard = experiments::shard_from(flags.shard.front());
-  YamlDocument document = YamlDocument::load(find_resource(flags.experiment));
-  for (const std::string& assignment : flags.overrides) document.override_value(assignment);
-  experiments::require_yaml_kind(document, experiments::YamlKind::experiment);
+  const YamlDocument document =
+      experiments::completed(YamlDocument::load(find_resource(flags.experiment)),
+                             experiments::YamlKind::experiment, flags.overrides);
   const experiments::RunOptions options{.out = flags.out,
                                         .command = session.command,
                                         .stop = session.stop,

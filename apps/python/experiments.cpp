@@ -104,11 +104,9 @@ struct ExperimentRequest {
 };
 
 YamlDocument document_of(const ExperimentRequest& request) {
-  YamlDocument document = request.text ? YamlDocument::parse(*request.text, request.file)
-                                       : YamlDocument::load(find_resource(request.file));
-  for (const std::string& assignment : request.assignments) document.override_value(assignment);
-  experiments::require_yaml_kind(document, experiments::YamlKind::experiment);
-  return document;
+  const YamlDocument document = request.text ? YamlDocument::parse(*request.text, request.file)
+                                             : YamlDocument::load(find_resource(request.file));
+  return experiments::completed(document, experiments::YamlKind::experiment, request.assignments);
 }
 
 /// Names of an experiment's estimators that are written in Python, each with its place in the file.

@@ -8,6 +8,7 @@
 
 #include "core/files.hpp"
 #include "core/resources.hpp"
+#include "experiments/config/yaml_kind.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "scenarios/generation/generate.hpp"
 #include "simulators/registry.hpp"
@@ -207,6 +208,7 @@ static void describe_studies(Fields& fields, std::string_view before, Experiment
 }
 
 static void describe(Fields& fields, Experiment& experiment) {
+  describe_base(fields);
   fields.require("name", experiment.name).doc("Name of the run directory and in captions.");
   fields.check(is_name_word(experiment.name), "name", expected_name_word);
   fields("seed", experiment.seed).doc("Seed of all random draws.");
@@ -216,6 +218,11 @@ static void describe(Fields& fields, Experiment& experiment) {
   require_available(fields, experiment);
   fields.names("estimators", estimator_names(experiment.external_estimators), experiment.estimators)
       .doc("Estimators, in the order of tables.");
+  if (!fields.present("fit", true)) {
+    // A misspelt `base` is a better reason than the keys that it would bring.
+    for (const Key& key : experiment_keys()) fields.know(key.path.substr(0, key.path.find('.')));
+    fields.finish();
+  }
   fields.require("fit");
   fields.require("test");
   fields.within("fit", [&](Fields& fit) { describe_fit(fit, experiment); })

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "core/resources.hpp"
+
 namespace touchdown::experiments {
 
 namespace {
@@ -47,6 +49,23 @@ void require_yaml_kind(const YamlDocument& document, YamlKind wanted) {
   if (found.empty() || is_wanted) return;
   throw InputError(fmt::format("{}: is {}; try: {}", document.name(), found.front().description,
                                fmt::format(fmt::runtime(found.front().command), document.name())));
+}
+
+YamlDocument completed(YamlDocument document, YamlKind wanted,
+                       const std::vector<std::string>& assignments) {
+  YamlDocument whole = with_base(std::move(document));
+  for (const std::string& assignment : assignments) whole.override_value(assignment);
+  require_yaml_kind(whole, wanted);
+  return whole;
+}
+
+void describe_base(Fields& fields) {
+  std::string base;
+  if (!fields.given("base", false)) return;
+  fields.check(false, "base", "expected in a file alone, which it completes before --set");
+  fields("base", base)
+      .fallback("none")
+      .doc("File that this one changes: it states only what differs, and `~` removes a key.");
 }
 
 }  // namespace touchdown::experiments

@@ -206,9 +206,8 @@ ExportReport export_runs(const RunRequest& request, const Plan& plan,
 RunRequest request_in(const fs::path& source) {
   std::error_code ignored;
   if (fs::is_directory(source, ignored)) return read_request(source);
-  const YamlDocument document = YamlDocument::load(find_resource(source));
-  require_yaml_kind(document, YamlKind::experiment);
-  return request_of(experiment_from_yaml(document));
+  return request_of(experiment_from_yaml(
+      completed(YamlDocument::load(find_resource(source)), YamlKind::experiment)));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "core/files.hpp"
 #include "experiments/config/experiment_yaml.hpp"
+#include "experiments/config/yaml_kind.hpp"
 #include "experiments/run_experiment.hpp"
 #include "tests/scratch_folder.hpp"
 
@@ -22,7 +23,8 @@ TEST(NightlyOutline, CountsTheRunsAndPartsOfEveryShippedExperimentAndWritesNothi
     if (file.extension() != ".yaml") continue;
     const std::string name = file.stem().string();
     if (name.starts_with("nmn")) continue;  // how a network is trained
-    Experiment experiment = experiment_from_yaml(YamlDocument::load(file));
+    Experiment experiment =
+        experiment_from_yaml(completed(YamlDocument::load(file), YamlKind::experiment));
     constexpr std::size_t most = 22;  // of hundreds of drawn scenes, one of each family
     for (RunsConfig* runs : {&experiment.fit, &experiment.test}) {
       runs->scenarios.resize(std::min(runs->scenarios.size(), most));

@@ -13,8 +13,8 @@ namespace touchdown::fuzz {
 
 /// An experiment file, read, written and read again.
 TOUCHDOWN_FUZZ(yaml_experiment) {
-  const YamlDocument document = YamlDocument::parse(std::string(input), "fuzz.yaml");
-  experiments::require_yaml_kind(document, experiments::YamlKind::experiment);
+  const YamlDocument document = experiments::completed(
+      YamlDocument::parse(std::string(input), "fuzz.yaml"), experiments::YamlKind::experiment);
   const std::string written = to_yaml(experiments::experiment_from_yaml(document));
   (void)experiments::experiment_from_yaml(YamlDocument::parse(written, "again.yaml"));
 }

@@ -4,6 +4,7 @@
 
 #include "core/fields.hpp"
 #include "core/files.hpp"
+#include "experiments/config/yaml_kind.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::training {
@@ -71,6 +72,7 @@ static void describe(Fields& fields, OptimiserConfig& optimiser) {
 }
 
 static void describe(Fields& fields, TrainingConfig& config) {
+  experiments::describe_base(fields);
   fields.require("name", config.name).doc("Name of the run directory and of the model.");
   fields.check(is_name_word(config.name), "name", expected_name_word);
   fields("seed", config.seed).doc("Seed of all random draws.");

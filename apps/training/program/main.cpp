@@ -21,9 +21,8 @@ int run(const std::string& training, const std::vector<std::string>& overrides,
     check_outputs({{file, "training file"}},
                   {network, std::filesystem::path(network).replace_extension("json")});
   }
-  YamlDocument document = YamlDocument::load(file);
-  for (const std::string& assignment : overrides) document.override_value(assignment);
-  experiments::require_yaml_kind(document, experiments::YamlKind::training);
+  const YamlDocument document =
+      experiments::completed(YamlDocument::load(file), experiments::YamlKind::training, overrides);
   const TrainingResult result = train(training_from_yaml(document), request);
   const IterationRecord& chosen = result.history[result.chosen];
   print("network   {}, of iteration {} of {}, validation loss {:.4f}\n",

@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "experiments/config/experiment_yaml.hpp"
+#include "experiments/config/yaml_kind.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/evaluation/tasks.hpp"
 #include "experiments/fitting/fitting.hpp"
@@ -21,7 +22,8 @@ constexpr std::size_t run_steps = 13'000;
 /// The default study's grids: 13 × 13 torque × accelerometer, 9 × 9 knee × wheel.
 Experiment study(const std::vector<std::string>& estimators) {
   const YamlDocument document =
-      YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/experiments/noise_study.yaml");
+      completed(YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/experiments/noise_study.yaml"),
+                YamlKind::experiment);
   Experiment experiment = experiment_from_yaml(document);
   experiment.simulators = {"mujoco"};
   experiment.estimators = estimators;

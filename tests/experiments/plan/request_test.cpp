@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "experiments/config/experiment_yaml.hpp"
+#include "experiments/config/yaml_kind.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {
@@ -19,7 +20,8 @@ using ::testing::ThrowsMessage;
 
 RunRequest shipped(const std::string& name) {
   return request_of(experiment_from_yaml(
-      YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/experiments/" + name + ".yaml")));
+      completed(YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/experiments/" + name + ".yaml"),
+                YamlKind::experiment)));
 }
 
 TEST(Request, ReadsBackUnchanged) {

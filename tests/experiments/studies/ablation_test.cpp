@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/table.hpp"
+#include "experiments/config/yaml_kind.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "tests/experiments/studies/study_test.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
@@ -93,8 +94,9 @@ std::array<std::vector<double>, 2> p_contact_of(const EstimatorEntry& entry, con
 
 TEST(BayesAblation, StepsAreInItsExperimentFromPaperToRobust) {
   const std::vector<std::string> estimators =
-      experiment_from_yaml(YamlDocument::load(std::filesystem::path(TOUCHDOWN_SOURCE_DIR) /
-                                              "experiments/ablation.yaml"))
+      experiment_from_yaml(
+          completed(YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/experiments/ablation.yaml"),
+                    YamlKind::experiment))
           .estimators;
   const std::vector<std::string> steps = from_paper_to_robust();
   EXPECT_NE(std::search(estimators.begin(), estimators.end(), steps.begin(), steps.end()),
