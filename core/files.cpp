@@ -160,6 +160,20 @@ void write_stream_atomically(const std::filesystem::path& path,
   });
 }
 
+void append_to_file(const std::filesystem::path& path, std::string_view content) {
+  std::error_code error;
+  std::filesystem::create_directories(path.parent_path(), error);
+  constexpr mode_t mode = S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP | S_IROTH | S_IWOTH;
+  const int file =
+      ::open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC | O_NOFOLLOW, mode);
+  if (file < 0) throw Error(unwritable(path, errno));
+  errno = 0;
+  const ssize_t written = ::write(file, content.data(), content.size());
+  const int number = errno;
+  ::close(file);
+  if (written != static_cast<ssize_t>(content.size())) throw Error(unwritable(path, number));
+}
+
 std::string extension_of(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),

@@ -46,6 +46,10 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
 void write_stream_atomically(const std::filesystem::path& path,
                              const std::function<void(std::ostream& stream)>& write);
 
+/// Appends to a file in one step, so that several processes may do so at once. Creates the file and
+/// missing folders; follows no link at the end of the path. Errors: `Error`.
+void append_to_file(const std::filesystem::path& path, std::string_view content);
+
 /// The extension of a file's name in lower case, because some systems write names in capitals.
 std::string extension_of(const std::filesystem::path& file);
 

@@ -13,7 +13,6 @@
 #include "experiments/plan/plan.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "experiments/run_directory/shard.hpp"
 #include "experiments/studies/registry.hpp"
 
 namespace touchdown::experiments {
@@ -134,29 +133,15 @@ std::string what_is_saved(const ExperimentContext& context) {
 
 void require_all_shards(const ExperimentContext& context) {
   const std::vector<std::size_t> missing = missing_tasks(context);
-  const std::size_t tasks = context.plan.tasks.size();
   if (missing.empty() &&
       !lacks_model_tasks(context.plan, context.plan.all_tasks(), context.directory.store()))
     return;
   for (const std::size_t task : missing) require_own(context, context.plan.tasks[task]);
-  const std::filesystem::path& directory = context.directory.path();
-  const int count = started_shards(directory);
-  std::vector<std::string> shards;
-  for (int index = 1; index <= count; ++index) {
-    const Shard shard{index, count};
-    const auto first = std::lower_bound(missing.begin(), missing.end(), shard.begin(tasks));
-    const bool is_evaluated = first == missing.end() || *first >= shard.end(tasks);
-    if (is_evaluated && !lacks_model_tasks(context.plan, {shard.begin(tasks), shard.end(tasks)},
-                                           context.directory.store()))
-      continue;
-    shards.push_back(to_text(shard));
-  }
   throw InputError(fmt::format(
-      "{}: {} of {} parts are missing: finish shard{} {} first, by 'touchdown run {} --out {} "
-      "--shard {}'",
-      directory.string(), missing.size(), tasks, shards.size() == 1 ? "" : "s",
-      fmt::join(shards, ", "), (directory / "config.yaml").string(), directory.string(),
-      shards.front()));
+      "{0}: {1} are missing: compute them by 'touchdown run {0}/config.yaml --out {0}'",
+      context.directory.path().string(),
+      missing.empty() ? "parts of its studies"
+                      : fmt::format("{} of {} parts", missing.size(), context.plan.tasks.size())));
 }
 
 }  // namespace touchdown::experiments

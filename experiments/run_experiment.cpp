@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "core/machine.hpp"
 #include "core/progress.hpp"
 #include "experiments/config/experiment_yaml.hpp"
 #include "experiments/run_directory/own_files.hpp"
@@ -16,6 +17,10 @@
 namespace touchdown::experiments {
 
 namespace {
+
+/// The class of the processor of each shard, because those of other classes compute other last
+/// digits.
+constexpr std::string_view processor_parts = "processors";
 
 /// Locks the request's run directory for this process, and writes the request if it is not there.
 RunDirectory open_run_directory(const RunRequest& request, Access access,
@@ -102,7 +107,8 @@ ShardReport run_shard(const Experiment& experiment, const Shard& shard, const Ru
   RunRequest request = request_of(experiment);
   Plan plan = whole_plan(request);
   RunDirectory directory = open_run_directory(request, Access::shared, options);
-  mark_shard_started(directory.path(), shard);
+  directory.store().put(processor_parts, fmt::format("{}_of_{}", shard.index, shard.count),
+                        processor_class());
   ExperimentContext context =
       start(std::move(request), std::move(plan), std::move(directory), options);
   const std::size_t all = context.plan.tasks.size();
@@ -121,7 +127,11 @@ ShardReport run_shard(const Experiment& experiment, const Shard& shard, const Ru
 ExperimentResult merge_run(const std::filesystem::path& path, const RunOptions& options) {
   ExperimentContext context = reopened(path, options);
   require_all_shards(context);
-  const std::set<std::string> processors = shard_processors(context.directory.path());
+  std::set<std::string> processors;
+  for (const std::string& shard : context.directory.store().names(processor_parts)) {
+    const auto processor = context.directory.store().find<std::string>(processor_parts, shard);
+    if (processor) processors.insert(*processor);
+  }
   if (processors.size() > 1) {
     print_message(fmt::format(
         "touchdown: {}: its shards ran on different processors ({}), so that last digits, and runs "

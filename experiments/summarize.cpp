@@ -10,7 +10,6 @@
 #include "experiments/results/result_files.hpp"
 #include "experiments/results/samples.hpp"
 #include "experiments/run_directory/own_files.hpp"
-#include "experiments/run_directory/shard.hpp"
 #include "experiments/run_directory/test_seed_log.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 #include "experiments/stages.hpp"
@@ -79,7 +78,6 @@ void write_result(const ExperimentContext& context, Computed& done, ExperimentRe
   result.provenance = context.provenance;
   write_result_files(result);
   write_results(context.request, context.directory);
-  remove_shard_marks(context.directory.path());
   remove_partial_files(context.directory.path());
   write_manifest(result);
 }

@@ -2,7 +2,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -74,14 +73,15 @@ struct CleanFlags {
 /// Removes a run, prints its size and returns the removed bytes. A run that is in use remains, and
 /// so do untracked files.
 std::uintmax_t remove(const OldRun& run, const CliSession& session) {
-  std::optional<experiments::DirectoryLock> lock;
+  experiments::UntrackedFiles left;
   try {
-    lock.emplace(run.directory, experiments::Access::alone, session.command);
+    const experiments::DirectoryLock lock(run.directory, experiments::Access::alone,
+                                          session.command);
+    left = experiments::remove_run(run.directory);
   } catch (const Error& error) {
     print("{}\n", error.what());
     return 0;
   }
-  const experiments::UntrackedFiles left = experiments::remove_run(run.directory);
   if (left.files > 0) {
     print("{}  {} untracked files remain\n", run.directory.string(), left.files);
   }

@@ -10,7 +10,6 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/table.hpp"
-#include "render/gnuplot/figure.hpp"
 
 namespace touchdown::training {
 
@@ -105,9 +104,9 @@ TrainingHistory read_history(const std::filesystem::path& path) {
 }
 
 std::filesystem::path draw_losses(const std::filesystem::path& history,
-                                  const std::filesystem::path& folder, int chosen_iteration) {
+                                  const render::FigureFile& file, int chosen_iteration) {
   try {
-    return render::draw_figure(folder / "training", 640, 427,
+    return render::draw_figure(file, 640, 427,
                                fmt::format(commands, fmt::arg("chosen", chosen_iteration)),
                                {{"training.dat", read_file(history)}})
         .png;

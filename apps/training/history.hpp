@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "apps/training/trainer.hpp"
+#include "render/gnuplot/figure.hpp"
 
 namespace touchdown::training {
 
@@ -30,8 +31,8 @@ void write_history(const TrainingHistory& history, const std::filesystem::path& 
 TrainingHistory read_history(const std::filesystem::path& path);
 
 /// Draws training and validation loss by iteration from a history's table, and marks the chosen
-/// iteration: the figure `training` in `folder`. Returns its PNG; empty if it cannot be drawn.
+/// iteration. Returns the figure's PNG; empty if it cannot be drawn.
 std::filesystem::path draw_losses(const std::filesystem::path& history,
-                                  const std::filesystem::path& folder, int chosen_iteration);
+                                  const render::FigureFile& file, int chosen_iteration);
 
 }  // namespace touchdown::training

@@ -84,7 +84,7 @@ class TrainingSession {
     experiments::require_place_beside(directory_.path(), to_yaml(config), "tables/training.csv");
     directory_.keep({directory_.path(), experiments::Access::alone, request.command});
     experiments::remove_partial_files(directory_.path());
-    write_atomically(directory_.path() / "config.yaml", to_yaml(config));
+    write_atomically(directory_.own_file("", "config.yaml"), to_yaml(config));
     if (is_there(history_file_)) history_ = read_history(history_file_);
   }
 
@@ -187,10 +187,11 @@ class TrainingSession {
     const bool best = best_iteration(history_) + 1 == history_.size();
     if (best) {
       logs::save_model({.arrays = arrays_of(trainer_->network())},
-                       directory_.file("models", "nmn.npz"));
+                       directory_.own_file("models", "nmn.npz"));
     }
-    trainer_->save(checkpoint(history_.size()));
-    write_history(history_, history_file_);
+    trainer_->save(
+        directory_.own_file("checkpoints", checkpoint(history_.size()).filename().string()));
+    write_history(history_, directory_.own_file("tables", "training.csv"));
     std::error_code ignored;
     fs::remove(checkpoint(history_.size() - 1), ignored);
     const IterationRecord& now = history_.back();
@@ -234,10 +235,12 @@ class TrainingSession {
     result.network = directory_.file("models", "nmn.npz");
     result.history = history_;
     result.chosen = best_iteration(history_);
-    result.figure = draw_losses(history_file_, directory_.path() / "figures",
-                                history_[result.chosen].iteration);
+    const render::FigureFile figure(
+        directory_.file("figures", "training"), {},
+        [&](const std::string& file) { (void)directory_.own_file("figures", file); });
+    result.figure = draw_losses(history_file_, figure, history_[result.chosen].iteration);
     const std::string about = manifest(result);
-    write_atomically(directory_.file("models", "nmn.json"), about);
+    write_atomically(directory_.own_file("models", "nmn.json"), about);
     if (!request_.network.empty()) {
       write_atomically(request_.network, read_file(result.network));
       write_atomically(fs::path(request_.network).replace_extension("json"), about);

@@ -276,14 +276,15 @@ void write_request(const RunRequest& request, const RunDirectory& directory, boo
   // The key comes first: files of an interrupted write then do not count as untracked files.
   write_atomically(key_file(directory.path()), state_key(request) + "\n");
   for (std::size_t i = 0; i < request.scenarios.size(); ++i) {
-    write_atomically(directory.file("state", scenario_file(i)),
+    write_atomically(directory.own_file("state", scenario_file(i)),
                      scenarios::to_yaml(request.scenarios[i].scenario));
   }
   for (std::size_t i = 0; i < request.sensors.size(); ++i) {
-    write_atomically(kept_file(directory.path(), i), noise::to_yaml(request.sensors[i].profile));
+    write_atomically(record_file(directory.path(), kept_file({}, i)),
+                     noise::to_yaml(request.sensors[i].profile));
   }
-  write_atomically(inputs_file(directory.path()), to_yaml(request.inputs));
-  write_atomically(directory.path() / "config.yaml", to_yaml(request.experiment));
+  write_atomically(directory.own_file("state", "inputs.yaml"), to_yaml(request.inputs));
+  write_atomically(directory.own_file("", "config.yaml"), to_yaml(request.experiment));
 }
 
 RunRequest read_request(const fs::path& directory) {

@@ -131,7 +131,7 @@ Recorded simulate_or_read(const PlannedRun& run, const std::string& key,
   }
   if (!should_continue()) throw Stopped();
   if (run.kept) {
-    logs::write_recording(recording, file);
+    logs::write_recording(recording, directory.own_file("recordings", run.file));
     const std::optional<std::uint64_t> sum = file_checksum(file);
     if (!sum) throw Error(fmt::format("{}: cannot be read again", file.string()));
     directory.store().put(

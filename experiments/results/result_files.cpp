@@ -170,7 +170,7 @@ void write_manifest(const ExperimentResult& result) {
   const Json from_python = python_estimators(experiment);
   if (!from_python.empty()) json["python_estimators"] = from_python;
   json["tables"] = table_digests(result.directory.path());
-  write_atomically(result.directory.path() / "manifest.json",
+  write_atomically(result.directory.own_file("", "manifest.json"),
                    json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 

@@ -57,8 +57,7 @@ std::string video_name(const std::string& simulator, const std::string& scenario
 
 RunDirectory::RunDirectory(const std::string& experiment, const std::string& id,
                            const fs::path& out)
-    : path_(run_path(experiment, id, out)),
-      store_(path_ / "state", key_of(id, build_fingerprint())) {
+    : path_(run_path(experiment, id, out)), store_(path_, key_of(id, build_fingerprint())) {
   try {
     fs::create_directories(path_);
   } catch (const fs::filesystem_error& error) {

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/fingerprint.hpp"
 #include "core/yaml.hpp"
 #include "experiments/run_directory/lock.hpp"
-#include "experiments/run_directory/store.hpp"
 
 namespace touchdown::experiments {
 
@@ -19,7 +20,8 @@ namespace {
 
 /// The files and folders of its directory that a run writes to.
 constexpr std::array run_files = {"config.yaml", "manifest.json", "report.html"};
-constexpr std::array run_folders = {"state", "recordings", "models", "tables", "figures", "videos"};
+constexpr std::array run_folders = {"state",   "recordings", "models",       "tables",
+                                    "figures", "videos",     "trajectories", "checkpoints"};
 
 constexpr std::string_view before_request = "experiment ";
 constexpr std::string_view before_build = " build ";
@@ -64,129 +66,60 @@ void refuse_unless_owned(const fs::path& directory, const fs::path& file) {
                   directory.string(), file.lexically_relative(directory).string()));
 }
 
-/// Between folder and name in the name of a record.
-constexpr char separator = ':';
+/// The journal of a run directory: a line for each file that a run writes there.
+constexpr const char* journal_name = "state/files";
 
-fs::path records_in(const fs::path& run_directory) { return run_directory / "state" / "files"; }
-
-std::string record_of(const fs::path& name) {
-  std::string record = name.generic_string();
-  std::replace(record.begin(), record.end(), '/', separator);
-  return record;
+/// Several processes may append at once, and each may be killed. The checksum tells whole lines
+/// from torn ones and from those that mingle; a torn line ends where the next one begins.
+std::string line_of(const std::string& name) {
+  return fmt::format("\n{} {}\n", Fingerprint().add(name).text(), name);
 }
 
-fs::path name_of(std::string record) {
-  const std::size_t end = record.find(separator);
-  if (end != std::string::npos) record[end] = '/';
-  return record;
+/// Errors: `InputError` for a directory of an earlier version, which had a folder in its place.
+fs::path journal_of(const fs::path& directory) {
+  if (!is_folder(directory / journal_name)) return directory / journal_name;
+  throw InputError(fmt::format(
+      "{}: holds a run of an earlier touchdown, whose files this one cannot tell from yours: "
+      "remove the directory, or choose another --out",
+      directory.string()));
 }
 
-/// A file that is not reached through a link.
-bool is_regular(const fs::path& path) {
+/// The link through which a run's file would be reached; empty if there is none.
+fs::path link_above(const fs::path& directory, const fs::path& name) {
   std::error_code ignored;
-  return !fs::is_symlink(path.parent_path(), ignored) &&
-         fs::symlink_status(path, ignored).type() == fs::file_type::regular;
-}
-
-/// The recorded files that exist, relative to the run directory, sorted. Links are left out.
-std::vector<fs::path> recorded_files(const fs::path& run_directory) {
-  std::vector<fs::path> names;
-  for (const fs::path& entry : entries_in(records_in(run_directory))) {
-    const std::string record = entry.filename().string();
-    const fs::path name = name_of(record);
-    // Half-written records begin with a dot. No record leads out of the run directory.
-    const bool is_inside = !record.starts_with('.') && !name.filename().string().starts_with('.');
-    if (is_inside && is_regular(entry) && is_regular(run_directory / name)) {
-      names.push_back(name);
-    }
+  fs::path above = directory;
+  for (const fs::path& folder : name.parent_path()) {
+    if (fs::is_symlink(above /= folder, ignored)) return above;
   }
-  std::sort(names.begin(), names.end());
-  return names;
+  return {};
 }
 
-using Names = std::vector<std::string>;
+void require_no_link(const fs::path& directory, const fs::path& name) {
+  const fs::path link = link_above(directory, name);
+  if (link.empty()) return;
+  throw InputError(fmt::format(
+      "{}: is a link, where a run makes a folder of its own: remove the link, or choose another "
+      "--out",
+      link.string()));
+}
 
-/// Files of a run that are neither recorded nor parts of the store, by their names.
-struct FixedNames {
-  const char* folder;
-  const char* shape;
-};
-constexpr std::array fixed_names = {
-    FixedNames{"state", R"((scenario|sensors)_\d{3,}\.yaml|inputs\.yaml)"},
-    FixedNames{"state/shards", R"(\d+_of_\d+)"}, FixedNames{"videos", R"(report\.(mp4|jpg))"}};
+bool is_regular(const fs::path& directory, const fs::path& name) {
+  std::error_code ignored;
+  return link_above(directory, name).empty() &&
+         fs::symlink_status(directory / name, ignored).type() == fs::file_type::regular;
+}
 
-/// Every folder that a run creates beside `state`.
-constexpr std::array result_folders = {"recordings", "models",       "tables",      "figures",
-                                       "videos",     "trajectories", "checkpoints", "logs"};
-
-/// Every folder that a run creates, or a link in its place; inner folders first.
-Names all_folders(const fs::path& directory) {
-  Names folders;
+/// The folders that a run creates, inner folders first.
+std::vector<fs::path> folders_of(const fs::path& directory) {
+  std::vector<fs::path> folders;
   std::error_code ignored;
   for (const fs::path& entry : entries_in(directory / "state")) {
-    const fs::file_type type = fs::symlink_status(entry, ignored).type();
-    if (type == fs::file_type::directory || type == fs::file_type::symlink) {
-      folders.push_back("state/" + entry.filename().string());
+    if (fs::symlink_status(entry, ignored).type() != fs::file_type::regular) {
+      folders.push_back("state" / entry.filename());
     }
   }
-  folders.emplace_back("state");
-  folders.insert(folders.end(), result_folders.begin(), result_folders.end());
+  folders.insert(folders.end(), run_folders.begin(), run_folders.end());
   return folders;
-}
-
-/// The files directly in a folder; none if the folder is a link or missing.
-Names files_in(const fs::path& folder) {
-  Names names;
-  std::error_code ignored;
-  if (fs::is_symlink(folder, ignored)) return names;
-  for (const fs::path& entry : entries_in(folder)) {
-    if (fs::symlink_status(entry, ignored).type() == fs::file_type::regular) {
-      names.push_back(entry.filename().string());
-    }
-  }
-  return names;
-}
-
-/// The parts in `state`, and the recordings that some of them are about.
-std::vector<fs::path> parts(const fs::path& directory) {
-  std::vector<fs::path> names;
-  for (const std::string& folder : all_folders(directory)) {
-    if (!folder.starts_with("state/")) continue;
-    for (const std::string& name : files_in(directory / folder)) {
-      const fs::path part = fs::path(folder) / name;
-      if (name.starts_with('.') || !is_part_of_a_store(directory / part)) continue;
-      if (folder == "state/recordings") names.push_back(fs::path("recordings") / name);
-      names.push_back(part);
-    }
-  }
-  return names;
-}
-
-/// The first line of a figure's script names its pictures; the script names its data files.
-std::vector<fs::path> figures(const fs::path& directory) {
-  const fs::path folder = directory / "figures";
-  const Names files = files_in(folder);
-  std::vector<fs::path> names;
-  for (const std::string& script : files) {
-    if (!script.ends_with(".gp")) continue;
-    const std::string stem = fs::path(script).stem().string();
-    const std::string text = read_file(folder / script);
-    if (script == "style.gp") names.push_back(fs::path("figures") / script);
-    if (!text.starts_with(fmt::format("# Draws {}.png", stem))) continue;
-    for (const std::string& file : files) {
-      const bool is_picture =
-          file == stem + ".png" || file == stem + ".svg" || file == stem + ".pdf";
-      const bool is_data = file.starts_with(stem) && file.ends_with(".dat") &&
-                           text.find(fmt::format("'{}'", file)) != std::string::npos;
-      if (is_picture || is_data) names.push_back(fs::path("figures") / file);
-    }
-    names.push_back(fs::path("figures") / script);
-  }
-  return names;
-}
-
-void append(std::vector<fs::path>& all, const std::vector<fs::path>& more) {
-  all.insert(all.end(), more.begin(), more.end());
 }
 
 void remove_file(const fs::path& path) {
@@ -197,11 +130,8 @@ void remove_file(const fs::path& path) {
 
 void remove_empty_folders(const fs::path& directory) {
   std::error_code not_empty;
-  for (const std::string& folder : all_folders(directory)) {
-    const fs::path path = directory / folder;
-    if (fs::symlink_status(path, not_empty).type() == fs::file_type::directory) {
-      fs::remove(path, not_empty);
-    }
+  for (const fs::path& folder : folders_of(directory)) {
+    if (link_above(directory, folder / "file").empty()) fs::remove(directory / folder, not_empty);
   }
 }
 
@@ -253,41 +183,34 @@ void require_no_untracked_files(const fs::path& directory) {
 }
 
 fs::path record_file(const fs::path& run_directory, const fs::path& name) {
-  const fs::path record = records_in(run_directory) / record_of(name);
-  if (!is_regular(record)) write_atomically(record, "");
+  require_no_link(run_directory, name);
+  append_to_file(journal_of(run_directory), line_of(name.generic_string()));
   return run_directory / name;
 }
 
 std::vector<fs::path> own_files(const fs::path& directory) {
-  std::vector<fs::path> names = recorded_files(directory);
-  append(names, parts(directory));
-  append(names, figures(directory));
-  const auto add = [&](const fs::path& folder, const char* shape) {
-    for (const std::string& file : files_in(directory / folder)) {
-      if (has_shape(file, shape)) names.push_back((folder / file).lexically_normal());
-    }
-  };
-  for (const FixedNames& fixed : fixed_names) add(fixed.folder, fixed.shape);
-  // Each record comes after its file: after a killed removal it still names it.
-  add("state/files", R"([^.].*)");
-  // The experiment comes last, so that the directory can be identified after a killed removal.
-  for (const char* const file : {"report.html", "manifest.json", "config.yaml"}) {
-    names.emplace_back(file);
+  const fs::path journal = journal_of(directory);
+  if (!is_regular(directory, journal_name)) return {};
+  std::set<fs::path> names;
+  std::istringstream lines(read_file(journal));
+  for (std::string line; std::getline(lines, line);) {
+    const std::string name = line.substr(std::min<std::size_t>(line.size(), 17));
+    const fs::path path = fs::path(name).lexically_normal();
+    const bool is_inside =
+        line_of(name) == "\n" + line + "\n" && path.is_relative() && *path.begin() != "..";
+    if (is_inside && is_regular(directory, path)) names.insert(path);
   }
-  std::erase_if(names, [&](const fs::path& name) { return !is_regular(directory / name); });
-  return names;
+  // The experiment names the directory, and the journal the files that a killed removal left.
+  const bool is_named = names.erase("config.yaml") > 0;
+  std::vector<fs::path> files(names.begin(), names.end());
+  if (is_named) files.emplace_back("config.yaml");
+  files.emplace_back(journal_name);
+  return files;
 }
 
 void require_no_links(const fs::path& directory) {
-  std::error_code ignored;
-  for (const std::string& folder : all_folders(directory)) {
-    const fs::path path = directory / folder;
-    if (!fs::is_symlink(path, ignored)) continue;
-    throw InputError(
-        fmt::format("{}: is a link, where a run makes a folder of its own: remove the link, or "
-                    "choose another --out",
-                    path.string()));
-  }
+  (void)journal_of(directory);
+  for (const fs::path& folder : folders_of(directory)) require_no_link(directory, folder / "file");
 }
 
 void remove_own_files(const fs::path& directory) {
@@ -298,11 +221,11 @@ void remove_own_files(const fs::path& directory) {
 UntrackedFiles remove_run(const fs::path& directory) {
   remove_partial_files(directory);
   remove_own_files(directory);
-  for (const std::string& file : files_in(directory / "logs")) {
-    const bool is_log = has_shape(file, R"((shard|merge)_\d+(_\d+)?\.txt)");
-    if (is_log) remove_file(directory / "logs" / file);
+  for (const fs::path& log : entries_in(directory / "logs")) {
+    const bool is_ours = has_shape(log.filename(), R"((shard|merge)_\d+(_\d+)?\.txt)");
+    if (is_ours && is_regular(directory, "logs" / log.filename())) remove_file(log);
   }
-  if (is_regular(key_file(directory))) remove_file(key_file(directory));
+  if (is_regular(directory, "state/key")) remove_file(key_file(directory));
   UntrackedFiles left;
   std::error_code gone;
   for (const fs::path& entry : entries_below(directory)) {
@@ -313,35 +236,32 @@ UntrackedFiles remove_run(const fs::path& directory) {
   }
   if (left.files > 0) return left;
   // Other processes detect that the lock file is gone and lock a new one.
-  if (is_regular(lock_file(directory))) remove_file(lock_file(directory));
+  if (is_regular(directory, "state/lock")) remove_file(lock_file(directory));
   remove_empty_folders(directory);
-  std::error_code not_empty;
-  fs::remove(directory, not_empty);
+  fs::remove(directory / "logs", gone);
+  fs::remove(directory, gone);
   return left;
 }
 
 void remove_partial_files(const fs::path& directory) {
+  std::vector<fs::path> folders = folders_of(directory);
+  folders.emplace_back();  // the run directory itself, where others may have such files, too
   std::error_code ignored;
-  std::vector<fs::path> partial;
-  for (const std::string& folder : all_folders(directory)) {
-    if (fs::is_symlink(directory / folder, ignored)) continue;
+  for (const fs::path& folder : folders) {
+    if (!link_above(directory, folder / "file").empty()) continue;
     for (const fs::path& entry : entries_in(directory / folder)) {
-      const fs::path name = entry.filename();
+      const std::string file = entry.filename();
+      const bool is_ours = !folder.empty() || std::ranges::any_of(run_files, [&](fs::path whole) {
+        return file.starts_with(fmt::format(".{}.", whole.stem().string())) &&
+               file.ends_with(fmt::format(".part{}", whole.extension().string()));
+      });
       const fs::file_type type = fs::symlink_status(entry, ignored).type();
-      if ((type == fs::file_type::regular && is_part_file_name(name)) ||
-          (type == fs::file_type::directory && is_part_folder_name(name))) {
-        partial.push_back(entry);
+      if (is_ours && ((type == fs::file_type::regular && is_part_file_name(file)) ||
+                      (type == fs::file_type::directory && is_part_folder_name(file)))) {
+        fs::remove_all(entry, ignored);
       }
     }
   }
-  for (const std::string& file : files_in(directory)) {
-    const bool is_ours = std::ranges::any_of(run_files, [&](const fs::path& whole) {
-      return file.starts_with(fmt::format(".{}.", whole.stem().string())) &&
-             file.ends_with(fmt::format(".part{}", whole.extension().string()));
-    });
-    if (is_ours && is_part_file_name(file)) partial.push_back(directory / file);
-  }
-  for (const fs::path& path : partial) fs::remove_all(path, ignored);
 }
 
 }  // namespace touchdown::experiments

@@ -35,21 +35,24 @@ void require_place_beside(const std::filesystem::path& directory, const std::str
 /// run writes to, if the directory has no owner and no run takes it meanwhile.
 void require_no_untracked_files(const std::filesystem::path& directory);
 
-/// Files that runs made, whichever their names: a run records each of them in `state/files` of its
-/// directory. So tables and films of any study can be removed with their run, and other files stay.
+/// Files that runs made, whichever their names: a run records each of them in the journal
+/// `state/files` of its directory. So files of any study can be removed with their run, and other
+/// files stay.
 
 /// Records a file before it is written, so that no interrupted write leaves an unknown file.
-/// Returns its path. `name` is relative to the run directory, with at most one folder.
+/// Returns its path. `name` is relative to the run directory. Errors: `Error` when the journal
+/// cannot be written.
 std::filesystem::path record_file(const std::filesystem::path& run_directory,
                                   const std::filesystem::path& name);
 
-/// The files in a run directory that its runs made, without its key and its lock: recorded files,
-/// parts of the store, and figures by their scripts. `config.yaml` comes last, because it names
-/// the experiment. Other files, and targets of links, are not included.
+/// The recorded files in a run directory that exist, without its key and its lock. `config.yaml`,
+/// which names the experiment, and the journal come last. Other files, and those behind links, are
+/// not included.
 std::vector<std::filesystem::path> own_files(const std::filesystem::path& directory);
 
 /// Errors: `InputError` that names the link, if a link stands for one of the run's own folders:
-/// the run would write, and replace files, outside its directory.
+/// the run would write, and replace files, outside its directory. Also for a directory of an
+/// earlier version, which has no journal.
 void require_no_links(const std::filesystem::path& directory);
 
 /// Removes these files, and folders that are empty afterwards.

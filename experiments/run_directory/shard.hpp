@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
-#include <set>
 #include <string>
 
 namespace touchdown::experiments {
@@ -27,15 +25,5 @@ struct Shard {
 /// Reads "2/3". Errors: `InputError` unless it is k/n with 1 ≤ k ≤ n ≤ 100,000.
 Shard shard_from(const std::string& text);
 std::string to_text(const Shard& shard);
-
-/// Marks a shard as started in its run directory, so that `merge` can name missing shards, and
-/// those of other processors, which compute other last digits. The marks are removed after the
-/// merge.
-void mark_shard_started(const std::filesystem::path& run_directory, const Shard& shard);
-/// Number of shards by the newest mark; 1 without any.
-int started_shards(const std::filesystem::path& run_directory);
-/// The classes of the processors on which shards started (core/machine.hpp).
-std::set<std::string> shard_processors(const std::filesystem::path& run_directory);
-void remove_shard_marks(const std::filesystem::path& run_directory);
 
 }  // namespace touchdown::experiments

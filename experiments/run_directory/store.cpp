@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
+#include "experiments/run_directory/own_files.hpp"
 
 namespace touchdown::experiments {
 
@@ -69,13 +70,6 @@ std::optional<std::uint64_t> file_checksum(const std::filesystem::path& path) {
   return XXH3_64bits_digest(sum.get());
 }
 
-bool is_part_of_a_store(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string begin(first_line.size(), '\0');
-  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  return file && begin == first_line;
-}
-
 struct Store::Memory {
   std::mutex mutex;
   std::map<std::string, std::string, std::less<>> parts;  ///< by key
@@ -83,8 +77,8 @@ struct Store::Memory {
 
 Store::Store() : memory_(std::make_shared<Memory>()) {}
 
-Store::Store(std::filesystem::path folder, std::string key)
-    : folder_(std::move(folder)), key_(std::move(key)) {}
+Store::Store(std::filesystem::path run_directory, std::string key)
+    : directory_(std::move(run_directory)), key_(std::move(key)) {}
 
 std::optional<std::string> Store::read(std::string_view kind, std::string_view name) const {
   const std::string key = key_of(kind, name);
@@ -93,7 +87,7 @@ std::optional<std::string> Store::read(std::string_view kind, std::string_view n
     const auto found = memory_->parts.find(key);
     return found == memory_->parts.end() ? std::nullopt : std::optional(found->second);
   }
-  std::optional<SavedPart> part = read_part(folder_ / kind / name);
+  std::optional<SavedPart> part = read_part(directory_ / "state" / kind / name);
   if (!part || part->key != key) return std::nullopt;
   return std::move(part->content);
 }
@@ -105,19 +99,20 @@ void Store::write(std::string_view kind, std::string_view name, std::string_view
     memory_->parts.insert_or_assign(key, std::string(bytes));
     return;
   }
-  write_atomically(folder_ / kind / name, head(key, bytes).append(bytes));
+  write_atomically(record_file(directory_, std::filesystem::path("state") / kind / name),
+                   head(key, bytes).append(bytes));
 }
 
 std::vector<std::string> Store::names(std::string_view kind) const {
   std::vector<std::string> names;
-  for (const std::filesystem::path& entry : entries_in(folder_ / kind)) {
+  for (const std::filesystem::path& entry : entries_in(directory_ / "state" / kind)) {
     names.push_back(entry.filename().string());
   }
   return names;
 }
 
 std::optional<WrongPart> Store::wrong_part(std::string_view kind, std::string_view name) const {
-  const std::filesystem::path file = folder_ / kind / name;
+  const std::filesystem::path file = directory_ / "state" / kind / name;
   const std::optional<SavedPart> part = read_part(file);
   const std::string expected = key_of(kind, name);
   if (!part || part->key == expected) return std::nullopt;

@@ -104,9 +104,6 @@ struct WrongPart {
   std::string expected;  ///< the key of the part
 };
 
-/// Whether a file begins as parts of a store do.
-bool is_part_of_a_store(const std::filesystem::path& file);
-
 /// The parts of an experiment that are computed already, as bytes by kind and name. A resumed run,
 /// a shard and a merge ask for the same parts, whichever process computed them. Each file holds a
 /// key (experiment, build, kind, name) and a checksum; a file with another key, or a damaged one,
@@ -115,8 +112,9 @@ class Store {
  public:
   /// Parts in memory, shared by all copies.
   Store();
-  /// A folder for each kind in `folder`. `key` identifies the experiment and the build.
-  Store(std::filesystem::path folder, std::string key);
+  /// Files in `state` of a run directory, in a folder for each kind. `key` identifies the
+  /// experiment and the build.
+  Store(std::filesystem::path run_directory, std::string key);
 
   [[nodiscard]] std::optional<std::string> read(std::string_view kind, std::string_view name) const;
   void write(std::string_view kind, std::string_view name, std::string_view bytes) const;
@@ -152,7 +150,7 @@ class Store {
 
   [[nodiscard]] std::string key_of(std::string_view kind, std::string_view name) const;
 
-  std::filesystem::path folder_;
+  std::filesystem::path directory_;
   std::string key_;
   std::shared_ptr<Memory> memory_;  ///< null: files
 };

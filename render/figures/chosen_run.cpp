@@ -6,9 +6,18 @@
 #include "core/progress.hpp"
 #include "experiments/results/captions.hpp"
 #include "experiments/results/drops.hpp"
+#include "experiments/run_directory/own_files.hpp"
 #include "logs/log/recording_file.hpp"
 
 namespace touchdown::render {
+
+FigureFile figure_file(const std::filesystem::path& run_directory, const std::string& name,
+                       const experiments::PrintConfig& print) {
+  const std::filesystem::path folder = "figures";
+  return {run_directory / folder / name, print, [=](const std::string& file) {
+            (void)experiments::record_file(run_directory, folder / file);
+          }};
+}
 
 const experiments::FinishedRun& chosen_run(const experiments::ExperimentResult& result,
                                            const std::string& simulator, int run, const char* key) {

@@ -28,9 +28,11 @@ std::string drop_text(const experiments::Experiment& experiment,
                       const experiments::DropChoice& choice);
 
 /// The files of a figure of this name in the run directory, printed as the experiment asks.
+FigureFile figure_file(const std::filesystem::path& run_directory, const std::string& name,
+                       const experiments::PrintConfig& print);
 inline FigureFile figure_file(const experiments::ExperimentResult& result,
                               const std::string& name) {
-  return {result.directory.file("figures", name), result.experiment.figures};
+  return figure_file(result.directory.path(), name, result.experiment.figures);
 }
 
 /// Draws a figure. If an engine's run lacks what it shows, prints the reason instead of throwing.

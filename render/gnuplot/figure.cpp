@@ -200,6 +200,7 @@ Figure draw_figure(const FigureFile& file, int width, int height, const std::str
   std::vector<std::string> files = {name + ".gp", name + ".png", name + ".svg", name + ".pdf"};
   for (const PlotData& table : data) files.push_back(table.name);
   require_own_files(folder, name, files);
+  if (file.before_writing) std::ranges::for_each(files, file.before_writing);
   const PartFolder scratch(stem);
   const std::string script = fmt::format(
       "{0}{1}"

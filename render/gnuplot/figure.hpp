@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,8 +28,9 @@ struct FigureText {
 /// Where a figure is drawn, and at which size.
 struct FigureFile {
   // NOLINTNEXTLINE(google-explicit-constructor): most figures are for screens
-  FigureFile(std::filesystem::path path, experiments::PrintConfig config = {})
-      : stem(std::move(path)), print(std::move(config)) {}
+  FigureFile(std::filesystem::path path, experiments::PrintConfig config = {},
+             std::function<void(const std::string&)> before = {})
+      : stem(std::move(path)), print(std::move(config)), before_writing(std::move(before)) {}
 
   std::string name() const { return stem.filename().string(); }
   /// The width in which panels should fit (px of a figure on a screen): there, text of 10 pt is
@@ -37,6 +39,7 @@ struct FigureFile {
 
   std::filesystem::path stem;  ///< of its files, without extension
   experiments::PrintConfig print;
+  std::function<void(const std::string& name)> before_writing;  ///< called for each file, if set
 };
 
 /// Columns of panels (px).

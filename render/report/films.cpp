@@ -80,6 +80,9 @@ void film_for_report(const std::vector<FilmedRun>& runs, const experiments::Expe
   small.crf = 28;
   small.fps = 20;
   small.to = std::min(end, longest_report_film);
+  for (const char* const name : {"videos/report.mp4", "videos/report.jpg"}) {
+    experiments::record_file(run_directory, name);
+  }
   film(shown, small, runs.front(), experiment.workers, files.video, stop);
   small.labels = runs.front().labels;
   render_poster(shown, small, NAN, files.picture);

@@ -8,7 +8,7 @@
 
 #include "core/files.hpp"
 #include "experiments/results/captions.hpp"
-#include "experiments/run_directory/directory.hpp"
+#include "experiments/run_directory/own_files.hpp"
 #include "render/report/sections.hpp"
 #include "simulators/registry.hpp"
 
@@ -188,7 +188,7 @@ fs::path make_report(const ReportSubject& subject, const std::vector<FilmedRun>&
        {heatmap_section, paper_section, figures_section, more_tables_section, reproduce_section}) {
     all.push_back(section(subject));
   }
-  fs::path path = subject.directory / "report.html";
+  fs::path path = experiments::record_file(subject.directory, "report.html");
   write_page(subject, path, header_html(subject), std::move(all));
   return path;
 }

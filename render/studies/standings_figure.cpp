@@ -9,6 +9,7 @@
 #include "core/rows.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/results/captions.hpp"
+#include "render/figures/chosen_run.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/studies/benchmark.hpp"
 #include "simulators/registry.hpp"
@@ -205,7 +206,9 @@ void draw_standings_figures(const std::filesystem::path& run_directory, double l
     const std::string stem = standings_stem(run_directory, standing).string();
     if (stem == last) continue;
     last = stem;
-    draw_standings_figure(tables, setting_of(standing), level, {stem, print});
+    draw_standings_figure(
+        tables, setting_of(standing), level,
+        figure_file(run_directory, std::filesystem::path(stem).filename(), print));
   }
 }
 

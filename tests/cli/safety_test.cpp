@@ -107,7 +107,7 @@ TEST_F(RunDirectory, OfAnotherBuildIsComputedAnewWithoutAsking) {
   const auto before = result_files(folder_ / "a");
   const std::string key = folder_.text("a/state/key");
   folder_.write("a/state/key", key.substr(0, key.find(" build ")) + " build 0123456789abcdef\n");
-  folder_.write("a/report.html", "of that build");
+  write_atomically(experiments::record_file(folder_ / "a", "report.html"), "of that build");
   write_precious({"a/tables/notes.txt"});
   folder_.expect_refusals({{"merge a", {"another build"}}});
   folder_.output_of(run + "a");
@@ -196,7 +196,7 @@ TEST_F(Lock, OfARunRefusesOtherWritersAndNamesItsOwner) {
 TEST_F(Lock, OfAShardAdmitsOnlyOtherShards) {
   const std::string longer = run + "a --set noise.seeds=30";
   StartedProgram first(longer + " --shard 1/2 --set workers=1", folder_.path());
-  first.let_run_until([&] { return folder_.has("a/state/shards/1_of_2"); });
+  first.let_run_until([&] { return folder_.has("a/state/processors/1_of_2"); });
   first.send(SIGSTOP);
   folder_.expect_refusals({{"merge a", {"--shard 1/2"}}, {longer, {"a: is in use by process "}}},
                           1);

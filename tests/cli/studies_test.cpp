@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/machine.hpp"
+#include "experiments/run_directory/store.hpp"
 #include "program.hpp"
 #include "result_files.hpp"
 #include "tests/draws.hpp"
@@ -35,8 +37,7 @@ TEST_F(Studies, EndInTheSameBytesAfterKillsAndFromShards) {
   folder_.output_of(run + "whole");
   const auto expected = result_files(folder_ / "whole");
   for (const char* file :
-       {"tables/odometry.csv", "tables/survival.csv",
-        "trajectories/mujoco_step_ground_truth.tum",
+       {"tables/odometry.csv", "tables/survival.csv", "trajectories/mujoco_step_ground_truth.tum",
         "trajectories/bullet_step_truth_delayed_20ms.tum", "trajectories/bullet_step_robust.tum"}) {
     EXPECT_EQ(expected.count(file), 1U) << file;
   }
@@ -161,7 +162,7 @@ TEST_F(Shards, OneThreeOrEightOfThemMergeToTheBytesOfOneRun) {
   }
 }
 
-TEST_F(Shards, AreNotComputedTwiceAndNamedByMergeIfTheyAreMissing) {
+TEST_F(Shards, AreNotComputedTwiceAndMissingPartsAreCountedByMerge) {
   const auto computed = [&](const std::string& shard) {
     const std::string output = folder_.output_of(run + "a --shard " + shard);
     return output.substr(output.find(": ") + 2, output.find('\n') - output.find(": ") - 2);
@@ -174,8 +175,24 @@ TEST_F(Shards, AreNotComputedTwiceAndNamedByMergeIfTheyAreMissing) {
   for (const char* shard : {"1/5", "3/5", "5/5"}) {
     folder_.output_of(run + "b --shard " + shard);
   }
-  folder_.expect_refusals({{"merge b", {"finish shards 2/5, 4/5 first", "--out b --shard 2/5"}}});
+  folder_.expect_refusals({{"merge b",
+                            {"4 of 12 parts are missing: compute them by 'touchdown run "
+                             "b/config.yaml --out b'"}}});
   EXPECT_FALSE(folder_.has("b/tables"));
+  folder_.output_of("run b/config.yaml --out b --no-pictures");
+  EXPECT_TRUE(folder_.has("b/tables"));
+}
+
+TEST_F(Shards, OnDifferentProcessorsAreNamedByMerge) {
+  folder_.output_of(run + "a --shard 1/1");
+  const std::string merge = "merge a --no-pictures";
+  EXPECT_EQ(folder_.run(merge).errors, "");
+  const std::string key = folder_.text("a/state/key");
+  experiments::Store(folder_ / "a", key.substr(0, key.find('\n')))
+      .put("processors", "2_of_2", std::string("of another class"));
+  EXPECT_THAT(folder_.run(merge).errors,
+              AllOf(HasSubstr("a: its shards ran on different processors ("),
+                    HasSubstr("of another class"), HasSubstr(processor_class())));
 }
 
 TEST_F(Shards, WrongOnesAreRefusedInOneLine) {

@@ -1,7 +1,9 @@
 #include "experiments/run_directory/own_files.hpp"
 
-#include <algorithm>
+#include <functional>
+#include <thread>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -58,25 +60,17 @@ TEST(PartialFiles, WithOtherNamesOrInOtherFoldersStay) {
 /// A run directory with a file of every kind, and untracked files among them.
 struct OwnFiles : ::testing::Test {
   OwnFiles() {
-    folder.write("config.yaml", "name: a\nsimulators: [mujoco]\nestimators: [robust]\n");
-    folder.write("state/scenario_000.yaml", "name: step\n");
-    folder.write("figures/success_mujoco.gp",
-                 "# Draws success_mujoco.png, success_mujoco.svg and success_mujoco.pdf\n"
-                 "plot 'success_mujoco.dat', 'success_mujoco_2.dat'\n");
-    for (const char* file : {"recordings/mujoco_step_test_000.mpack", "state/shards/1_of_2",
-                             "figures/success_mujoco.png", "figures/success_mujoco.dat",
-                             "figures/success_mujoco_2.dat", "figures/style.gp",
-                             "videos/report.jpg", "manifest.json", "report.html"}) {
-      folder.write(file, "ours");
+    for (const char* file :
+         {"config.yaml", "state/scenario_000.yaml", "recordings/mujoco_step_test_000.mpack",
+          "figures/success_mujoco.gp", "figures/success_mujoco.png", "models/mujoco_robust.npz",
+          "tables/success.csv", "videos/report.jpg", "videos/mujoco_step.mp4", "manifest.json",
+          "report.html"}) {
+      write_atomically(record_file(folder.path(), file), "name: a\n");
     }
-    const Store store(folder / "state", "key");
+    const Store store(folder.path(), "key");
     store.put("recordings", "mujoco_step_test_000.mpack", 1);
     store.put("evaluation", "mujoco_step_test_000_seed_0000", 1);
     store.put("submissions", "mine", 1);
-    for (const char* file : {"models/mujoco_robust.npz", "tables/success.csv", "tables/success.csv",
-                             "videos/mujoco_step.mp4"}) {
-      write_atomically(record_file(folder.path(), file), "ours");
-    }
     for (const std::string& file : untracked) folder.write(file, "precious");
     folder.write("state/key", "experiment x build y\n");
     folder.write("state/lock", "");
@@ -113,38 +107,84 @@ TEST_F(OwnFiles, AloneAreRemoved) {
 }
 
 TEST_F(OwnFiles, OfAnyNameAreRemovedIfTheRunRecordedThem) {
-  const std::vector<fs::path> recorded = {"tables/mine.csv", "tables/a:b.md", "videos/mine.mp4",
+  const std::vector<fs::path> recorded = {"tables/mine.csv", "tables/a b.md", "videos/mine.mp4",
                                           "trajectories/x.tum", "mine.html"};
   for (const fs::path& file : recorded) write_atomically(record_file(folder.path(), file), "ours");
   record_file(folder.path(), "tables/never_written.csv");
-  folder.write("state/files/..:outside.csv", "");
-  folder.write("state/files/tables:.hidden.csv", "");
-  folder.write("tables/.hidden.csv", "precious");
-  Store(folder / "state", "key").put("my_study", "item_000012", 1);
-  folder.write("state/my_study/notes", "precious");
+  folder.write("state/evaluation/notes", "precious");
   const std::vector<fs::path> found = own_files(folder.path());
   for (const fs::path& file : recorded) EXPECT_THAT(found, ::testing::Contains(file));
   remove_own_files(folder.path());
   std::vector<std::string> expected = untracked;
-  expected.insert(expected.end(), {"state/key", "state/lock", "tables/.hidden.csv",
-                                   "state/files/..:outside.csv", "state/my_study/notes"});
+  expected.insert(expected.end(), {"state/key", "state/lock", "state/evaluation/notes"});
   EXPECT_THAT(left(), UnorderedElementsAreArray(expected));
 }
 
-TEST_F(OwnFiles, AreNamedByTheirRecordsAfterAKilledRemoval) {
-  write_atomically(record_file(folder.path(), "tables/mine.csv"), "ours");
-  const std::vector<fs::path> files = own_files(folder.path());
-  const auto file = std::find(files.begin(), files.end(), "tables/mine.csv");
-  const auto record = std::find(files.begin(), files.end(), "state/files/tables:mine.csv");
-  ASSERT_NE(record, files.end());
-  EXPECT_LT(file, record);
+TEST_F(OwnFiles, AreTheWholeLinesOfTheirJournal) {
+  const std::string journal = read_file(folder / "state/files");
+  record_file(folder.path(), "tables/thesis.csv.old");
+  const std::string line = read_file(folder / "state/files").substr(journal.size());
+  const std::vector<fs::path> before = own_files(folder.path());
+  // A line that names `tables/thesis.csv` once it is torn there, with the next one behind it.
+  for (std::size_t size = 0; size < line.size(); ++size) {
+    folder.write("state/files", journal + line.substr(0, size));
+    record_file(folder.path(), "notes.md.copy");
+    EXPECT_EQ(own_files(folder.path()), before) << size;
+    folder.write("notes.md.copy", "ours");
+    EXPECT_EQ(own_files(folder.path()).size(), before.size() + 1) << size;
+    fs::remove(folder / "notes.md.copy");
+  }
+  folder.write("state/files",
+               journal + "\ntables/thesis.csv\n" + std::string(16, '0') + " notes.md\n");
+  EXPECT_EQ(own_files(folder.path()), before);
 }
 
-TEST_F(OwnFiles, EndWithTheExperimentThatNamesTheOthers) {
+TEST_F(OwnFiles, AreAllInTheJournalThatThreadsWriteAtOnce) {
+  std::vector<std::jthread> threads;
+  for (int thread = 0; thread < 4; ++thread) {
+    threads.emplace_back([&, thread] {
+      for (int i = 0; i < 50; ++i) {
+        const std::string name = fmt::format("tables/{}_{}.csv", thread, i);
+        write_atomically(record_file(folder.path(), name), "ours");
+      }
+    });
+  }
+  threads.clear();
+  remove_own_files(folder.path());
+  std::vector<std::string> expected = untracked;
+  expected.insert(expected.end(), {"state/key", "state/lock"});
+  EXPECT_THAT(left(), UnorderedElementsAreArray(expected));
+}
+
+TEST_F(OwnFiles, EndWithTheExperimentAndTheJournalThatNamesTheOthers) {
   const std::vector<fs::path> files = own_files(folder.path());
-  ASSERT_FALSE(files.empty());
-  EXPECT_EQ(files.back(), "config.yaml");
+  ASSERT_GE(files.size(), 2U);
+  EXPECT_EQ(files.end()[-2], "config.yaml");
+  EXPECT_EQ(files.back(), "state/files");
   for (const fs::path& file : files) EXPECT_TRUE(fs::exists(folder.path() / file)) << file;
+}
+
+TEST_F(OwnFiles, OutsideTheDirectoryAreNone) {
+  const ScratchFolder elsewhere;
+  elsewhere.write("success.csv", "precious");
+  const fs::path name = elsewhere.path().filename() / "success.csv";
+  const std::size_t before = own_files(folder.path()).size();
+  record_file(folder.path(), ".." / name);
+  record_file(folder.path(), "tables/../.." / name);
+  record_file(folder.path(), elsewhere / "success.csv");
+  EXPECT_EQ(own_files(folder.path()).size(), before);
+}
+
+TEST_F(OwnFiles, OfAnEarlierVersionAreRefused) {
+  fs::remove(folder / "state/files");
+  folder.write("state/files/tables:success.csv", "");
+  for (const auto& use : std::vector<std::function<void()>>{
+           [&] { require_no_links(folder.path()); }, [&] { (void)remove_run(folder.path()); },
+           [&] { record_file(folder.path(), "tables/success.csv"); }}) {
+    EXPECT_THAT(use, ThrowsMessage<InputError>(AllOf(HasSubstr("of an earlier touchdown"),
+                                                     HasSubstr("remove the directory"))));
+  }
+  EXPECT_TRUE(fs::exists(folder / "tables/success.csv"));
 }
 
 TEST_F(OwnFiles, AreNotSearchedForThroughLinks) {
@@ -152,7 +192,8 @@ TEST_F(OwnFiles, AreNotSearchedForThroughLinks) {
   elsewhere.write("success.csv", "precious");
   fs::remove_all(folder / "tables");
   fs::create_directory_symlink(elsewhere.path(), folder / "tables");
-  record_file(folder.path(), "tables/success.csv");
+  EXPECT_THAT([&] { record_file(folder.path(), "tables/success.csv"); },
+              ThrowsMessage<InputError>(HasSubstr("tables: is a link")));
   remove_own_files(folder.path());
   EXPECT_TRUE(fs::exists(elsewhere / "success.csv"));
 }

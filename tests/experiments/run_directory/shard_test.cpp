@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "tests/scratch_folder.hpp"
 
 namespace touchdown::experiments {
 namespace {
@@ -34,16 +33,6 @@ TEST(Shard, RefusesWhatIsNone) {
                            "1/3/4", " 1/3", "1.5/3", "1/99999999999", "1/200000"}) {
     EXPECT_THROW(shard_from(text), InputError) << text;
   }
-}
-
-TEST(ShardMarks, GiveTheNumberOfShards) {
-  const ScratchFolder folder;
-  EXPECT_EQ(started_shards(folder.path()), 1);
-  mark_shard_started(folder.path(), {2, 5});
-  mark_shard_started(folder.path(), {4, 5});
-  EXPECT_EQ(started_shards(folder.path()), 5);
-  remove_shard_marks(folder.path());
-  EXPECT_EQ(started_shards(folder.path()), 1);
 }
 
 }  // namespace

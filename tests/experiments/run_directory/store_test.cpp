@@ -79,7 +79,7 @@ TEST(Store, TakesADamagedFileForMissing) {
   const ScratchFolder folder;
   const Store store(folder.path(), "key");
   store.write("kind", "part", bytes(200));
-  const auto file = folder / "kind/part";
+  const auto file = folder / "state/kind/part";
   const std::string whole = read_file(file);
   for (std::size_t length = 0; length < whole.size(); ++length) {
     write_atomically(file, whole.substr(0, length));
@@ -101,7 +101,7 @@ TEST(Store, NamesTheKeyOfAFileOfAnotherPart) {
   const ScratchFolder folder;
   const Store store(folder.path(), "experiment a build b");
   store.write("kind", "other", bytes(50));
-  const auto file = folder.write("kind/part", read_file(folder / "kind/other"));
+  const auto file = folder.write("state/kind/part", read_file(folder / "state/kind/other"));
   const std::optional<WrongPart> wrong = store.wrong_part("kind", "part");
   ASSERT_TRUE(wrong.has_value());
   EXPECT_EQ(wrong->file, file);

@@ -119,12 +119,13 @@ TEST(ClosedLoop, IsTheSameInShardsAndWhenResumed) {
 
   options.out = folder / "shards";
   run_shard(experiment, Shard{1, 2}, options);
-  EXPECT_THAT([&] { merge_run(folder / "shards", options); },
-              ThrowsMessage<InputError>(HasSubstr("finish shard 2/2 first")));
+  EXPECT_THAT(
+      [&] { merge_run(folder / "shards", options); },
+      ThrowsMessage<InputError>(HasSubstr("parts are missing: compute them by 'touchdown run ")));
   run_shard(experiment, Shard{2, 2}, options);
   std::filesystem::remove(folder / "shards/state/closed_loop/run_000031");
   EXPECT_THAT([&] { merge_run(folder / "shards", options); },
-              ThrowsMessage<InputError>(HasSubstr("finish shard 2/2 first")));
+              ThrowsMessage<InputError>(HasSubstr(": parts of its studies are missing: ")));
   run_shard(experiment, Shard{2, 2}, options);
   merge_run(folder / "shards", options);
   EXPECT_EQ(read_file(folder / "shards/tables/survival.csv"), table);
