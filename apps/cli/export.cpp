@@ -206,8 +206,7 @@ void export_model(const ExportFlags& flags) {
   print("model     {}, for '{}' at {:.6g} Hz on {}, fingerprint {}\n", flags.output,
         metadata.estimator, metadata.sample_rate, experiments::robot_text(metadata.robot),
         metadata.fingerprint);
-  if (source.extension() == ".npz")
-    print("next      touchdown estimate LOG --model {}\n", flags.output);
+  print("next      touchdown estimate LOG --model {}\n", flags.output);
 }
 
 void export_benchmark(const ExportFlags& flags, const CliSession& session) {

@@ -17,7 +17,7 @@ void add_log_options(Verb& verb, LogOptions& options) {
               "Maps the columns or topics of the logs to signals, as for `touchdown export`")
       .value_name("FILE.yaml");
   verb.option("--model", &options.model,
-              "Model that `touchdown fit` wrote, for estimators that have one")
+              "Model that `touchdown fit` wrote, or load_filter's that `touchdown export` wrote")
       .value_name("FILE.npz");
   verb.option("--estimator", &options.estimator,
               "Estimator from `touchdown list` (default: the one that the model was fitted for; "
@@ -25,8 +25,8 @@ void add_log_options(Verb& verb, LogOptions& options) {
   verb.option(
           "--robot", &options.robot,
           "Robot that recorded the logs (default: that of a simulated log); it must be the\n"
-          "model's. Its file gives the legs to load_filter (default: those of a simulated log's\n"
-          "robot, else Upkie's)")
+          "model's. Its file gives the legs to load_filter (default: the model's, else those of\n"
+          "a simulated log's robot, else Upkie's)")
       .value_name("NAME|FILE");
   verb.option(
           "--set", &options.hyperparameters,

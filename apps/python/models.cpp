@@ -62,6 +62,7 @@ experiments::LogEstimator with_model(experiments::LogEstimatorRequest request, c
   const experiments::EstimatorEntry& fitted = model.estimator.entry;
   const std::string name = request.name;
   request.model = model.estimator.request.model;
+  if (!request.robot.legs) request.robot.legs = model.estimator.request.robot.legs;
   if (name.empty() || name == fitted.name) {
     return {fitted, model.estimator.model, std::move(request)};
   }

@@ -223,7 +223,10 @@ void read(Config& config, const ConfigurationText& text) {
 ConfigurationText text_of(const BayesFilterConfig& config) { return written(config); }
 ConfigurationText text_of(const NeuralEstimatorConfig& config) { return written(config); }
 ConfigurationText text_of(const LoadFilterConfig& config) { return written(config); }
-ConfigurationText text_of(const LegGeometry& geometry) { return written(geometry); }
+
+void put_into(ConfigurationText& configuration, const LegGeometry& geometry) {
+  for (auto& [key, value] : written(geometry)) configuration[key] = value;
+}
 
 void configure(BayesFilterConfig& config, const ConfigurationText& text) { read(config, text); }
 void configure(NeuralEstimatorConfig& config, const ConfigurationText& text) { read(config, text); }

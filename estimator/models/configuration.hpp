@@ -12,8 +12,8 @@ namespace touchdown {
 ConfigurationText text_of(const BayesFilterConfig& config);
 ConfigurationText text_of(const NeuralEstimatorConfig& config);
 ConfigurationText text_of(const LoadFilterConfig& config);
-/// The robot's part of a configuration. Estimators that use kinematics have all of it or a part.
-ConfigurationText text_of(const LegGeometry& geometry);
+/// Replaces the robot's part of a load filter's configuration.
+void put_into(ConfigurationText& configuration, const LegGeometry& geometry);
 
 /// The inverse. Members that the text lacks keep their values. Errors: `InputError` for an unknown
 /// key, and for values of the wrong kind.

@@ -21,7 +21,7 @@ using Made = std::unique_ptr<ContactEstimator>;
 struct Recipe {
   std::string_view name;
   std::string_view fit;  ///< name of the estimator with the same fit
-  std::function<ConfigurationText(double sample_rate, const LegGeometry& legs)> configuration;
+  std::function<ConfigurationText(double sample_rate)> configuration;
   std::function<Made(const Model& model, const EstimatorSettings& settings)> make;
 };
 
@@ -50,36 +50,23 @@ BayesFilterConfig configured(BayesFilterConfig config, const EstimatorSettings& 
   return at_rate(config, settings.sample_rate);
 }
 
-/// An estimator of a model's numbers, which `numbers_of` reads. `usual` is its configuration on
-/// Upkie at the library's rate.
-template <typename Estimator, auto numbers_of, typename Config>
+/// An estimator of a model's numbers, which `numbers_of` reads if there are any. `usual` is its
+/// configuration on Upkie at the library's rate.
+template <typename Estimator, auto... numbers_of, typename Config>
 Recipe recipe_of(std::string_view name, std::string_view fit, const Config& usual) {
   return {name, fit,
-          [usual](double rate, const LegGeometry& /*legs*/) {
+          [usual]([[maybe_unused]] double rate) {
             if constexpr (requires { usual.transition; }) return text_of(at_rate(usual, rate));
             return text_of(usual);
           },
-          [usual](const Model& model, const EstimatorSettings& settings) -> Made {
-            return std::make_unique<Estimator>(numbers_of(model), configured(usual, settings));
+          [usual]([[maybe_unused]] const Model& model, const EstimatorSettings& settings) -> Made {
+            return std::make_unique<Estimator>(numbers_of(model)..., configured(usual, settings));
           }};
 }
 
 template <typename Estimator>
 Recipe of_torques(std::string_view name, std::string_view fit, const BayesFilterConfig& config) {
   return recipe_of<Estimator, grid_of>(name, fit, config);
-}
-
-/// The filter of loads has nothing to fit: its model is the robot's geometry, in the metadata.
-Recipe of_geometry(std::string_view name) {
-  return {name, name,
-          [](double /*rate*/, const LegGeometry& legs) {
-            return text_of(LoadFilterConfig{.geometry = legs});
-          },
-          [](const Model& /*model*/, const EstimatorSettings& settings) -> Made {
-            LoadFilterConfig config = configured(LoadFilterConfig{}, settings);
-            if (settings.geometry) config.geometry = *settings.geometry;
-            return std::make_unique<LoadFilter>(config);
-          }};
 }
 
 const std::vector<Recipe>& recipes() {
@@ -92,7 +79,8 @@ const std::vector<Recipe>& recipes() {
         of_torques<BayesFilter>("paper_rms", "paper", BayesFilterConfig::paper_rms()),
         of_torques<MeasurementOnly>("measurement_only", "robust", robust),
         recipe_of<NeuralEstimator, network_of>("nmn", "nmn", NeuralEstimatorConfig{}),
-        of_geometry(load_filter_name)};
+        // It has nothing to fit: its model is the robot's geometry, in the metadata.
+        recipe_of<LoadFilter>(load_filter_name, load_filter_name, LoadFilterConfig{})};
     for (const AblationStep& step : steps_from_paper_to_robust()) {
       const bool shares_fit = step.config.measurement == robust.measurement;
       recipes.push_back(
@@ -103,12 +91,6 @@ const std::vector<Recipe>& recipes() {
   return all;
 }
 
-const Recipe* find_recipe(std::string_view name) {
-  const auto found = std::find_if(recipes().begin(), recipes().end(),
-                                  [&](const Recipe& each) { return each.name == name; });
-  return found == recipes().end() ? nullptr : &*found;
-}
-
 /// "a, b, c".
 std::string listed(const auto& all, const auto& name_of) {
   std::string names;
@@ -117,7 +99,8 @@ std::string listed(const auto& all, const auto& name_of) {
 }
 
 const Recipe& recipe(std::string_view name) {
-  if (const Recipe* found = find_recipe(name)) return *found;
+  const auto found = std::ranges::find(recipes(), name, &Recipe::name);
+  if (found != recipes().end()) return *found;
   throw InputError("no model is fitted for '" + std::string(name) + "': expected one of " +
                    listed(recipes(), [](const Recipe& each) { return each.name; }));
 }
@@ -134,7 +117,7 @@ ConfigurationText configuration_for(const ModelMetadata& metadata, const std::st
   ConfigurationText configuration;
   if (estimator == metadata.estimator) configuration = metadata.configuration;
   if (replaced.empty()) return configuration;
-  const ConfigurationText usual = recipe(estimator).configuration(metadata.sample_rate, {});
+  const ConfigurationText usual = recipe(estimator).configuration(metadata.sample_rate);
   if (configuration.empty()) configuration = usual;
   for (const auto& [key, value] : replaced) {
     if (!usual.contains(key) && !is_signal_bound(key))
@@ -142,19 +125,6 @@ ConfigurationText configuration_for(const ModelMetadata& metadata, const std::st
     configuration[key] = value;
   }
   return configuration;
-}
-
-/// `usual` is the estimator's default configuration. Errors: `InputError` if it has no legs.
-void put_legs(const LegGeometry& legs, const ConfigurationText& usual, ModelMetadata& metadata) {
-  bool uses_legs = false;
-  for (const auto& [key, value] : text_of(legs)) {
-    if (!usual.contains(key) && !metadata.configuration.contains(key)) continue;
-    metadata.configuration[key] = value;
-    uses_legs = true;
-  }
-  if (uses_legs) return;
-  throw InputError("'" + metadata.estimator +
-                   "' uses no kinematics, so legs do not adapt it: fit it to the robot");
 }
 
 }  // namespace
@@ -183,7 +153,7 @@ Model load_filter_model(const LegGeometry& legs, double sample_rate, const std::
   model.metadata = ModelMetadata{.estimator = name,
                                  .sample_rate = sample_rate,
                                  .robot = robot,
-                                 .configuration = default_configuration(name, sample_rate, legs),
+                                 .configuration = text_of(LoadFilterConfig{.geometry = legs}),
                                  .fingerprint = {}};
   return model_of(arrays_of(model));  // with the fingerprint
 }
@@ -193,12 +163,9 @@ std::unique_ptr<ContactEstimator> make_estimator(std::span<const CompiledArray> 
   return make_estimator(arrays_of(model), use);
 }
 
-ConfigurationText default_configuration(std::string_view estimator, double sample_rate,
-                                        const LegGeometry& legs) {
-  return recipe(estimator).configuration(sample_rate, legs);
+ConfigurationText default_configuration(std::string_view estimator, double sample_rate) {
+  return recipe(estimator).configuration(sample_rate);
 }
-
-bool makes_estimator(std::string_view name) { return find_recipe(name) != nullptr; }
 
 bool share_fit(std::string_view estimator, std::string_view other) {
   return estimator == other || recipe(estimator).fit == recipe(other).fit;
@@ -238,12 +205,13 @@ std::unique_ptr<ContactEstimator> make_estimator(const Model& model, const Model
   const std::string& name = use.estimator.empty() ? metadata.estimator : use.estimator;
   const bool is_fitted_rate =
       use.sample_rate == 0.0 || is_same_rate(use.sample_rate, metadata.sample_rate);
+  ConfigurationText configuration = configuration_for(metadata, name, use.configuration);
+  if (use.geometry && name == load_filter_name) put_into(configuration, *use.geometry);
   Made made =
       make_with(model, {.estimator = name,
                         .sample_rate = is_fitted_rate ? metadata.sample_rate : use.sample_rate,
-                        .configuration = configuration_for(metadata, name, use.configuration),
-                        .configured_rate = metadata.sample_rate,
-                        .geometry = use.geometry});
+                        .configuration = std::move(configuration),
+                        .configured_rate = metadata.sample_rate});
   ConfigurationText bounds = use.configuration;  // of the robot, whichever estimator it runs
   bounds.insert(metadata.configuration.begin(), metadata.configuration.end());
   made->limit_signals(signal_bounds_of(bounds));
@@ -260,9 +228,14 @@ Model model_for(Model model, const ModelUse& use) {
   ModelMetadata metadata = metadata_for(model, any_robot);
   any_robot.estimator = metadata.estimator;
   make_estimator(model, any_robot);  // fails here rather than on the robot
-  const ConfigurationText usual = default_configuration(metadata.estimator, metadata.sample_rate);
-  if (metadata.configuration.empty()) metadata.configuration = usual;
-  if (use.geometry) put_legs(*use.geometry, usual, metadata);
+  if (use.geometry && metadata.estimator != load_filter_name) {
+    throw InputError("'" + metadata.estimator +
+                     "' uses no kinematics, so legs do not adapt it: fit it to the robot");
+  }
+  if (metadata.configuration.empty()) {
+    metadata.configuration = default_configuration(metadata.estimator, metadata.sample_rate);
+  }
+  if (use.geometry) put_into(metadata.configuration, *use.geometry);
   for (const auto& [key, value] : use.configuration) metadata.configuration[key] = value;
   if (use.geometry || metadata.robot.empty()) metadata.robot = use.robot;
   model.metadata = std::move(metadata);

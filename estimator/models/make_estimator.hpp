@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,8 +32,6 @@ struct EstimatorSettings {
   /// Members that replace those of the estimator's default configuration.
   ConfigurationText configuration = {};
   double configured_rate = 0.0;  ///< at which windows in `configuration` count steps (Hz)
-  /// The robot's legs; they take precedence over those in `configuration`.
-  std::optional<LegGeometry> geometry = {};
 };
 
 /// Makes an estimator of a model with these settings, whatever rates and robots the model serves.
@@ -42,13 +39,9 @@ struct EstimatorSettings {
 /// for settings that the estimator refuses.
 std::unique_ptr<ContactEstimator> make_with(const Model& model, const EstimatorSettings& settings);
 
-/// The default configuration of an estimator at this rate (Hz), on a robot with these legs. Errors:
+/// The default configuration of an estimator at this rate (Hz), on Upkie's legs. Errors:
 /// `InputError` for a name of which no model is fitted.
-ConfigurationText default_configuration(std::string_view estimator, double sample_rate,
-                                        const LegGeometry& legs = {});
-
-/// Whether this library makes an estimator of this name from a model. Experiments have others, too.
-bool makes_estimator(std::string_view name);
+ConfigurationText default_configuration(std::string_view estimator, double sample_rate);
 
 /// Writes `use` into the model's metadata, so that programs need not repeat it when they load the
 /// model: the members of the configuration and, if `use` has legs, those, the mass and the robot's

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/yaml.hpp"
+#include "estimator/models/configuration.hpp"
 #include "estimator/models/make_estimator.hpp"
 #include "estimator/numerics/number_text.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
@@ -94,8 +95,10 @@ noise::SensorNoise noise_of(const Sensors& sensors, const noise::SensorNoise& le
 
 std::unique_ptr<ContactEstimator> make_of_model(const EstimatorEntry& entry,
                                                 const EstimatorSetup& setup) {
+  static const Model none;  // the load filter needs only legs
+  const Model& model = setup.model == nullptr ? none : *setup.model;
   ConfigurationText configuration = entry.configuration;
-  const std::optional<ModelMetadata>& metadata = setup.model->metadata;
+  const std::optional<ModelMetadata>& metadata = model.metadata;
   if (metadata && share_fit(metadata->estimator, entry.name)) {
     configuration.insert(metadata->configuration.begin(), metadata->configuration.end());
   }
@@ -104,13 +107,12 @@ std::unique_ptr<ContactEstimator> make_of_model(const EstimatorEntry& entry,
       if (!one.is_fitted_with) configuration[one.name] = text_of(one.value);
     }
   }
-  return make_with(
-      *setup.model,
-      {.estimator = entry.name,
-       .sample_rate = setup.sample_rate,
-       .configuration = std::move(configuration),
-       .configured_rate = setup.configured_rate > 0.0 ? setup.configured_rate : setup.sample_rate,
-       .geometry = setup.legs});
+  if (setup.legs && entry.knows.geometry) put_into(configuration, *setup.legs);
+  return make_with(model, {.estimator = entry.name,
+                           .sample_rate = setup.sample_rate,
+                           .configuration = std::move(configuration),
+                           .configured_rate = setup.configured_rate > 0.0 ? setup.configured_rate
+                                                                          : setup.sample_rate});
 }
 
 std::string given_text(const EstimatorEntry& entry) {

@@ -3,34 +3,19 @@
 
 namespace touchdown::experiments {
 
-namespace {
-
-std::unique_ptr<ContactEstimator> make_load_filter(const EstimatorEntry& entry,
-                                                   const EstimatorSetup& setup) {
-  return std::make_unique<LoadFilter>(
-      LoadFilterConfig{.sample_rate = setup.sample_rate,
-                       .geometry = setup.legs.value_or(LegGeometry{}),
-                       .lead = entry.chosen("lead"),
-                       .leave_below = entry.chosen("leave_below"),
-                       .return_above = entry.chosen("return_above")});
-}
-
-EstimatorEntry load_filter_entry() {
+std::vector<EstimatorEntry> force_entries() {
   const LoadFilterConfig usual;
-  return {.name = "load_filter",
-          .title = "Load filter",
-          .summary = "Filters each wheel's load, by its leg's equations of motion, with two states",
-          .reason = "data: no labels; any robot, by its file alone",
-          .sensors = all_sensors,
-          .knows = {.geometry = true, .mass = true, .targets = true},
-          .hyperparameters = {between("lead", usual.lead, 0.0, 0.02),
-                              between("leave_below", usual.leave_below, 0.005, 0.4),
-                              between("return_above", usual.return_above, 0.5, 0.995)},
-          .making = {.by_step = make_load_filter}};
+  return {
+      {.name = "load_filter",
+       .title = "Load filter",
+       .summary = "Filters each wheel's load, by its leg's equations of motion, with two states",
+       .reason = "data: no labels; any robot, by its file alone",
+       .sensors = all_sensors,
+       .knows = {.geometry = true, .mass = true, .targets = true},
+       .hyperparameters = {between("lead", usual.lead, 0.0, 0.02),
+                           between("leave_below", usual.leave_below, 0.005, 0.4),
+                           between("return_above", usual.return_above, 0.5, 0.995)},
+       .making = {.by_step = make_of_model}}};
 }
-
-}  // namespace
-
-std::vector<EstimatorEntry> force_entries() { return {load_filter_entry()}; }
 
 }  // namespace touchdown::experiments

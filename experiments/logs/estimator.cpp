@@ -22,6 +22,9 @@ const EstimatorEntry& usual_estimator(const Model& model) {
   return estimator_entry(name.empty() ? "robust" : name);
 }
 
+/// Of the load filter it is the robot's geometry.
+bool takes_model(const EstimatorEntry& entry) { return entry.making.by_step == make_of_model; }
+
 /// Errors: `InputError` that names the file, for numbers or a configuration that the estimator
 /// cannot be made with.
 void check_model(const EstimatorEntry& entry, const Model& model,
@@ -36,10 +39,11 @@ void check_model(const EstimatorEntry& entry, const Model& model,
 /// Errors: `InputError` for a model that this estimator cannot use.
 void check_fit(const EstimatorEntry& entry, const Model& model, const std::filesystem::path& path) {
   const EstimatorEntry& usual = usual_estimator(model);
-  if (!usual.fits()) {
+  if (!takes_model(usual)) {
     throw InputError(fmt::format("{}: is the model of '{}', which needs no --model here",
                                  path.string(), usual.name));
   }
+  if (entry.name == usual.name) return;
   // A grid without metadata serves every filter of torques.
   if (model.metadata ? share_model(entry, usual) : entry.fitting.torques.has_value()) return;
   throw InputError(
@@ -52,7 +56,7 @@ void check_needs(const EstimatorEntry& entry, const std::filesystem::path& model
     throw InputError(fmt::format(
         "--estimator: the {} repeats the ground truth and does not run on logs", entry.name));
   }
-  if (!entry.fits() && !model.empty()) {
+  if (!takes_model(entry) && !model.empty()) {
     throw InputError(fmt::format("--model: '{}' is not fitted and takes none", entry.name));
   }
   if (entry.fits() && model.empty()) {
@@ -133,6 +137,11 @@ LogEstimator log_estimator(LogEstimatorRequest request) {
   check_fit(entry, model, request.model);
   EstimatorEntry own = configured(entry, model);
   check_model(own, model, request.model);
+  if (own.knows.geometry && !request.robot.legs) {
+    LoadFilterConfig config;
+    configure(config, own.configuration);
+    request.robot.legs = config.geometry;
+  }
   check_names(request.hyperparameters, entry);
   for (const Hyperparameter& hyperparameter : entry.hyperparameters) {
     const std::string& name = hyperparameter.name;

@@ -20,7 +20,8 @@ inline constexpr const char* default_estimator = "load_filter";
 struct LogEstimatorRequest {
   std::string name = {};             ///< empty: the model's; without a model, `default_estimator`
   std::filesystem::path model = {};  ///< empty: none
-  /// Robot of the logs. Its legs, or those of a simulated log's own robot, replace the model's.
+  /// Robot of the logs. Without its legs the load filter uses the model's, else those of a
+  /// simulated log's own robot.
   LogRobot robot = {};
   /// Allows other rates and robots than those that the model was fitted for.
   bool transfer = false;

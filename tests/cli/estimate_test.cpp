@@ -316,7 +316,8 @@ TEST_F(Estimate, RecognizesTheEstimatorOfAModel) {
   std::vector<Refusal> refusals = {
       {"--model p.npz --estimator robust",
        {"p.npz: is a model of 'paper', which 'robust' cannot use", "--estimator paper?"}},
-      {"--model m.npz --estimator load_filter", {"'load_filter'", "takes none"}},
+      {"--model m.npz --estimator load_filter",
+       {"m.npz: is a model of 'robust', which 'load_filter' cannot use"}},
       {"--model lode.npz", {"lode.npz: ", "'lode'"}},
       {"--model evidence_curves.npz", {"was fitted for 'evidence_curves'", "load_filter"}}};
   for (Refusal& refusal : refusals) refusal.arguments.insert(0, "estimate a.mpack ");
