@@ -40,9 +40,9 @@ double EstimatorEntry::chosen(std::string_view hyperparameter) const {
   return found->value;
 }
 
-Model EstimatorEntry::fit(const FitRuns& runs) const {
-  for (const RunSignals* run : runs.whole) check_may_be_fitted(run->info);
-  return fitting.fit(*this, runs);
+Model EstimatorEntry::fit(FitRuns runs, double skip) const {
+  for (const RunSignals* run : runs) check_may_be_fitted(run->info);
+  return fitting.fit(*this, runs, skip);
 }
 
 std::unique_ptr<ContactEstimator> EstimatorEntry::make(const EstimatorSetup& setup) const {

@@ -13,7 +13,7 @@
 #include "estimator/contact_estimator.hpp"
 #include "estimator/force/leg_geometry.hpp"
 #include "experiments/batch/noise_level.hpp"
-#include "experiments/estimators/fit_runs.hpp"
+#include "experiments/estimators/fits.hpp"
 #include "experiments/estimators/fitted_model.hpp"
 #include "experiments/signals/estimator_runner.hpp"
 #include "noise/sensor_noise.hpp"
@@ -90,7 +90,7 @@ struct EstimatorEntry;
 /// How a model of the estimator is fitted.
 struct FitMethod {
   /// Null for an estimator that experiments do not fit.
-  Model (*fit)(const EstimatorEntry& entry, const FitRuns& runs) = nullptr;
+  Model (*fit)(const EstimatorEntry& entry, FitRuns runs, double skip) = nullptr;
   /// The program that trained its model, if experiments do not fit it.
   std::string trained_by = {};
   std::optional<MeasurementConfig> torques = {};  ///< settings of the densities that it fits
@@ -136,9 +136,9 @@ struct EstimatorEntry {
 
   /// Whether experiments fit a model of it.
   bool fits() const { return fitting.fit != nullptr; }
-  /// Fits its model, still without metadata. Errors: `InputError` for runs of reserved seeds; those
-  /// of its function.
-  Model fit(const FitRuns& runs) const;
+  /// Fits its model, still without metadata, to runs without their first `skip` seconds. Errors:
+  /// `InputError` for runs of reserved seeds; those of its function.
+  Model fit(FitRuns runs, double skip) const;
   /// Makes it step by step. Errors: `InputError` for an estimator that processes whole runs only;
   /// the errors of its library class.
   std::unique_ptr<ContactEstimator> make(const EstimatorSetup& setup) const;

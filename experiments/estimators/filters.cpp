@@ -8,7 +8,6 @@
 #include "experiments/batch/bayes.hpp"
 #include "experiments/batch/neural.hpp"
 #include "experiments/estimators/entries.hpp"
-#include "experiments/estimators/fits.hpp"
 
 namespace touchdown::experiments {
 
@@ -55,8 +54,8 @@ std::optional<BatchedEstimator> batch_of_torques(const EstimatorEntry& entry,
       [batch](Side side) { return batch->p_contact(side); }, config.threshold};
 }
 
-Model fit_measurement(const EstimatorEntry& entry, const FitRuns& runs) {
-  return {.grid = fit_torques(runs, *entry.fitting.torques)};
+Model fit_measurement(const EstimatorEntry& entry, FitRuns runs, double skip) {
+  return {.grid = fit_torques(runs, skip, *entry.fitting.torques)};
 }
 
 /// The network that comes with the project.

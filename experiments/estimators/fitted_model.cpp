@@ -11,14 +11,6 @@
 
 namespace touchdown::experiments {
 
-ModelMetadata new_metadata(const std::string& estimator, const FittedTo& fitted_to) {
-  return {.estimator = estimator,
-          .sample_rate = fitted_to.sample_rate,
-          .robot = fmt::format("{}", fmt::join(fitted_to.robots, ", ")),
-          .configuration = default_configuration(estimator, fitted_to.sample_rate),
-          .fingerprint = {}};
-}
-
 HyperparameterValues hyperparameters_of(const std::vector<std::string>& assignments) {
   HyperparameterValues hyperparameters;
   for (const std::string& one : assignments) {
@@ -36,6 +28,17 @@ void put_into(ModelMetadata& metadata, const HyperparameterValues& hyperparamete
   for (const auto& [name, value] : hyperparameters) {
     if (metadata.configuration.contains(name)) metadata.configuration[name] = text_of(value);
   }
+}
+
+void describe_fit(const std::string& estimator, const FittedTo& fitted_to,
+                  const HyperparameterValues& hyperparameters, Model& model) {
+  model.metadata = {.estimator = estimator,
+                    .sample_rate = fitted_to.sample_rate,
+                    .robot = fmt::format("{}", fmt::join(fitted_to.robots, ", ")),
+                    .configuration = default_configuration(estimator, fitted_to.sample_rate),
+                    .fingerprint = {}};
+  put_into(*model.metadata, hyperparameters);
+  model.arrays[std::string(provenance_array)] = fitted_to.provenance(estimator);
 }
 
 }  // namespace touchdown::experiments

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "estimator/models/model.hpp"
-#include "experiments/estimators/fit_runs.hpp"
+#include "experiments/estimators/fits.hpp"
 
 namespace touchdown::experiments {
 
@@ -19,14 +19,16 @@ struct FittedModel : Model {
   HyperparameterValues hyperparameters = {};
 };
 
-/// The metadata of a new fit.
-ModelMetadata new_metadata(const std::string& estimator, const FittedTo& fitted_to);
-
 /// Parses assignments of the form "name=number". Errors: `InputError` for anything else.
 HyperparameterValues hyperparameters_of(const std::vector<std::string>& assignments);
 
 /// Copies those values into the configuration of the metadata that it has.
 void put_into(ModelMetadata& metadata, const HyperparameterValues& hyperparameters);
+
+/// Adds the metadata and the provenance of a new fit. Its configuration takes over those values as
+/// `put_into` does.
+void describe_fit(const std::string& estimator, const FittedTo& fitted_to,
+                  const HyperparameterValues& hyperparameters, Model& model);
 
 /// Models by the key of their fit (`model_key`), then by estimator. Estimators with the same fit
 /// share a model.

@@ -101,7 +101,7 @@ std::vector<scoring::EventScore> run_fold(const FoldJob& job, const Fold& fold,
                                           std::span<const Trial> trials,
                                           const Experiment& experiment,
                                           const std::function<void()>& stop_if_asked) {
-  const FitRuns runs{fold.fitted, experiment.scoring};
+  const double skip = experiment.scoring.skip;
   HeldOut held_out{fold.held_out, {}};
   constexpr std::uint64_t tuning_stream = 0x74756e696e67;  // "tuning": no other run has its noise
   for (const RunSignals* run : fold.held_out) {
@@ -120,8 +120,8 @@ std::vector<scoring::EventScore> run_fold(const FoldJob& job, const Fold& fold,
       const HyperparameterValues& hyperparameters = trials[number].hyperparameters;
       const EstimatorEntry entry = with_hyperparameters(*job.entry, hyperparameters);
       if (entry.fits()) {
-        if (number == numbers.front()) model = entry.fit(runs);
-        describe_fit(entry.name, runs, hyperparameters, model);
+        if (number == numbers.front()) model = entry.fit(fold.fitted, skip);
+        describe_fit(entry.name, fitted_to(fold.fitted, skip), hyperparameters, model);
       }
       scores[number] = score_on(held_out, entry, model, experiment, stop_if_asked);
     }

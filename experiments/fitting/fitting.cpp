@@ -147,14 +147,6 @@ RunPointers of_engine(const RunPointers& runs, const std::string& simulator) {
   return own;
 }
 
-void describe_fit(const std::string& estimator, const FitRuns& runs,
-                  const HyperparameterValues& hyperparameters, Model& model) {
-  const FittedTo fitted = fitted_to(runs.whole, runs.scoring.skip);
-  model.metadata = new_metadata(estimator, fitted);
-  put_into(*model.metadata, hyperparameters);
-  model.arrays[std::string(provenance_array)] = fitted.provenance(estimator);
-}
-
 FittedModels fit_models(const Experiment& experiment, const RunPointers& fit_runs,
                         const std::function<bool()>& should_continue,
                         const TunedHyperparameters& of_tuning) {
@@ -163,16 +155,14 @@ FittedModels fit_models(const Experiment& experiment, const RunPointers& fit_run
   const auto stop_if_asked = [&] {
     if (should_continue && !should_continue()) throw Stopped();
   };
-  const auto runs_of = [&](const std::string& simulator) {
-    return FitRuns{of_engine(fit_runs, simulator), experiment.scoring};
-  };
+  const double skip = experiment.scoring.skip;
   Progress progress("fitting", "models", static_cast<std::int64_t>(jobs.size()));
   tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
     stop_if_asked();
     Job& job = jobs[i];
     const std::string& simulator = job.simulator;
     try {
-      job.model = job.entry.fit(runs_of(simulator));
+      job.model = job.entry.fit(of_engine(fit_runs, simulator), skip);
     } catch (const InputError& error) {
       throw InputError(fmt::format("fit on {}: {}", simulator, error.what()));
     }
@@ -184,11 +174,11 @@ FittedModels fit_models(const Experiment& experiment, const RunPointers& fit_run
       models[simulator][name].hyperparameters = hyperparameters;
   }
   for (Job& job : jobs) {
-    const FitRuns runs = runs_of(job.simulator);
+    const FittedTo fitted = fitted_to(of_engine(fit_runs, job.simulator), skip);
     for (const std::string& name : job.estimators) {
       FittedModel& model = models[job.simulator][name];
       static_cast<Model&>(model) = job.model;
-      describe_fit(name, runs, model.hyperparameters, model);
+      describe_fit(name, fitted, model.hyperparameters, model);
     }
   }
   return models;

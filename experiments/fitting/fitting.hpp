@@ -22,11 +22,6 @@ TunedHyperparameters or_given(TunedHyperparameters chosen, const Experiment& exp
 /// The runs of one engine.
 RunPointers of_engine(const RunPointers& runs, const std::string& simulator);
 
-/// Adds the metadata and the provenance of an estimator's model that is fitted to these runs. Its
-/// configuration takes over chosen values as `put_into` does.
-void describe_fit(const std::string& estimator, const FitRuns& runs,
-                  const HyperparameterValues& hyperparameters, Model& model);
-
 /// Fits the models of the experiment's estimators, for each engine on its own runs, in parallel.
 /// Every model contains the chosen or given hyperparameters, also for estimators without a fit.
 /// `should_continue` is called before each fit. Errors: `Stopped` when it returns false.

@@ -150,9 +150,7 @@ Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
   FittedTo& fitted_to = report.fitted_to;
   for (const auto& [digest, name] : report.digests) fitted_to.logs.insert(digest);
   if (!config.robot.name.empty()) fitted_to.robots = {config.robot.name};
-  model.arrays[std::string(provenance_array)] = fitted_to.provenance(entry.name);
-  model.metadata = new_metadata(entry.name, fitted_to);
-  put_into(*model.metadata, config.hyperparameters);
+  describe_fit(entry.name, fitted_to, config.hyperparameters, model);
   return model;
 }
 

@@ -60,8 +60,9 @@ class Estimate : public InFolder {
         experiments::signals_of(fitted, {}, {}, scoring::SampleUnit::run);
     MeasurementConfig config = BayesFilterConfig::robust().measurement;
     config.fit.knee_count = config.fit.wheel_count = 60;
-    logs::save_model({.grid = experiments::fit_torques({.whole = {&run}}, config)},
-                     folder_ / "m.npz");
+    logs::save_model(
+        {.grid = experiments::fit_torques(experiments::RunPointers{&run}, 0.3, config)},
+        folder_ / "m.npz");
   }
 
   void log(const std::string& name, const logs::Recording& recording) const {

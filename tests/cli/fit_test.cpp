@@ -72,7 +72,7 @@ TEST_F(Fit, OfLabelledLogsEqualsTheFitOfExperiments) {
     const experiments::RunSignals b = signals_of_log("b.mpack");
     const Model written = load_model(folder_ / "m.npz");
     expect_same(*written.grid, experiments::fit_torques(
-                                   {.whole = {&a, &b}},
+                                   experiments::RunPointers{&a, &b}, 0.3,
                                    experiments::estimator_entry(name).fitting.torques.value()));
     EXPECT_THAT(text_of_array(written.arrays.at("provenance"), "provenance"),
                 HasSubstr("seed:run: 5:0\n"));

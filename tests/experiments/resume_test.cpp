@@ -34,9 +34,9 @@ std::unique_ptr<ContactEstimator> counted_make(const EstimatorEntry& entry,
   return ablation_step().making.by_step(entry, setup);
 }
 
-Model counted_fit(const EstimatorEntry& entry, const FitRuns& runs) {
+Model counted_fit(const EstimatorEntry& entry, FitRuns runs, double skip) {
   ++asked.fits;
-  return ablation_step().fitting.fit(entry, runs);
+  return ablation_step().fitting.fit(entry, runs, skip);
 }
 
 /// Six test runs in two engines with two noise seeds each; no recording is kept.

@@ -76,7 +76,7 @@ TEST(FittedModel, IsNeverFittedToReservedSeeds) {
         << name;
     // A direct call of the entry's fit is refused, too.
     const EstimatorEntry& entry = any_estimator_entry(name);
-    EXPECT_THROW(entry.fit({.whole = {&reserved}}), InputError) << name;
+    EXPECT_THROW(entry.fit(RunPointers{&reserved}, 0.0), InputError) << name;
   }
 }
 

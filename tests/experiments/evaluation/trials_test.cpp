@@ -66,11 +66,12 @@ std::vector<double> beliefs(const EstimatorEntry& plain,
                             const HyperparameterValues& hyperparameters, const RunSignals& fitted,
                             const RunSignals& run) {
   const EstimatorEntry entry = with_hyperparameters(plain, hyperparameters);
-  const FitRuns runs{{&fitted}};
+  const RunPointers runs = {&fitted};
+  const double skip = scoring::ScoringConfig{}.skip;
   Model model;
   if (entry.fits()) {
-    model = entry.fit(runs);
-    describe_fit(entry.name, runs, hyperparameters, model);
+    model = entry.fit(runs, skip);
+    describe_fit(entry.name, fitted_to(runs, skip), hyperparameters, model);
   }
   EstimatorRunner runner = entry.runner({1000.0, &model, run.legs, &run.contact});
   const NoiseRun noise = noise_run(run, {.seed = 3, .run = 1});

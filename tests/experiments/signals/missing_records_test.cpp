@@ -77,7 +77,7 @@ TEST(MissingRecords, AndNanTorquesAreLeftOutOfMeasurementFits) {
   run.signals[2650].leg[1].knee.torque = nan;
   MeasurementConfig config;
   config.torque.low_pass = 0.0;
-  const MeasurementModel with = fit_torques({.whole = {&run}}, config);
+  const MeasurementModel with = fit_torques(RunPointers{&run}, 0.3, config);
   std::vector<TorqueSample> contact, no_contact;
   for (std::size_t leg = 0; leg < 2; ++leg) {
     TorqueChannel channel(config.torque, static_cast<Side>(leg), 1000.0);
