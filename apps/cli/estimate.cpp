@@ -66,7 +66,7 @@ class BeliefWriter {
            const ContactEstimator& estimator, const Belief& belief) {
     const double time = step.signals.time;
     summary_->add(time, belief);
-    score_->add(step, belief);
+    score_->add(step.normal_force, belief);
     if (bag_) bag_->write(time, reader.start_time(), belief);
     if (!csv_ && !annotator_ && !drawn_) return;
     const Evidence evidence = estimator.evidence();

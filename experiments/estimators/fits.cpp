@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <filesystem>
 #include <vector>
 
 #include <fmt/format.h>
@@ -36,14 +35,16 @@ MeasurementModel fit_torques(FitRuns runs, double skip, const MeasurementConfig&
   return fit_measurement_model(contact, no_contact, config.fit);
 }
 
-std::string robot_of(const logs::RecordingInfo& info) {
-  if (info.scenario_yaml.empty()) return info.robot;
+std::filesystem::path robot_file_of(const logs::RecordingInfo& log) {
+  if (log.scenario_yaml.empty()) return {};
   const YamlDocument scenario =
-      YamlDocument::parse(info.scenario_yaml, info.scenario + " (in the log)");
+      YamlDocument::parse(log.scenario_yaml, log.scenario + " (in the log)");
   const YAML::Node robot = scenario.root()["robot"];
-  return robot.IsDefined() && robot.IsScalar()
-             ? std::filesystem::path(robot.Scalar()).stem().string()
-             : "";
+  return robot.IsDefined() && robot.IsScalar() ? robot.Scalar() : std::string();
+}
+
+std::string robot_of(const logs::RecordingInfo& info) {
+  return info.scenario_yaml.empty() ? info.robot : robot_file_of(info).stem().string();
 }
 
 void FittedTo::add(const logs::RecordingInfo& info) {

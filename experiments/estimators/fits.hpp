@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <set>
 #include <span>
 #include <string>
@@ -21,6 +22,9 @@ using FitRuns = std::span<const RunSignals* const>;
 /// seconds, as in the paper's Section III.
 /// Errors: `InputError` when the runs lack contact or flight.
 MeasurementModel fit_torques(FitRuns runs, double skip, const MeasurementConfig& config);
+
+/// The path of a simulated log's robot; empty for other logs.
+std::filesystem::path robot_file_of(const logs::RecordingInfo& log);
 
 /// The name of the robot's file, without extension; empty for a log that does not name it.
 std::string robot_of(const logs::RecordingInfo& info);

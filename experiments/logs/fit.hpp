@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "estimator/force/dynamic_loads.hpp"
 #include "experiments/estimators/entry.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
@@ -31,6 +30,8 @@ struct FitLog {
   std::shared_ptr<const logs::ContactIntervals> labels = {};
   /// Every second part of the log alone, of `part_length`: the even (0) or the odd ones (1).
   std::optional<int> part = {};
+
+  bool has_labels() const { return contact || labels; }
 };
 inline constexpr double part_length = 10.0;  // s
 
@@ -70,11 +71,10 @@ class FitLogSteps {
   FitLogSteps(const FitLog& log, const LogFitConfig& config, LogFitReport& report);
 
   /// The next step, valid until the next call; null at the end of the log.
+  /// Errors: also `InputError` for a step without ground truth of contact, if there are no labels.
   const LogStep* next();
   /// Whether the step is in the log's part, and in a labelled segment if it has labels.
   bool is_covered() const;
-  /// Errors: `InputError` for a step without ground truth or labels of contact.
-  void require_truth() const;
 
   /// After the last step. Errors: `InputError` for a log with a ground truth that contradicts its
   /// declared class at more than 2 % of the steps, and for labels of which no step is used;
@@ -84,8 +84,6 @@ class FitLogSteps {
   /// The log's description, with its period.
   const logs::RecordingInfo& info() const { return info_; }
   const LogSteps& steps() const { return steps_; }
-  /// Those of the log's robot; Upkie's if its file is not known.
-  LegGeometry legs() const { return robot_.legs.value_or(LegGeometry{}); }
   /// For labels (kg).
   double robot_mass() const { return experiments::robot_mass(config_.robot, info_); }
 
@@ -95,10 +93,10 @@ class FitLogSteps {
   const FitLog& log_;
   const LogFitConfig& config_;
   LogFitReport& report_;
+  std::shared_ptr<const logs::ContactIntervals> labels_;  ///< null: the log's own truth counts
   logs::LogReader reader_;
   logs::CheckedRobot robot_;
   LogSteps steps_;
-  DynamicLoads loads_;
   logs::RecordingInfo info_;
   const LogStep* step_ = nullptr;
   double last_time_ = 0.0;

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -27,13 +26,8 @@ void add_score(const LogEstimator& chosen, const FitLog& log, const LogFitConfig
   LogScore score(reader.steps().period_us(), config.labels, reader.robot_mass(),
                  {.skip = config.skip}, true);
   while (const LogStep* step = reader.next()) {
-    LogStep known = *step;
-    if (log.contact) {
-      const double force = *log.contact ? std::numeric_limits<double>::infinity() : 0.0;
-      known.normal_force = {force, force};
-    }
-    if (!reader.is_covered()) known.normal_force.reset();
-    score.add(known, estimator->update(step->signals));
+    const Belief& belief = estimator->update(step->signals);
+    score.add(reader.is_covered() ? step->normal_force : std::nullopt, belief);
   }
   end_if(config.stop);
   if (const auto scored = score.finish()) total += *scored;
@@ -50,36 +44,32 @@ struct Fold {
   std::vector<FitLog> fitted, tested;
 };
 
-std::vector<Fold> folds_of_logs(std::span<const FitLog> logs) {
+std::vector<Fold> folds_of(std::span<const FitLog> logs, bool by_parts) {
   constexpr std::size_t most_folds = 5;
-  if (logs.size() < 2) return {};
-  std::vector<Fold> folds(std::min(logs.size(), most_folds));
+  std::vector<Fold> folds(by_parts ? 2 : std::min(logs.size(), most_folds));
   for (std::size_t i = 0; i < logs.size(); ++i) {
+    FitLog log = logs[i];
     for (std::size_t fold = 0; fold < folds.size(); ++fold) {
-      Fold& one = folds[fold];
-      (i % folds.size() == fold ? one.tested : one.fitted).push_back(logs[i]);
+      auto& [fitted, tested] = folds[fold];
+      if (!by_parts) {
+        (i % folds.size() == fold ? tested : fitted).push_back(log);
+        continue;
+      }
+      log.part = static_cast<int>(fold);
+      fitted.push_back(log);
+      log.part = 1 - *log.part;
+      tested.push_back(log);
     }
   }
   return folds;
 }
 
-std::vector<Fold> folds_of_parts(std::span<const FitLog> logs) {
-  std::vector<Fold> folds(2);
-  for (FitLog log : logs) {
-    for (int part = 0; part < 2; ++part) {
-      log.part = part;
-      folds[static_cast<std::size_t>(part)].fitted.push_back(log);
-      folds[static_cast<std::size_t>(1 - part)].tested.push_back(log);
-    }
-  }
-  return folds;
-}
-
-/// Nothing without folds, or if a fold's logs lack a class or a takeoff.
+/// Nothing with one fold alone, or if a fold's logs lack a class or a takeoff.
 std::optional<double> held_out(const EstimatorEntry& entry, const std::vector<Fold>& folds,
                                const LogFitConfig& config) {
+  if (folds.size() < 2) return {};
   std::vector<scoring::RobotScore> scores(folds.size());
-  std::atomic<bool> is_judged = !folds.empty();
+  std::atomic<bool> is_judged = true;
   tbb::parallel_for(std::size_t{0}, folds.size(), [&](std::size_t fold) {
     LogFitReport unused;
     Model other;
@@ -111,9 +101,9 @@ std::vector<scoring::RobotScore> scores_on(std::span<const FitLog> logs,
 FitAccuracy accuracy_of_fit(const EstimatorEntry& entry, std::span<const FitLog> logs,
                             const LogFitConfig& config, const Model& model) {
   FitAccuracy accuracy;
-  accuracy.held_out = held_out(entry, folds_of_logs(logs), config);
+  accuracy.held_out = held_out(entry, folds_of(logs, false), config);
   if (!accuracy.held_out) {
-    accuracy.held_out = held_out(entry, folds_of_parts(logs), config);
+    accuracy.held_out = held_out(entry, folds_of(logs, true), config);
     accuracy.by_parts = accuracy.held_out.has_value();
   }
   accuracy.fitted = balanced(scores_on(logs, log_estimator(entry, model, config.robot), config));

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "estimator/force/dynamic_loads.hpp"
 #include "logs/sample_times.hpp"
 
 namespace touchdown::experiments {
@@ -33,13 +32,6 @@ double usable_rate(logs::LogReader& reader) {
   return rate;
 }
 
-/// Stand-ins for the forces of a log with labels of contact alone.
-std::optional<std::array<double, models::wheel_count>> forces(const logs::ContactInterval* label) {
-  if (label == nullptr) return std::nullopt;
-  constexpr double some_force = std::numeric_limits<double>::infinity();
-  return {{label->contact[0] ? some_force : 0.0, label->contact[1] ? some_force : 0.0}};
-}
-
 }  // namespace
 
 /// Compares labels of contact with the load on each wheel that the torques of its leg give, so that
@@ -48,10 +40,10 @@ std::optional<std::array<double, models::wheel_count>> forces(const logs::Contac
 class LogSteps::LabelCheck {
  public:
   LabelCheck(const logs::ContactIntervals& labels, double sample_rate, const LegGeometry& legs)
-      : labels_(labels), loads_(legs, sample_rate) {}
+      : labels_(labels), model_(legs, sample_rate) {}
 
   void add(const Signals& signals) {
-    const DynamicLoads::Loads loads = loads_.update(signals);
+    loads = model_.update(signals);
     if (!std::isfinite(signals.time)) return;
     last_ = std::max(last_, signals.time);
     if (!(signals.time >= next_) || !std::isfinite(loads[0].force + loads[1].force)) return;
@@ -62,17 +54,13 @@ class LogSteps::LabelCheck {
     constexpr std::size_t most = std::size_t{1} << 15U;
     if (samples_.size() < most) return;
     interval_ *= 2.0;  // a long log needs fewer
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < samples_.size(); i += i % 4 == 1 ? 3 : 1) {
-      samples_[kept++] = samples_[i];
-    }
-    samples_.resize(kept);
+    std::size_t i = 0;
+    std::erase_if(samples_, [&](const Sample& /*of a pair*/) { return i++ % 4 >= 2; });
   }
 
   std::optional<std::string> finding() const {
     std::vector<Sample> ordered = samples_;
-    std::sort(ordered.begin(), ordered.end(),
-              [](const Sample& a, const Sample& b) { return a.load < b.load; });
+    std::ranges::sort(ordered, {}, &Sample::load);
     const std::optional<double> agreement = agreement_of(ordered, 0.0);
     constexpr double certain = 0.95;
     if (!agreement || *agreement >= certain) return std::nullopt;
@@ -117,6 +105,8 @@ class LogSteps::LabelCheck {
                     labels_.file, end, log, last_));
   }
 
+  DynamicLoads::Loads loads;  ///< of the last step
+
  private:
   struct Sample {
     double load;  ///< N
@@ -147,7 +137,7 @@ class LogSteps::LabelCheck {
   }
 
   const logs::ContactIntervals& labels_;
-  DynamicLoads loads_;
+  DynamicLoads model_;
   std::vector<Sample> samples_;
   double interval_ = 0.01;  ///< between samples (s)
   double next_ = -std::numeric_limits<double>::infinity();
@@ -178,15 +168,23 @@ const LogStep* LogSteps::next() {
   plausibility_.add(row->observation, step_.signals.target);
   add_to_digest(step_.signals);
   if (label_check_) label_check_->add(step_.signals);
-  step_.normal_force.reset();
-  if (labels_ != nullptr) {
-    step_.normal_force = forces(labels_->at(row->observation.time));
-  } else if (row->truth) {
+  step_.truth.reset();
+  if (row->truth) {
     const auto& force = row->truth->wheel_normal_force;
-    if (!std::isnan(force[0]) && !std::isnan(force[1])) step_.normal_force = force;
+    if (!std::isnan(force[0]) && !std::isnan(force[1])) step_.truth = force;
+  }
+  step_.normal_force = step_.truth;
+  if (labels_ == nullptr) return &step_;
+  step_.normal_force.reset();
+  if (const logs::ContactInterval* label = labels_->at(row->observation.time)) {
+    constexpr double some_force = std::numeric_limits<double>::infinity();
+    step_.normal_force = {label->contact[0] ? some_force : 0.0,
+                          label->contact[1] ? some_force : 0.0};
   }
   return &step_;
 }
+
+const DynamicLoads::Loads& LogSteps::loads() const { return label_check_->loads; }
 
 void LogSteps::add_to_digest(const Signals& signals) {
   const auto add = [this](double number) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "estimator/force/dynamic_loads.hpp"
 #include "logs/log/contact_intervals.hpp"
 #include "logs/log/reader.hpp"
 #include "logs/plausibility/check.hpp"
@@ -20,7 +21,9 @@ struct LogStep {
   Signals signals;
   /// Normal force on the left and the right wheel (N); infinite for a wheel in contact with an
   /// unknown force.
-  std::optional<std::array<double, models::wheel_count>> normal_force;
+  std::optional<std::array<double, models::wheel_count>> normal_force = {};
+  /// By the log itself, whatever its labels say.
+  std::optional<std::array<double, models::wheel_count>> truth = {};
 };
 
 /// Reads a log step by step, as the inputs of an estimator.
@@ -50,6 +53,9 @@ class LogSteps {
   /// What is implausible about the steps so far, and about labels that contradict the load that the
   /// torques give, one line each.
   std::vector<std::string> findings() const;
+
+  /// The loads on both wheels that the torques give at this step, for logs with labels.
+  const DynamicLoads::Loads& loads() const;
 
   /// Sixteen hexadecimal digits that identify the torques and accelerations so far: equal for
   /// copies of a log, whatever their format.

@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/resources.hpp"
-#include "core/yaml.hpp"
+#include "experiments/estimators/fits.hpp"
 #include "models/robot_description.hpp"
 #include "models/robot_model.hpp"
 #include "scenarios/leg_geometry.hpp"
@@ -42,14 +42,6 @@ constexpr const char* expected_file = "expected a robot's file (.xml, .urdf, .ya
 bool is_robots_file(const std::filesystem::path& path) {
   return path.extension() == ".xml" || path.extension() == ".urdf" ||
          models::is_about_an_mjcf(path);
-}
-
-/// The path of a simulated log's robot; empty for other logs.
-std::filesystem::path robot_file_of(const logs::RecordingInfo& log) {
-  if (log.scenario_yaml.empty()) return {};
-  const YamlDocument scenario = YamlDocument::parse(log.scenario_yaml, log.scenario);
-  const YAML::Node robot = scenario.root()["robot"];
-  return robot.IsDefined() && robot.IsScalar() ? robot.Scalar() : std::string();
 }
 
 }  // namespace

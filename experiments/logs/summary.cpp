@@ -10,13 +10,16 @@
 
 #include "core/error.hpp"
 #include "estimator/signal_guard.hpp"
+#include "experiments/results/captions.hpp"
 #include "logs/bags/topic_rows.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-constexpr std::size_t most_listed = 8;
+std::string line(std::string_view name, std::string_view words) {
+  return fmt::format("{:<12} {}\n", name, words);
+}
 
 std::string percent(std::int64_t part, std::int64_t whole) {
   return fmt::format("{:.1f} %", 100.0 * scoring::ratio(part, whole));
@@ -42,51 +45,46 @@ std::string found(const scoring::TransitionCounts& counts, std::int64_t listed,
   return text;
 }
 
-/// Landings that are all found late by the same time: an impact shows at once.
-std::string shift_text(const scoring::TransitionCounts& landing) {
-  constexpr std::int64_t few = 3;
-  constexpr double least = 0.03;  // s
-  constexpr double alike = 0.005;
-  const bool is_shifted = landing.detected >= few && landing.latency_deviation() < alike &&
-                          landing.latency_mean() >= least;
-  if (!is_shifted) return {};
-  return fmt::format(
-      "{:<12} all landings are found {:.0f} ms late: is the clock of the truth, or that of the "
-      "signals, shifted?\n",
-      "", 1e3 * landing.latency_mean());
-}
-
 /// "none": of the steps that count, none has the class.
 std::string share(double value) {
   return std::isnan(value) ? "none" : fmt::format("{:.4f}", value);
 }
 
-/// What estimators are ranked by.
-std::string ranking_text(const scoring::Score& score) {
+/// First what estimators are ranked by.
+std::string score_text(const scoring::Score& score, std::int64_t takeoffs, std::int64_t landings) {
+  const scoring::Classification& points = score.points;
   const auto median = [](const scoring::Latencies& latencies, const char* name) {
     const double ms = latencies.median();
     return std::isnan(ms) ? "" : fmt::format(", {} {:+.1f} ms", name, ms);
   };
-  return fmt::format(
-      "{:<12} F1 of takeoffs and landings {}, extra switches {:.1f}/min, long errors {:.2f} "
-      "s/min{}{}, precision of air {}, balanced accuracy {}\n",
-      "truth", share(score.events.f1()), score.extra_switches_per_minute(),
-      score.long_errors_s_per_minute(), median(score.events.takeoff, "median takeoff"),
-      median(score.events.landing, "landing"), share(score.points.no_contact_precision()),
-      share(score.points.balanced_accuracy()));
-}
-
-std::string score_text(const scoring::Score& score, std::int64_t takeoffs, std::int64_t landings) {
-  const scoring::Classification& points = score.points;
-  return ranking_text(score) +
-         fmt::format(
-             "{:<12} accuracy {}, precision of contact {}, recall of contact {}, of no contact {}, "
-             "Brier {}\n{:<12} {}; {}\n",
-             "", share(points.success()), share(points.contact_precision()),
-             share(points.contact_recall()), share(points.no_contact_recall()),
-             share(score.calibration.brier()), "", found(score.takeoff, takeoffs, "takeoffs"),
-             found(score.landing, landings, "landings")) +
-         shift_text(score.landing);
+  std::string text =
+      line("truth",
+           fmt::format("F1 of takeoffs and landings {}, extra switches {:.1f}/min, long errors "
+                       "{:.2f} s/min{}{}, precision of air {}, balanced accuracy {}",
+                       share(score.events.f1()), score.extra_switches_per_minute(),
+                       score.long_errors_s_per_minute(),
+                       median(score.events.takeoff, "median takeoff"),
+                       median(score.events.landing, "landing"),
+                       share(points.no_contact_precision()), share(points.balanced_accuracy()))) +
+      line("", fmt::format("accuracy {}, precision of contact {}, recall of contact {}, of no "
+                           "contact {}, Brier {}",
+                           share(points.success()), share(points.contact_precision()),
+                           share(points.contact_recall()), share(points.no_contact_recall()),
+                           share(score.calibration.brier()))) +
+      line("", fmt::format("{}; {}", found(score.takeoff, takeoffs, "takeoffs"),
+                           found(score.landing, landings, "landings")));
+  // Landings that are all found late by the same time: an impact shows at once.
+  const scoring::TransitionCounts& landing = score.landing;
+  constexpr std::int64_t few = 3;
+  constexpr double least = 0.03;  // s
+  constexpr double alike = 0.005;
+  if (landing.detected < few || !(landing.latency_deviation() < alike) ||
+      !(landing.latency_mean() >= least)) {
+    return text;
+  }
+  return text + line("", fmt::format("all landings are found {:.0f} ms late: is the clock of the "
+                                     "truth, or that of the signals, shifted?",
+                                     1e3 * landing.latency_mean()));
 }
 
 /// The log's own clock (ns).
@@ -170,18 +168,17 @@ LogScore::LogScore(std::int64_t period_us, const scoring::LabelConfig& labels, d
       scoring_(scoring),
       segment_counts_(segment_counts) {}
 
-void LogScore::add(const LogStep& step, const Belief& belief) {
+void LogScore::add(const std::optional<std::array<double, models::wheel_count>>& normal_force,
+                   const Belief& belief) {
   const double time = 1e-6 * static_cast<double>(period_us_ * steps_++);
-  if (!step.normal_force) {
+  if (!normal_force) {
     is_scored_ = is_scored_ && segment_counts_;
     end_segment();
     return;
   }
   for (std::size_t w = 0; w < belief.wheel.size() && time >= scoring_.skip; ++w) {
     // Labels of contact stand for an unknown force.
-    if (std::isfinite((*step.normal_force)[w])) {
-      load_.add((*step.normal_force)[w], belief.wheel[w].load);
-    }
+    if (std::isfinite((*normal_force)[w])) load_.add((*normal_force)[w], belief.wheel[w].load);
   }
   if (!is_scored_) return;
   if (!duration_) {
@@ -189,7 +186,7 @@ void LogScore::add(const LogStep& step, const Belief& belief) {
     scoring.skip = std::max(0.0, scoring_.skip - time);
     duration_.emplace(period_us_, labels_, robot_mass_, scoring);
   }
-  duration_->add(*step.normal_force, belief);
+  duration_->add(*normal_force, belief);
 }
 
 std::optional<scoring::RobotScore> LogScore::finish() {
@@ -199,9 +196,9 @@ std::optional<scoring::RobotScore> LogScore::finish() {
 
 std::string LogScore::load_text() const {
   if (load_.known() == 0) return {};
-  return fmt::format("{:<12} median error {:.2f} N, {} within 2 σ, known at {} of steps\n", "load",
-                     load_.median_error(), percent(load_.covered, load_.known()),
-                     percent(load_.known(), load_.steps));
+  return line("load", fmt::format("median error {:.2f} N, {} within 2 σ, known at {} of steps",
+                                  load_.median_error(), percent(load_.covered, load_.known()),
+                                  percent(load_.known(), load_.steps)));
 }
 
 void LogScore::end_segment() {
@@ -211,99 +208,76 @@ void LogScore::end_segment() {
   duration_.reset();
 }
 
-void LogSummary::Events::add(double time) {
-  ++count;
-  if (first.size() < most_listed) first.push_back(time);
-}
-
-std::string LogSummary::Events::text() const {
-  if (count == 0) return "none";
-  std::string text = fmt::format("{:.3f}", fmt::join(first, ", "));
-  if (count > static_cast<std::int64_t>(first.size())) text += fmt::format(" … ({} in all)", count);
-  return text;
-}
-
-void LogSummary::Clock::add(double time) {
-  if (!std::isfinite(time)) return;
-  if (std::isnan(previous)) {
-    first = last = time;
-  } else {
-    // Jitter, and stamps rounded to a tick, are no lost records.
-    constexpr double least = 2.5;  // periods
-    if (time - previous > least * period) {
-      lost += time - previous - period;
-      ++gaps;
-    }
-    if (time < previous) ++steps_back;
-    if (time == previous) ++repeated;
-  }
-  first = std::fmin(first, time);
-  last = std::fmax(last, time);
-  previous = time;
-}
-
-std::string LogSummary::Clock::text(double start) const {
-  if (std::isnan(previous)) return "no finite value";
-  std::string text = fmt::format("from {:.3f} to {:.3f} s", first, last);
-  if (start != 0.0) text += fmt::format(", 0 being {:.3f} s of the log's clock", start);
-  if (lost > 0.0) text += fmt::format("; {:.3f} s without records", lost);
-  if (gaps > 1) text += fmt::format(" in {} gaps", gaps);
-  if (steps_back > 0) {
-    text += fmt::format("; it goes back {} time{}", steps_back, steps_back == 1 ? "" : "s");
-  }
-  if (repeated > 0) text += fmt::format("; {} steps repeat the time before", repeated);
-  return text;
-}
-
-void LogSummary::WheelEvents::interrupt() {
-  raw_.reset();
-  lasting_.reset();
-}
-
-void LogSummary::WheelEvents::add(double time, bool contact) {
-  if (raw_ != contact) {
-    switches += raw_ ? 1 : 0;
-    raw_ = contact;
-    held_ = 0;
-    since_ = time;
-  }
-  if (++held_ < shortest_ || lasting_ == contact) return;
-  if (lasting_) (contact ? landings : takeoffs).add(since_);
-  lasting_ = contact;
-}
-
 LogSummary::LogSummary(double period, const scoring::ScoringConfig& scoring)
-    : clock_{period, NAN, NAN, NAN},
+    : period_(period),
       skipped_(std::llround(scoring.skip / period)),
       longest_bridged_(std::llround(SignalGuardConfig{}.maximum_gap / period)),
-      wheels_{WheelEvents(std::llround(scoring.minimum_flight / period)),
-              WheelEvents(std::llround(scoring.minimum_flight / period))} {}
-
-double LogSummary::duration() const {
-  return std::isnan(clock_.previous) ? 0.0 : clock_.last - clock_.first + clock_.period;
-}
+      shortest_(std::llround(scoring.minimum_flight / period)) {}
 
 void LogSummary::add(double time, const Belief& belief) {
-  clock_.add(time);
+  add_time(time);
+  ++status_[static_cast<std::size_t>(belief.status)];
   if (belief.status == SignalStatus::invalid && belief.unusable != SignalIndex::none) {
     ++unusable_[static_cast<std::size_t>(belief.unusable)];
   }
-  ++status_[static_cast<std::size_t>(belief.status)];
   if (steps_ == 0) first_is_degraded_ = belief.status == SignalStatus::degraded;
   if (steps_++ < skipped_) return;
-  if (is_used(belief.status)) {
-    add_valid(time, belief);
-    invalid_in_a_row_ = 0;
-  } else if (++invalid_in_a_row_ == longest_bridged_ + 1) {
-    for (WheelEvents& wheel : wheels_) wheel.interrupt();
+  if (!is_used(belief.status)) {
+    if (++invalid_in_a_row_ != longest_bridged_ + 1) return;
+    for (Wheel& wheel : wheels_) wheel.raw = wheel.lasting = std::nullopt;
+    return;
+  }
+  invalid_in_a_row_ = 0;
+  ++counted_;
+  const auto views = scoring::views_of(belief);
+  for (std::size_t v = 0; v < views.size(); ++v) contact_[v] += views[v].contact ? 1 : 0;
+  for (std::size_t w = 0; w < wheels_.size(); ++w) {
+    add_decision(time, belief.wheel[w].contact, wheels_[w]);
   }
 }
 
-void LogSummary::add_valid(double time, const Belief& belief) {
-  ++counted_;
-  const auto views = scoring::views_of(belief);
-  for (std::size_t v = 0; v < scoring::view_count; ++v) contact_[v] += views[v].contact ? 1 : 0;
-  for (std::size_t w = 0; w < wheels_.size(); ++w) wheels_[w].add(time, belief.wheel[w].contact);
+void LogSummary::add_time(double time) {
+  if (!std::isfinite(time)) return;
+  // Jitter, and stamps rounded to a tick, are no lost records.
+  constexpr double least = 2.5;  // periods
+  if (time - previous_ > least * period_) {
+    lost_ += time - previous_ - period_;
+    ++gaps_;
+  }
+  if (time < previous_) ++steps_back_;
+  if (time == previous_) ++repeated_;
+  first_ = std::fmin(first_, time);
+  last_ = std::fmax(last_, time);
+  previous_ = time;
+}
+
+void LogSummary::add_decision(double time, bool contact, Wheel& wheel) const {
+  if (wheel.raw != contact) {
+    wheel.switches += wheel.raw ? 1 : 0;
+    wheel.raw = contact;
+    wheel.held = 0;
+    wheel.since = time;
+  }
+  if (++wheel.held < shortest_ || wheel.lasting == contact) return;
+  if (wheel.lasting) {
+    const std::size_t kind = contact ? 1 : 0;
+    ++wheel.events.at(kind);
+    constexpr std::size_t most_listed = 8;
+    std::vector<double>& times = wheel.first.at(kind);
+    if (times.size() < most_listed) times.push_back(wheel.since);
+  }
+  wheel.lasting = contact;
+}
+
+std::string LogSummary::time_text(double start) const {
+  if (std::isnan(first_)) return "no finite value";
+  std::string text = fmt::format("from {:.3f} to {:.3f} s", first_, last_);
+  if (start != 0.0) text += fmt::format(", 0 being {:.3f} s of the log's clock", start);
+  if (lost_ > 0.0) text += fmt::format("; {:.3f} s without records", lost_);
+  if (gaps_ > 1) text += fmt::format(" in {} gaps", gaps_);
+  if (steps_back_ > 0) text += fmt::format("; it goes back {}", plural(steps_back_, "time"));
+  if (repeated_ > 0) text += fmt::format("; {} steps repeat the time before", repeated_);
+  return text;
 }
 
 std::string LogSummary::contact_text() const {
@@ -312,41 +286,31 @@ std::string LogSummary::contact_text() const {
                                  percent(contact_[0], counted_), percent(contact_[1], counted_),
                                  percent(contact_[2], counted_), percent(contact_[3], counted_));
   if (valid_steps() < steps_) text += fmt::format(" of {} valid steps", counted_);
-  return text +
-         fmt::format(", after the first {:g} s", static_cast<double>(skipped_) * clock_.period);
-}
-
-std::string LogSummary::events_text(std::size_t w) const {
-  const WheelEvents& wheel = wheels_[w];
-  std::string text = "no takeoff, no landing";
-  const std::int64_t events = wheel.takeoffs.count + wheel.landings.count;
-  if (events > 0) {
-    text = fmt::format("takeoffs at (s) {}; landings at (s) {}", wheel.takeoffs.text(),
-                       wheel.landings.text());
-  }
-  if (wheel.switches > events) {
-    text += fmt::format("; {} raw switches", wheel.switches);
-  }
-  return text;
+  return text + fmt::format(", after the first {:g} s", static_cast<double>(skipped_) * period_);
 }
 
 std::string LogSummary::signals_text(std::size_t findings) const {
   std::vector<std::string> parts;
-  if (valid_steps() < steps_) parts.push_back(invalid_text());
-  const auto most = std::max_element(unusable_.begin(), unusable_.end());
+  if (valid_steps() < steps_) {
+    for (const SignalStatus status :
+         {SignalStatus::invalid, SignalStatus::gap, SignalStatus::frozen}) {
+      const std::int64_t count = steps_with(status);
+      if (count > 0) parts.push_back(fmt::format("{} {}", count, to_text(status)));
+    }
+    parts = {fmt::format("{} of {} steps", fmt::join(parts, ", "), steps_)};
+  }
+  const auto most = std::ranges::max_element(unusable_);
   if (*most > 0) {
-    const auto signal = static_cast<SignalIndex>(most - unusable_.begin());
-    const auto kinds = std::count_if(unusable_.begin(), unusable_.end(),
-                                     [](std::int64_t steps) { return steps > 0; });
-    parts.push_back(fmt::format("unusable: {}{}", to_text(signal),
+    const auto kinds = std::ranges::count_if(unusable_, [](auto steps) { return steps > 0; });
+    parts.push_back(fmt::format("unusable: {}{}",
+                                to_text(static_cast<SignalIndex>(most - unusable_.begin())),
                                 kinds == 1 ? "" : fmt::format(" and {} others", kinds - 1)));
   }
   if (findings > 0) {
-    parts.push_back(fmt::format("not plausible: {} finding{}, printed above", findings,
-                                findings == 1 ? "" : "s"));
+    parts.push_back(fmt::format("not plausible: {}, printed above", plural(findings, "finding")));
   }
   if (parts.empty()) parts.emplace_back(counted_ > 0 ? "all good" : "too few to judge");
-  const std::int64_t degraded = status_[static_cast<std::size_t>(SignalStatus::degraded)];
+  const std::int64_t degraded = steps_with(SignalStatus::degraded);
   if (degraded > 0 && degraded == steps_) {
     parts.emplace_back("no targets of joints");
   } else if (degraded > (first_is_degraded_ ? 1 : 0)) {
@@ -355,30 +319,35 @@ std::string LogSummary::signals_text(std::size_t findings) const {
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-/// "3 invalid, 1 gap of 700 steps".
-std::string LogSummary::invalid_text() const {
-  std::vector<std::string> parts;
-  for (const SignalStatus status :
-       {SignalStatus::invalid, SignalStatus::gap, SignalStatus::frozen}) {
-    const std::int64_t count = status_[static_cast<std::size_t>(status)];
-    if (count > 0) parts.push_back(fmt::format("{} {}", count, to_text(status)));
-  }
-  return fmt::format("{} of {} steps", fmt::join(parts, ", "), steps_);
-}
-
 std::string LogSummary::text(const std::optional<scoring::RobotScore>& score, double start,
-                             std::size_t findings) {
-  std::string text =
-      fmt::format("{:<12} {}\n{:<12} {}\n{:<12} {}\n{:<12} {}\n{:<12} {}\n", "time",
-                  clock_.text(start), "contact", contact_text(), "left wheel", events_text(0),
-                  "right wheel", events_text(1), "signals", signals_text(findings));
+                             std::size_t findings) const {
+  const auto& [left, right] = wheels_;
+  const auto listed = [&](const Wheel& wheel, std::size_t kind) {
+    const std::vector<double>& times = wheel.first.at(kind);
+    const auto count = static_cast<std::size_t>(wheel.events.at(kind));
+    return times.empty()
+               ? "none"
+               : fmt::format("{:.3f}{}", fmt::join(times, ", "),
+                             count > times.size() ? fmt::format(" … ({} in all)", count) : "");
+  };
+  const auto events = [&](const Wheel& wheel) {
+    const std::int64_t count = wheel.events[0] + wheel.events[1];
+    return (count == 0 ? "no takeoff, no landing"
+                       : fmt::format("takeoffs at (s) {}; landings at (s) {}", listed(wheel, 0),
+                                     listed(wheel, 1))) +
+           (wheel.switches > count ? fmt::format("; {} raw switches", wheel.switches) : "");
+  };
+  std::string text = line("time", time_text(start)) + line("contact", contact_text()) +
+                     line("left wheel", events(left)) + line("right wheel", events(right)) +
+                     line("signals", signals_text(findings));
   if (score && score->wheels().points.points() == 0) {
-    text += fmt::format(
-        "{:<12} not scored: beliefs of the first {:g} s depend on the prior, and nothing follows\n",
-        "truth", static_cast<double>(skipped_) * clock_.period);
-  } else if (score) {
-    text += score_text(score->wheels(), wheels_[0].takeoffs.count + wheels_[1].takeoffs.count,
-                       wheels_[0].landings.count + wheels_[1].landings.count);
+    return text + line("truth", fmt::format("not scored: beliefs of the first {:g} s depend on the "
+                                            "prior, and nothing follows",
+                                            static_cast<double>(skipped_) * period_));
+  }
+  if (score) {
+    text += score_text(score->wheels(), left.events[0] + right.events[0],
+                       left.events[1] + right.events[1]);
   }
   return text;
 }

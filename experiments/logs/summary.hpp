@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <ostream>
@@ -69,7 +70,9 @@ class LogScore {
   LogScore(std::int64_t period_us, const scoring::LabelConfig& labels, double robot_mass,
            const scoring::ScoringConfig& scoring, bool segment_counts);
 
-  void add(const LogStep& step, const Belief& belief);
+  /// `normal_force` is known or nothing, as in `LogStep`.
+  void add(const std::optional<std::array<double, models::wheel_count>>& normal_force,
+           const Belief& belief);
 
   /// Ends the log. Returns nothing without ground truth.
   std::optional<scoring::RobotScore> finish();
@@ -108,78 +111,52 @@ class LogSummary {
   std::int64_t steps() const { return steps_; }
   /// Steps with good signals.
   std::int64_t valid_steps() const {
-    return status_[0] + status_[static_cast<std::size_t>(SignalStatus::degraded)];
+    return steps_with(SignalStatus::good) + steps_with(SignalStatus::degraded);
   }
   /// From the first to the last step by the log's clock, one step more (s).
-  double duration() const;
+  double duration() const { return std::isnan(first_) ? 0.0 : last_ - first_ + period_; }
 
   /// Ends the log. A few lines, each with a line end: time, contact, takeoffs and landings,
   /// signals, and the score if the log has ground truth. `start` is the log's clock at time 0 (s),
   /// `findings` the number of lines about implausible signals (logs/plausibility/check.hpp).
   std::string text(const std::optional<scoring::RobotScore>& score, double start = 0.0,
-                   std::size_t findings = 0);
+                   std::size_t findings = 0) const;
 
  private:
-  /// One kind of transition of one wheel.
-  struct Events {
-    std::int64_t count = 0;
-    std::vector<double> first;  ///< times (s)
-    void add(double time);
-    std::string text() const;
+  /// The decisions about one wheel. One counts once it has held for `shortest_` steps, from its
+  /// first one. After signals were missing for long, the next is no event.
+  struct Wheel {
+    std::optional<bool> raw, lasting;
+    std::int64_t held = 0;                     ///< steps of the raw decision
+    double since = 0.0;                        ///< its first time (s)
+    std::int64_t switches = 0;                 ///< of the raw decision
+    std::array<std::int64_t, 2> events{};      ///< takeoffs, landings
+    std::array<std::vector<double>, 2> first;  ///< their times (s), as far as they are listed
   };
 
-  /// Range, gaps and backward steps of a log's times.
-  struct Clock {
-    double period = 0.0;
-    double first = 0.0, last = 0.0, previous = 0.0;  ///< NaN before the first step
-    double lost = 0.0;                               ///< time without records
-    std::int64_t gaps = 0;                           ///< intervals without records
-    std::int64_t steps_back = 0;
-    std::int64_t repeated = 0;  ///< steps with the time of the one before
-    void add(double time);
-    std::string text(double start) const;
-  };
-
-  /// The lasting decisions about one wheel.
-  class WheelEvents {
-   public:
-    /// A decision counts once it has held for `shortest` steps, from its first one.
-    explicit WheelEvents(std::int64_t shortest) : shortest_(shortest) {}
-
-    void add(double time, bool contact);
-    /// Signals were missing for long, or the log ends: the next decision is no event.
-    void interrupt();
-
-    Events takeoffs;
-    Events landings;
-    std::int64_t switches = 0;  ///< of the raw decision
-
-   private:
-    std::int64_t shortest_;
-    std::optional<bool> raw_;
-    std::optional<bool> lasting_;
-    std::int64_t held_ = 0;  ///< steps of the raw decision
-    double since_ = 0.0;     ///< its first time (s)
-  };
-
-  void add_valid(double time, const Belief& belief);
+  void add_time(double time);
+  void add_decision(double time, bool contact, Wheel& wheel) const;
+  std::string time_text(double start) const;
   std::string contact_text() const;
-  std::string events_text(std::size_t wheel) const;
   std::string signals_text(std::size_t findings) const;
-  std::string invalid_text() const;
+  std::int64_t steps_with(SignalStatus status) const {
+    return status_[static_cast<std::size_t>(status)];
+  }
 
-  Clock clock_;
+  double period_;
+  std::int64_t skipped_, longest_bridged_, shortest_;      ///< steps
+  double first_ = NAN, last_ = NAN, previous_ = NAN;       ///< times; NaN before the first step
+  double lost_ = 0.0;                                      ///< time without records
+  std::int64_t gaps_ = 0, steps_back_ = 0, repeated_ = 0;  ///< of the times
+  std::int64_t steps_ = 0;
+  std::array<std::int64_t, 5> status_{};  ///< steps
   /// Steps with an invalid status, by their first unusable signal.
   std::array<std::int64_t, signal_count> unusable_{};
-  std::int64_t skipped_;
-  std::int64_t steps_ = 0;
-  std::array<std::int64_t, scoring::view_count> contact_{};
-  std::array<std::int64_t, 5> status_{};
   bool first_is_degraded_ = false;  ///< the first record has no command before it
   std::int64_t counted_ = 0;        ///< valid steps after the skipped ones
+  std::array<std::int64_t, scoring::view_count> contact_{};
   std::int64_t invalid_in_a_row_ = 0;
-  std::int64_t longest_bridged_;  ///< steps
-  std::array<WheelEvents, 2> wheels_;
+  std::array<Wheel, 2> wheels_;
 };
 
 }  // namespace touchdown::experiments

@@ -74,9 +74,7 @@ std::string text_of(const Flights& truth, const Flights& decided) {
     }
     const double force = is_in(truth, k) ? 0.0 : 26.0;
     summary.add(0.001 * k, belief);
-    LogStep step;
-    step.normal_force = {force, force};
-    score.add(step, belief);
+    score.add(std::array{force, force}, belief);
   }
   return summary.text(score.finish());
 }
