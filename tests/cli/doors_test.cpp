@@ -1,8 +1,10 @@
 #include <array>
+#include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <fstream>
+#include <map>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,11 +13,15 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
+#include "core/resources.hpp"
 #include "core/table.hpp"
 #include "estimator/models/make_estimator.hpp"
 #include "estimator/npz/load_estimator.hpp"
 #include "estimator/signal_assembler.hpp"
 #include "estimator/touchdown.h"
+#include "experiments/estimators/registry.hpp"
+#include "experiments/logs/robot.hpp"
+#include "experiments/signals/run_signals.hpp"
 #include "logs/log/recording_file.hpp"
 #include "logs/model_file.hpp"
 #include "logs/signals_from.hpp"
@@ -29,6 +35,8 @@ namespace {
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr double rpm = 360.0 * degree / 60.0;
 constexpr double g = 9.80665;
+
+constexpr const char* without_python = "the Python package is not built, or NumPy is not installed";
 
 constexpr std::array<const char*, 6> joint_names = {"lh", "lk", "lw", "rh", "rk", "rw"};
 /// Its software lists the joints from right to left, wheels first.
@@ -136,14 +144,24 @@ test::TestBag bag_of(const std::vector<Step>& steps) {
   return bag;
 }
 
-/// P(contact) of both wheels, both decisions, P(any), P(both) of each step.
-using Beliefs = std::vector<std::array<double, 6>>;
+/// P(contact) of both wheels, both decisions, P(any), P(both) of each step, and the loads on both
+/// wheels with their deviations, -1 if they are not known.
+using Numbers = std::array<double, 10>;
+using Beliefs = std::vector<Numbers>;
+
+Numbers known(Numbers numbers) {
+  for (double& number : numbers) number = std::isnan(number) ? -1.0 : number;
+  return numbers;
+}
 
 Beliefs beliefs_in(const std::filesystem::path& csv) {
   Beliefs beliefs;
   for (const auto& cells : from_csv(read_file(csv)).rows) {
-    auto& row = beliefs.emplace_back();
-    for (std::size_t i = 0; i < row.size(); ++i) row.at(i) = std::stod(cells.at(i + 1));
+    Numbers row{};
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      row.at(i) = std::stod(cells.at(i < 6 ? i + 1 : i + 4));
+    }
+    beliefs.push_back(known(row));
   }
   return beliefs;
 }
@@ -153,22 +171,49 @@ Beliefs beliefs_of_program(const std::string& log, const ProgramFolder& folder) 
   return beliefs_in(folder / "beliefs.csv");
 }
 
-std::array<double, 6> numbers_of(const Belief& belief) {
-  return {belief.wheel[0].p_contact,
-          belief.wheel[1].p_contact,
-          belief.wheel[0].contact ? 1.0 : 0.0,
-          belief.wheel[1].contact ? 1.0 : 0.0,
-          belief.p_any_wheel,
-          belief.p_both_wheels};
+Numbers numbers_of(const Belief& belief) {
+  const auto& [left, right] = belief.wheel;
+  return known({left.p_contact, right.p_contact, left.contact ? 1.0 : 0.0,
+                right.contact ? 1.0 : 0.0, belief.p_any_wheel, belief.p_both_wheels,
+                left.load.force, right.load.force, left.load.deviation, right.load.deviation});
 }
 
-/// Of the run that the robot's numbers come from, without its servos' commands.
-Beliefs beliefs_of_run(const logs::Recording& run, const std::string& model) {
-  const auto estimator = load_estimator(model);
+Beliefs beliefs_of(ContactEstimator& estimator, const std::vector<Signals>& steps) {
   Beliefs beliefs;
-  for (const models::Observation& o : run.observation) {
-    beliefs.push_back(numbers_of(estimator->update(logs::signals_from(o, nullptr))));
+  for (const Signals& signals : steps) beliefs.push_back(numbers_of(estimator.update(signals)));
+  return beliefs;
+}
+
+/// One call of the C interface.
+struct CStep {
+  touchdown_record record;
+  std::optional<std::array<touchdown_target, 6>> targets = {};
+};
+
+/// The beliefs after a reset.
+Beliefs beliefs_of_c(const std::string& model, const touchdown_conventions& conventions,
+                     const std::vector<CStep>& steps) {
+  std::array<char, 200> error{};
+  const touchdown_use use = {nullptr, 1000.0, nullptr};
+  touchdown_estimator* const estimator =
+      touchdown_create(model.c_str(), &use, error.data(), error.size());
+  EXPECT_NE(estimator, nullptr) << error.data();
+  EXPECT_EQ(touchdown_set_conventions(estimator, &conventions, error.data(), error.size()), 1)
+      << error.data();
+  Beliefs beliefs;
+  for (int again = 0; again < 2; ++again) {
+    touchdown_reset(estimator);
+    beliefs.clear();
+    for (const auto& [record, targets] : steps) {
+      const touchdown_belief b =
+          targets ? touchdown_update_with_targets(estimator, &record, targets->data())
+                  : touchdown_update(estimator, &record);
+      beliefs.push_back(known({b.p_contact[0], b.p_contact[1], static_cast<double>(b.contact[0]),
+                               static_cast<double>(b.contact[1]), b.p_any_wheel, b.p_both_wheels,
+                               b.load[0], b.load[1], b.load_deviation[0], b.load_deviation[1]}));
+    }
   }
+  touchdown_destroy(estimator);
   return beliefs;
 }
 
@@ -205,10 +250,6 @@ Beliefs beliefs_of_cpp(const std::vector<Step>& steps, const std::string& model)
 }
 
 Beliefs beliefs_of_c(const std::vector<Step>& steps, const std::string& model) {
-  std::array<char, 200> error{};
-  touchdown_estimator* const estimator =
-      touchdown_create(model.c_str(), nullptr, error.data(), error.size());
-  EXPECT_NE(estimator, nullptr) << error.data();
   touchdown_conventions conventions = touchdown_upkie_conventions();
   for (std::size_t i = 0; i < order.size(); ++i) {
     touchdown_joint_source& joint = conventions.joint[order.at(i)];
@@ -228,11 +269,9 @@ Beliefs beliefs_of_c(const std::vector<Step>& steps, const std::string& model) {
       conventions.imu_axes[row][column] = axes(row, column);
     }
   }
-  EXPECT_EQ(touchdown_set_conventions(estimator, &conventions, error.data(), error.size()), 1)
-      << error.data();
-  Beliefs beliefs;
+  std::vector<CStep> calls;
   for (const Step& step : steps) {
-    touchdown_record record = touchdown_empty_record();
+    touchdown_record& record = calls.emplace_back(touchdown_empty_record()).record;
     record.time = step.time;
     for (std::size_t i = 0; i < 6; ++i) {
       const JointSignals& joint = step.joints.at(i);
@@ -243,37 +282,70 @@ Beliefs beliefs_of_c(const std::vector<Step>& steps, const std::string& model) {
     std::copy(wxyz.begin(), wxyz.end(), record.orientation);
     std::copy_n(step.angular_velocity.data(), 3, record.angular_velocity);
     std::copy_n(step.acceleration.data(), 3, record.proper_acceleration);
-    const touchdown_belief belief = touchdown_update(estimator, &record);
-    beliefs.push_back(
-        {belief.p_contact[0], belief.p_contact[1], static_cast<double>(belief.contact[0]),
-         static_cast<double>(belief.contact[1]), belief.p_any_wheel, belief.p_both_wheels});
   }
-  touchdown_destroy(estimator);
-  return beliefs;
+  return beliefs_of_c(model, conventions, calls);
 }
 
-/// The robot's loop in Python, step by step and as a whole: a table as the program prints it.
-constexpr const char* loop = R"(
+/// Prints tables as the program does, without the columns that are not compared.
+constexpr const char* tables = R"(
 import csv, sys
 import numpy as np
 import touchdown
+header = 'time,left,right,contact_left,contact_right,any,both,-,-,-,load_l,load_r,deviation_l,deviation_r'
+def save(name, b):
+    zero = np.zeros(len(b['p_contact']))
+    columns = (zero, b['p_contact'], b['contact'], b['p_any_wheel'], b['p_both_wheels'], zero, zero, zero,
+               b['load'], b['load_deviation'])
+    np.savetxt(name, np.column_stack(columns), delimiter=',', fmt='%.17g', comments='', header=header)
+def save_steps(name, estimator, steps):
+    estimator.reset()
+    beliefs = [estimator.update(step) for step in steps]
+    names = ('p_contact', 'contact', 'p_any_wheel', 'p_both_wheels', 'load', 'load_deviation')
+    save(name, {n: np.array([getattr(b, n) for b in beliefs], dtype=float) for n in names})
+)";
+
+/// The robot's loop, step by step and as a whole.
+constexpr const char* loop = R"(
 with open('robot.csv', newline='') as file:
     rows = [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
 estimator = touchdown.Estimator(mapping='robot.yaml')
-with open('steps.csv', 'w') as steps:
-    steps.write('time,left,right,contact_left,contact_right,any,both\n')
-    for row in rows:
-        b = estimator.update(row)
-        numbers = (*b.p_contact, *map(int, b.contact), b.p_any_wheel, b.p_both_wheels)
-        steps.write(','.join(map(repr, (0.0, *numbers))) + '\n')
+save_steps('steps.csv', estimator, rows)
 arrays = {name: np.array([row[name] for row in rows]) for name in rows[0]}
 np.savez('robot.npz', **arrays)
 bag = touchdown.Recording.load('robot.mcap', mapping='robot.yaml')
-for name, b in (('whole', estimator.run(arrays)), ('bag', touchdown.Estimator().run(bag))):
-    whole = np.column_stack([np.zeros(len(rows)), b['p_contact'], b['contact'], b['p_any_wheel'], b['p_both_wheels']])
-    np.savetxt(name + '.csv', whole, delimiter=',', fmt='%.17g', comments='',
-               header='time,left,right,contact_left,contact_right,any,both')
+save('whole.csv', estimator.run(arrays))
+save('bag.csv', touchdown.Estimator().run(bag))
 )";
+
+/// Estimators with their models, `=` between them, about a run, as a whole and step by step.
+constexpr const char* estimates = R"(
+run = touchdown.Recording.load('run.mpack')
+for word in sys.argv[1:]:
+    name, _, model = word.partition('=')
+    estimator = touchdown.Estimator(name, model or None)
+    save(name + '_whole.csv', estimator.run(run))
+    arrays = {key: np.asarray(value) for key, value in run.items()}
+    steps = ({key: value[k] for key, value in arrays.items()} for k in range(run.steps))
+    save_steps(name + '_steps.csv', estimator, steps)
+    if model == name + '.npz' and name != 'load_filter':
+        touchdown.fit(run, name).save(name + '_python.npz')
+)";
+
+/// Runs a script with the Python package of this build. Returns false if there is none.
+bool ran_python(const ProgramFolder& folder, const std::string& script,
+                const std::string& arguments = "") {
+  const std::string python = python_with_numpy();
+  const auto package = std::filesystem::path(TOUCHDOWN_PROGRAM).parent_path() / "python";
+  if (python.empty() || !std::filesystem::exists(package / "touchdown" / "__init__.py")) {
+    return false;
+  }
+  folder.write("doors.py", tables + script);
+  const std::string command =
+      fmt::format("PYTHONPATH='{}' {} doors.py {} &&", package.string(), python, arguments);
+  const Ended ended = folder.execute("list", command);
+  EXPECT_EQ(ended.exit_code, 0) << ended.errors;
+  return true;
+}
 
 /// An IMU that lies on its side used to be right in a mapping file, and silently wrong in a loop.
 TEST(Doors, GiveTheSameBeliefsAboutARobotWithConventionsOfItsOwn) {
@@ -286,7 +358,10 @@ TEST(Doors, GiveTheSameBeliefsAboutARobotWithConventionsOfItsOwn) {
   logs::save_model(load_filter_model({}, 1000.0, "upkie"), model);
   const Beliefs expected = beliefs_of_cpp(steps, model);
 
-  const Beliefs of_run = beliefs_of_run(run, model);  // the same but for rounding
+  // The run itself, without its servos' commands: the same but for rounding.
+  std::vector<Signals> signals;
+  for (const auto& o : run.observation) signals.push_back(logs::signals_from(o, nullptr));
+  const Beliefs of_run = beliefs_of(*load_estimator(model), signals);
   ASSERT_EQ(of_run.size(), expected.size());
   for (std::size_t k = 0; k < expected.size(); ++k) {
     for (std::size_t i = 0; i < 6; ++i) ASSERT_NEAR(expected[k].at(i), of_run[k].at(i), 1e-6) << k;
@@ -301,17 +376,86 @@ TEST(Doors, GiveTheSameBeliefsAboutARobotWithConventionsOfItsOwn) {
   folder.output_of("export robot.csv --mapping robot.yaml -o robot.mpack");
   EXPECT_EQ(beliefs_of_program("robot.mpack", folder), expected);
 
-  const std::string python = python_with_numpy();
-  const auto package = std::filesystem::path(TOUCHDOWN_PROGRAM).parent_path() / "python";
-  if (python.empty() || !std::filesystem::exists(package / "touchdown" / "__init__.py")) {
-    GTEST_SKIP() << "the Python package is not built, or NumPy is not installed";
-  }
-  folder.write("loop.py", loop);
-  folder.execute("list", fmt::format("PYTHONPATH='{}' {} loop.py;", package.string(), python));
+  if (!ran_python(folder, loop)) GTEST_SKIP() << without_python;
   EXPECT_EQ(beliefs_in(folder / "steps.csv"), expected);
   EXPECT_EQ(beliefs_in(folder / "whole.csv"), expected);
   EXPECT_EQ(beliefs_in(folder / "bag.csv"), expected);
   EXPECT_EQ(beliefs_of_program("robot.npz --mapping robot.yaml", folder), expected);
+}
+
+std::vector<CStep> c_steps_of(const logs::Recording& run, const std::vector<Signals>& signals) {
+  std::vector<CStep> steps;
+  for (std::size_t k = 0; k < run.steps(); ++k) {
+    const models::Observation& o = run.observation[k];
+    auto& [record, targets] = steps.emplace_back(touchdown_empty_record());
+    record.time = o.time;
+    targets.emplace();
+    for (std::size_t i = 0; i < 6; ++i) {
+      record.joint[i] = {o.servo[i].position, o.servo[i].velocity, o.servo[i].torque};
+      const LegTargets& leg = signals[k].target.at(i / 3);
+      const JointTarget& t = i % 3 == 0 ? leg.hip : i % 3 == 1 ? leg.knee : leg.wheel;
+      targets->at(i) = {t.position, t.velocity, t.feedforward_torque, t.kp, t.kd};
+    }
+    const Eigen::Quaterniond& q = o.imu.orientation;
+    const std::array<double, 4> wxyz = {q.w(), q.x(), q.y(), q.z()};
+    std::copy(wxyz.begin(), wxyz.end(), record.orientation);
+    std::copy_n(o.imu.angular_velocity.data(), 3, record.angular_velocity);
+    std::copy_n(o.imu.linear_acceleration.data(), 3, record.linear_acceleration);
+    record.ground_velocity_command = signals[k].ground_velocity_command;
+  }
+  return steps;
+}
+
+/// The entry of experiments, the program with a file and a stream, the library, C, and Python.
+TEST(Doors, GiveTheSameBeliefsByEveryEstimatorAboutARunOfAnotherRobot) {
+  const ProgramFolder folder;
+  folder.output_of("simulate " TOUCHDOWN_SOURCE_DIR
+                   "/scenarios/hop.yaml --set end.duration=3.2 --set "
+                   "robot=models/upkie_heavy.yaml -o run.mpack");
+  const logs::Recording run = logs::read_recording(folder / "run.mpack");
+  const experiments::RunSignals signals =
+      experiments::signals_of(run, {}, {}, scoring::SampleUnit::run);
+  const auto legs = experiments::checked_robot({}, run.info).legs;
+  std::map<std::string, Beliefs> expected;
+  std::string words;
+  for (const experiments::EstimatorEntry& entry : experiments::estimator_entries()) {
+    if (entry.knows.truth) continue;  // no log has an oracle
+    SCOPED_TRACE(entry.name);
+    std::string file = entry.making.model_file;  // of a network, which comes with the program
+    std::string model;
+    if (entry.fits()) {
+      file = model = entry.name + ".npz";
+      folder.output_of("fit run.mpack --no-accuracy --estimator " + entry.name + " -o " + file);
+    } else if (entry.name == load_filter_name) {
+      file = model = "load_filter.npz";
+      folder.output_of("export models/upkie_heavy.yaml -o " + file);
+    }
+    const Model fitted = entry.fits() ? load_model(folder / file) : Model{};
+    const Beliefs& own = expected[entry.name] =
+        beliefs_of(*entry.make({.model = &fitted, .legs = legs}), signals.signals);
+    words += fmt::format(" {}={}", entry.name, model);
+    const std::string options =
+        "--estimator " + entry.name + (model.empty() ? "" : " --model " + model);
+    EXPECT_EQ(beliefs_of_program("run.mpack " + options, folder), own);
+    folder.execute("estimate - " + options + " -o beliefs.csv < run.mpack");
+    EXPECT_EQ(beliefs_in(folder / "beliefs.csv"), own);
+    if (model == "load_filter.npz") {
+      EXPECT_EQ(beliefs_of_program("run.mpack", folder), own) << "by the robot of the run";
+    }
+    if (file.empty()) continue;
+    const std::filesystem::path path = model.empty() ? find_program_file(file) : folder / file;
+    EXPECT_EQ(beliefs_of(*load_estimator(path, {.sample_rate = 1000.0}), signals.signals), own);
+    EXPECT_EQ(beliefs_of_c(path.string(), touchdown_upkie_conventions(),
+                           c_steps_of(run, signals.signals)),
+              own);
+  }
+  if (!ran_python(folder, estimates, words)) GTEST_SKIP() << without_python;
+  for (const auto& [name, own] : expected) {
+    EXPECT_EQ(beliefs_in(folder / (name + "_whole.csv")), own) << name;
+    EXPECT_EQ(beliefs_in(folder / (name + "_steps.csv")), own) << name;
+    if (!experiments::estimator_entry(name).fits()) continue;
+    EXPECT_EQ(folder.text(name + "_python.npz"), folder.text(name + ".npz")) << name;
+  }
 }
 
 }  // namespace

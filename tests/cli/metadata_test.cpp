@@ -168,12 +168,6 @@ TEST_F(Metadata, OfAModelExportedFromARobotsFileHasItsLegs) {
   run(robot + "--set leave_below=0.25 -o other.npz");
   EXPECT_EQ(load_metadata(folder_ / "other.npz").configuration.at("leave_below"), "0.25");
 
-  run("estimate a.mpack --model long.npz -o by_model.csv");
-  run("estimate a.mpack --robot models/upkie_long_legs.yaml -o by_robot.csv");
-  run("estimate a.mpack -o of_upkie.csv");
-  EXPECT_EQ(folder_.text("by_model.csv"), folder_.text("by_robot.csv"));
-  EXPECT_NE(folder_.text("by_model.csv"), folder_.text("of_upkie.csv"));
-
   folder_.expect_refusals(
       {{"estimate a.mpack --model models/nmn.npz", {"nmn.npz", "'nmn', which needs no --model"}},
        {"estimate a.mpack --model long.npz --estimator robust",

@@ -38,15 +38,6 @@ std::vector<double> beliefs_of(ContactEstimator& estimator) {
   return all;
 }
 
-TEST_F(LoadEstimator, BelievesWhatWasFitted) {
-  for (const std::string name : {"robust", "nmn", "load_filter"}) {
-    const ModelArrays arrays = test::fitted_model(name);
-    EXPECT_EQ(beliefs_of(*load_estimator(file("m.npz", arrays), {.robot = "upkie"})),
-              beliefs_of(*make_estimator(arrays)))
-        << name;
-  }
-}
-
 TEST_F(LoadEstimator, NamesTheFileInEveryError) {
   const auto m = file("m.npz", test::fitted_model("robust"));
   EXPECT_THAT(complaint_of([&] { load_estimator(m, {.sample_rate = 200.0}); }),

@@ -5,6 +5,8 @@
 
 #include "core/error.hpp"
 #include "core/stop.hpp"
+#include "estimator/models/make_estimator.hpp"
+#include "estimator/npz/load_estimator.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/fitting/fitting.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
@@ -35,14 +37,17 @@ TEST(FittedModel, GivesTheSameBeliefsAfterReadingItsFile) {
     const Model& fitted = models.at("mujoco").at(name);
     logs::save_model(fitted, folder / "m.npz");
     const Model read = load_model(folder / "m.npz");
-    const auto p_contact_of = [&](const Model& model) {
-      return predict(*entry.make({.model = &model}), run, noise, {})[0].p_contact;
+    const auto p_contact_of = [&](ContactEstimator& estimator) {
+      return predict(estimator, run, noise, {})[0].p_contact;
     };
-    const std::vector<double> expected = p_contact_of(fitted);
-    const std::vector<double> found = p_contact_of(read);
+    const std::vector<double> expected = p_contact_of(*entry.make({.model = &fitted}));
+    const std::vector<double> found = p_contact_of(*entry.make({.model = &read}));
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], 1e-6);
-    EXPECT_EQ(estimator_of(read), name);
+    EXPECT_EQ(p_contact_of(*load_estimator(folder / "m.npz")), found) << "as a robot loads it";
+    EXPECT_EQ(load_metadata(folder / "m.npz").estimator, name);
+    EXPECT_EQ(load_metadata(folder / "m.npz").sample_rate, 1000.0);
+    EXPECT_EQ(read.metadata->fingerprint.size(), 16U);
     const auto [least, most] = std::minmax_element(found.begin(), found.end());
     EXPECT_GT(*most - *least, 0.5) << name;
   }
@@ -105,6 +110,13 @@ TEST(FittedModel, IsSharedByEstimatorsWithTheSameFit) {
   EstimatorEntry variant = estimator_entry("robust");
   variant.name = "variant";
   EXPECT_TRUE(share_model(variant, estimator_entry("robust")));
+  for (const std::string& one : fitted_estimators()) {
+    for (const std::string& other : fitted_estimators()) {
+      EXPECT_EQ(share_fit(one, other),
+                share_model(any_estimator_entry(one), any_estimator_entry(other)))
+          << one << " " << other;
+    }
+  }
 }
 
 }  // namespace
