@@ -101,7 +101,7 @@ void shape_densities(experiments::EstimatorEntry& entry, const FitFlags& flags) 
 std::string fitted_estimators() {
   std::vector<std::string> names;
   for (const experiments::EstimatorEntry& entry : experiments::estimator_entries()) {
-    if (entry.fits()) names.push_back(entry.name);
+    if (entry.fitting.torques) names.push_back(entry.name);
   }
   const std::string last = names.back();
   names.pop_back();
@@ -207,8 +207,9 @@ void show_accuracy(const experiments::EstimatorEntry& entry,
 void fit(const FitFlags& flags, const CliSession& session) {
   experiments::EstimatorEntry entry = experiments::estimator_entry(flags.estimator);
   const std::vector<experiments::FitLog> logs = logs_of(flags);
-  if (!entry.fits()) {
-    throw InputError(fmt::format("--estimator: '{}' is not fitted{}: expected {}", entry.name,
+  if (!entry.fitting.torques) {  // an experiment may fit others
+    throw InputError(fmt::format("--estimator: '{}' is not fitted{}{}: expected {}", entry.name,
+                                 entry.fits() ? " to logs" : "",
                                  entry.fitting.trained_by.empty()
                                      ? ""
                                      : fmt::format(" ({} trains it)", entry.fitting.trained_by),

@@ -35,7 +35,9 @@ Model fit(const std::vector<DeclaredRun>& runs, const std::string& name, double 
     }
   }
   const experiments::EstimatorEntry& entry = experiments::estimator_entry(name);
-  if (!entry.fits()) throw InputError(fmt::format("estimator: '{}' is not fitted", name));
+  if (!entry.fitting.torques) {
+    throw InputError(fmt::format("estimator: '{}' is not fitted to logs", name));
+  }
   if (logs.empty()) throw InputError("fit: a recording is missing");
   return long_call([&](const std::atomic<bool>& stop) {
     Model model;
