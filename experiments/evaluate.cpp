@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/program.hpp"
+#include "core/progress.hpp"
 #include "experiments/stages.hpp"
 
 namespace touchdown::experiments {
@@ -55,10 +56,14 @@ void evaluate(ExperimentContext& context, Computed& done) {
       missing.insert(run);
     }
   }
-  if (missing.empty()) return;
-  if (done.missing == MissingRun::refuse) {
+  if (done.missing == MissingRun::refuse && !missing.empty()) {
     throw Error(fmt::format("the results of {} are missing", plan.runs[*missing.begin()].file));
   }
+  const std::size_t saved = tasks.size() - missing.size();
+  if (done.missing == MissingRun::simulate && saved > 0) {
+    print_message(fmt::format("{} of {} runs were evaluated before\n", saved, tasks.size()));
+  }
+  if (missing.empty()) return;
   std::atomic<std::size_t> computed = 0;
   std::mutex mutex;
   const auto evaluate_run = [&](std::size_t index, Rollout run) {

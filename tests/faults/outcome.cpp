@@ -51,8 +51,11 @@ Files files_of(const fs::path& directory) {
   if (!fs::exists(directory)) return files;
   for (const auto& entry : fs::recursive_directory_iterator(directory)) {
     const fs::path name = entry.path().lexically_relative(directory);
-    if (!entry.is_regular_file() || name == "state/lock" || name == "state/files" || is_part(name))
+    const bool is_of_shards = name.parent_path() == "state/processors";
+    if (!entry.is_regular_file() || name == "state/lock" || name == "state/files" || is_of_shards ||
+        is_part(name)) {
       continue;
+    }
     files[name.string()] = comparable_content(name.string(), read_file(entry.path()));
   }
   return files;
