@@ -81,7 +81,7 @@ void evaluate(ExperimentContext& context, Computed& done) {
     });
     {
       const std::lock_guard lock(mutex);
-      done.runs.emplace(index, FinishedRun(std::move(run)));
+      done.runs.emplace(index, FinishedRun{run.plan, run.report});
     }
     run.signals = {};
     release_free_memory();  // the pieces of ever new sizes that runs leave

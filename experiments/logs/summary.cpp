@@ -275,7 +275,8 @@ std::string LogSummary::time_text(double start) const {
   if (start != 0.0) text += fmt::format(", 0 being {:.3f} s of the log's clock", start);
   if (lost_ > 0.0) text += fmt::format("; {:.3f} s without records", lost_);
   if (gaps_ > 1) text += fmt::format(" in {} gaps", gaps_);
-  if (steps_back_ > 0) text += fmt::format("; it goes back {}", plural(steps_back_, "time"));
+  if (steps_back_ > 0)
+    text += fmt::format("; it goes back {}", plural(static_cast<std::size_t>(steps_back_), "time"));
   if (repeated_ > 0) text += fmt::format("; {} steps repeat the time before", repeated_);
   return text;
 }

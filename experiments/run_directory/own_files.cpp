@@ -251,10 +251,11 @@ void remove_partial_files(const fs::path& directory) {
     if (!link_above(directory, folder / "file").empty()) continue;
     for (const fs::path& entry : entries_in(directory / folder)) {
       const std::string file = entry.filename();
-      const bool is_ours = !folder.empty() || std::ranges::any_of(run_files, [&](fs::path whole) {
-        return file.starts_with(fmt::format(".{}.", whole.stem().string())) &&
-               file.ends_with(fmt::format(".part{}", whole.extension().string()));
-      });
+      const bool is_ours =
+          !folder.empty() || std::ranges::any_of(run_files, [&](const fs::path& whole) {
+            return file.starts_with(fmt::format(".{}.", whole.stem().string())) &&
+                   file.ends_with(fmt::format(".part{}", whole.extension().string()));
+          });
       const fs::file_type type = fs::symlink_status(entry, ignored).type();
       if (is_ours && ((type == fs::file_type::regular && is_part_file_name(file)) ||
                       (type == fs::file_type::directory && is_part_folder_name(file)))) {

@@ -271,7 +271,7 @@ Beliefs beliefs_of_c(const std::vector<Step>& steps, const std::string& model) {
   }
   std::vector<CStep> calls;
   for (const Step& step : steps) {
-    touchdown_record& record = calls.emplace_back(touchdown_empty_record()).record;
+    touchdown_record& record = calls.emplace_back(CStep{touchdown_empty_record()}).record;
     record.time = step.time;
     for (std::size_t i = 0; i < 6; ++i) {
       const JointSignals& joint = step.joints.at(i);
@@ -387,7 +387,7 @@ std::vector<CStep> c_steps_of(const logs::Recording& run, const std::vector<Sign
   std::vector<CStep> steps;
   for (std::size_t k = 0; k < run.steps(); ++k) {
     const models::Observation& o = run.observation[k];
-    auto& [record, targets] = steps.emplace_back(touchdown_empty_record());
+    auto& [record, targets] = steps.emplace_back(CStep{touchdown_empty_record()});
     record.time = o.time;
     targets.emplace();
     for (std::size_t i = 0; i < 6; ++i) {
