@@ -69,8 +69,8 @@ void refuse_unless_owned(const fs::path& directory, const fs::path& file) {
 /// The journal of a run directory: a line for each file that a run writes there.
 constexpr const char* journal_name = "state/files";
 
-/// Several processes may append at once, and each may be killed. The checksum tells whole lines
-/// from torn ones and from those that mingle; a torn line ends where the next one begins.
+/// Several processes may append at once, and each may be killed. Only whole lines match their
+/// checksum, not cut or mixed ones; a cut line ends where the next one begins.
 std::string line_of(const std::string& name) {
   return fmt::format("\n{} {}\n", Fingerprint().add(name).text(), name);
 }
