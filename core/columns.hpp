@@ -55,10 +55,7 @@ class Columns {
     columns_.push_back({bound_name(name, "_low"), ColumnRole::low, ColumnType::measured});
     columns_.push_back({bound_name(name, "_high"), ColumnRole::high, ColumnType::measured});
     cells_.push_back([getter](const Row& row, std::vector<Cell>& cells) {
-      const Interval interval = std::invoke(getter, row);
-      for (const double value : {interval.estimate, interval.low, interval.high}) {
-        cells.emplace_back(rounded(value));
-      }
+      add_interval(std::invoke(getter, row), cells);
     });
     return *this;
   }

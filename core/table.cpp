@@ -272,6 +272,12 @@ std::string metric(double value) { return std::isnan(value) ? "nan" : fixed(valu
 
 double rounded(double value) { return number_in(metric(value)); }
 
+void add_interval(const Interval& interval, std::vector<Cell>& cells) {
+  for (const double value : {interval.estimate, interval.low, interval.high}) {
+    cells.emplace_back(rounded(value));
+  }
+}
+
 std::string with_interval(const Interval& interval, int decimals) {
   if (std::isnan(interval.estimate)) return "–";
   if (std::isnan(interval.low)) return fixed(interval.estimate, decimals);

@@ -139,6 +139,9 @@ std::string metric(double value);
 /// The number that `metric` prints.
 double rounded(double value);
 
+/// Appends the cells of a measured number with its interval.
+void add_interval(const Interval& interval, std::vector<Cell>& cells);
+
 /// For people: `0.987 [0.981, 0.992]`; a dash for an undefined value.
 std::string with_interval(const Interval& interval, int decimals = 3);
 

@@ -44,14 +44,14 @@ ExperimentResult score(ExperimentContext& context, Computed& done) {
     append(result.figures, found.figures);
   };
   const StageTimer timer(context, "score");
-  const CollectedCounts counts = collect(plan, plan.runs_in(0), context.directory.store());
-  write_samples(counts, plan, context.directory);
-  result.tables = score_tables(counts, plan, experiment);
+  const ScoreRows own = score_rows(plan.runs_in(0), plan, context.directory.store());
+  write_samples(own.counted, context.directory);
+  result.tables = score_tables(own, experiment.intervals.bootstrap);
   if (experiment.tuning) {
     add(summarize_tuning(done.trials, experiment, context.directory));
   }
-  const Evaluation evaluation{context.request,           plan,   done.runs,
-                              context.directory.store(), counts, result.models};
+  const Evaluation evaluation{context.request,           plan, done.runs,
+                              context.directory.store(), own,  result.models};
   for (const Study* study : requested_studies(experiment)) {
     add(study->summarize(evaluation, context.directory));
   }

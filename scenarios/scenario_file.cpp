@@ -178,6 +178,21 @@ void scale_forces(Scenario& scenario, DescribedRobot& robot) {
 
 }  // namespace
 
+/// The dotted keys of all numbers below a node.
+static void add_number_keys(const YAML::Node& node, const std::string& prefix,
+                            std::vector<std::string>& keys) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (node.IsScalar() && !std::isnan(node.as<double>(none))) keys.push_back(prefix);
+  const std::string dot = prefix.empty() ? "" : ".";
+  for (std::size_t i = 0; node.IsSequence() && i < node.size(); ++i) {
+    add_number_keys(node[i], fmt::format("{}{}{}", prefix, dot, i), keys);
+  }
+  if (!node.IsMap()) return;
+  for (const auto& entry : node) {
+    add_number_keys(entry.second, prefix + dot + entry.first.as<std::string>(), keys);
+  }
+}
+
 double number_at(const Scenario& scenario, const std::string& key) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   YAML::Node node = YAML::Load(to_yaml(scenario));
@@ -198,6 +213,11 @@ double number_at(const Scenario& scenario, const std::string& key) {
 
 Scenario varied(const Scenario& scenario, const std::string& key, double value,
                 const std::string& name) {
+  if (std::isnan(number_at(scenario, key))) {
+    std::vector<std::string> known;
+    add_number_keys(YAML::Load(to_yaml(scenario)), "", known);
+    throw InputError(fmt::format("{} has no number at {}{}", name, key, did_you_mean(key, known)));
+  }
   YamlDocument document = YamlDocument::parse(to_yaml(scenario), name);
   document.override_value(fmt::format("{}={}", key, exact(value)));
   return scenario_from_yaml(document);

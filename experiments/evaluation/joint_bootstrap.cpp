@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/random.hpp"
+#include "core/rows.hpp"
 
 namespace touchdown::experiments {
 
@@ -18,39 +19,6 @@ std::size_t drawn(std::size_t count, double u) {
 }
 
 }  // namespace
-
-std::vector<std::size_t> runs_in_scene(const Plan& plan, const Experiment& experiment,
-                                       std::size_t group, std::size_t scene,
-                                       std::string_view simulator) {
-  std::vector<std::size_t> runs = plan.runs_in(group, simulator);
-  std::erase_if(runs,
-                [&](std::size_t run) { return scene_of(plan.runs[run], experiment) != scene; });
-  return runs;
-}
-
-std::vector<CollectedCounts> counts_by_scene(const Evaluation& evaluation, std::size_t group) {
-  const Experiment& experiment = evaluation.request.experiment;
-  std::vector<CollectedCounts> scenes;
-  for (std::size_t scene = 0; scene < experiment.test.scenarios.size(); ++scene) {
-    scenes.push_back(collect(evaluation.plan,
-                             runs_in_scene(evaluation.plan, experiment, group, scene),
-                             evaluation.saved));
-  }
-  return scenes;
-}
-
-CountsByFit points_by_fit(const CollectedCounts& counts, Condition condition, std::size_t cell) {
-  CountsByFit fits;
-  for (const ConditionScores& scored : counts.scored) {
-    if (!(scored.condition == condition)) continue;
-    std::vector<scoring::Classification>& points = fits.emplace_back();
-    for (const scoring::RobotScore& run : scored.samples[cell]) {
-      points.push_back(run.wheels().points);
-    }
-    ++condition.refit;
-  }
-  return fits;
-}
 
 std::uint64_t stream_of(std::size_t scene, const std::string& simulator,
                         const Experiment& experiment) {
@@ -166,6 +134,26 @@ Resampled operator-(const Resampled& first, const Resampled& second) {
 Interval interval_of(const Resampled& resampled, double level) {
   std::vector<double> values = resampled.values;
   return scoring::percentile_interval(resampled.estimate, values, level);
+}
+
+std::vector<SceneValues> balanced_accuracies(const EstimatorRows& rows,
+                                             const Experiment& experiment) {
+  std::vector<SceneValues> scenes;
+  const auto scene_in = [&](const auto* row) { return scene_of(*row->run, experiment); };
+  for (const auto& [scene, in_scene] : group_by(rows, scene_in)) {
+    SceneValues& values = scenes.emplace_back();
+    const auto engine = [](const auto* row) { return row->run->simulator; };
+    for (const auto& [simulator, alike] : group_by(in_scene, engine)) {
+      CountsByFit fits;
+      for (const auto& fit : group_by(alike, [](const auto* row) { return row->condition; })) {
+        std::vector<scoring::Classification>& points = fits.emplace_back();
+        for (const auto* row : fit.rows) points.push_back(row->score.wheels().points);
+      }
+      values.push_back(balanced_accuracy(fits, stream_of(scene, simulator, experiment),
+                                         experiment.intervals.bootstrap));
+    }
+  }
+  return scenes;
 }
 
 }  // namespace touchdown::experiments

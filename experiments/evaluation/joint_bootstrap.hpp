@@ -7,26 +7,15 @@
 #include <vector>
 
 #include "core/interval.hpp"
-#include "experiments/evaluation/tasks.hpp"
+#include "experiments/evaluation/scored.hpp"
 #include "scoring/bootstrap.hpp"
 #include "scoring/classification.hpp"
 
 namespace touchdown::experiments {
 
-/// The runs of a group in one of the experiment's scenes, of one engine or of all.
-std::vector<std::size_t> runs_in_scene(const Plan& plan, const Experiment& experiment,
-                                       std::size_t group, std::size_t scene,
-                                       std::string_view simulator = {});
-
-/// The collected results of a group, by scene.
-std::vector<CollectedCounts> counts_by_scene(const Evaluation& evaluation, std::size_t group);
-
 /// The counts of each run (the statistical samples): of an estimator's fit, then of its refits,
 /// each in the same runs.
 using CountsByFit = std::vector<std::vector<scoring::Classification>>;
-
-/// Those of a condition in one cell, both wheels added. Empty for a condition that is not scored.
-CountsByFit points_by_fit(const CollectedCounts& counts, Condition condition, std::size_t cell);
 
 /// A unique number for every scene and engine, for draws of their own.
 std::uint64_t stream_of(std::size_t scene, const std::string& simulator,
@@ -74,5 +63,12 @@ Resampled mean_over_scenes(const std::vector<SceneValues>& scenes,
 Resampled operator-(const Resampled& first, const Resampled& second);
 
 Interval interval_of(const Resampled& resampled, double level);
+
+/// Rows of one estimator at one noise setting, its refits included.
+using EstimatorRows = std::vector<const Scored<scoring::RobotScore>*>;
+
+/// Balanced accuracy, both wheels added, in each scene and engine of the rows.
+std::vector<SceneValues> balanced_accuracies(const EstimatorRows& rows,
+                                             const Experiment& experiment);
 
 }  // namespace touchdown::experiments

@@ -22,29 +22,6 @@ std::string title_of(const ModelTasks& tasks) {
   return title;
 }
 
-/// Adds the results of one task to the conditions that are tested on its engine. All noise seeds of
-/// a run are one sample, so later seeds are added to the sample of the first one. Returns the
-/// number of the run's samples.
-template <typename Sample>
-std::size_t add_samples(std::vector<ConditionSamples<Sample>>& all,
-                        const std::vector<Sample>& found, const std::string& simulator,
-                        bool first_seed) {
-  std::vector<std::vector<Sample>*> cells;
-  for (ConditionSamples<Sample>& condition : all) {
-    if (condition.condition.test_simulator != simulator) continue;
-    for (std::vector<Sample>& samples : condition.samples) cells.push_back(&samples);
-  }
-  const std::size_t segments = cells.empty() ? 0 : found.size() / cells.size();
-  auto next = found.begin();
-  for (std::vector<Sample>* samples : cells) {
-    if (first_seed) samples->resize(samples->size() + segments);
-    for (std::size_t i = samples->size() - segments; i < samples->size(); ++i) {
-      (*samples)[i] += *next++;
-    }
-  }
-  return segments;
-}
-
 std::vector<scoring::RobotScore> scores_of(const scoring::Prediction& prediction,
                                            const RunSignals& run,
                                            const scoring::ScoringConfig& scoring) {
@@ -125,7 +102,7 @@ std::optional<TaskCounts> saved_counts(const Plan& plan, const Task& task, const
   return store.find<TaskCounts>(task_parts, task_name(plan, task));
 }
 
-static TaskCounts counts_of(const Plan& plan, const Task& task, const Store& store) {
+TaskCounts counts_of(const Plan& plan, const Task& task, const Store& store) {
   std::optional<TaskCounts> found = saved_counts(plan, task, store);
   if (!found) throw Error(fmt::format("the results of {} are missing", task_name(plan, task)));
   return *std::move(found);
@@ -199,60 +176,6 @@ bool evaluate_and_save(const Plan& plan, const Task& task, const Rollout& run,
     return counts;
   });
   return is_computed;
-}
-
-Store in_memory(const Plan& plan, std::span<const std::size_t> runs, const Store& store) {
-  Store memory;
-  for (const Task& task : plan.tasks) {
-    if (std::find(runs.begin(), runs.end(), task.run) == runs.end()) continue;
-    memory.put(task_parts, task_name(plan, task), counts_of(plan, task, store));
-  }
-  return memory;
-}
-
-std::vector<TaskCounts> task_counts_of(std::size_t run, const Plan& plan, const Store& store) {
-  std::vector<TaskCounts> all;
-  for (const Task& task : plan.tasks) {
-    if (task.run == run) all.push_back(counts_of(plan, task, store));
-  }
-  return all;
-}
-
-std::string measured_of_run(std::string_view measure, std::size_t run, const Plan& plan,
-                            const Store& store) {
-  std::string bytes;
-  for (const TaskCounts& task : task_counts_of(run, plan, store)) {
-    for (const MeasuredBytes& found : task.measured) {
-      if (found.measure == measure && found.condition == no_condition) bytes += found.bytes;
-    }
-  }
-  return bytes;
-}
-
-CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs, const Store& store) {
-  CollectedCounts all;
-  if (runs.empty()) return all;
-  const RunGroup& group = plan.groups[plan.runs[runs.front()].group];
-  for (const Condition& condition : group.conditions) {
-    const auto add_to = [&](auto& conditions, std::size_t cells) {
-      conditions.push_back({condition, {}});
-      conditions.back().samples.resize(cells);
-    };
-    if (group.counts(condition)) add_to(all.counted, group.counted.size());
-    if (group.predicts(condition)) add_to(all.scored, group.scored.size());
-  }
-  for (const Task& task : plan.tasks) {
-    if (std::find(runs.begin(), runs.end(), task.run) == runs.end()) continue;
-    const TaskCounts found = counts_of(plan, task, store);
-    if (!found.is_scored()) continue;
-    const std::string& simulator = plan.runs[task.run].simulator;
-    const std::size_t counted = add_samples(all.counted, found.counted, simulator, task.seed == 0);
-    const std::size_t scored = add_samples(all.scored, found.scored, simulator, task.seed == 0);
-    for (std::size_t i = 0; task.seed == 0 && i < std::max(counted, scored); ++i) {
-      all.origins[simulator].push_back({task.run, i});
-    }
-  }
-  return all;
 }
 
 }  // namespace touchdown::experiments

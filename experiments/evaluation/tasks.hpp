@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <compare>
 #include <cstdint>
 #include <functional>
@@ -79,6 +78,8 @@ std::string task_name(const Plan& plan, const Task& task);
 
 /// The saved results of a task; nothing if it is not computed yet.
 std::optional<TaskCounts> saved_counts(const Plan& plan, const Task& task, const Store& store);
+/// Errors: `Error` when they are missing.
+TaskCounts counts_of(const Plan& plan, const Task& task, const Store& store);
 
 /// Whether an estimator's signal guard would pass every step of a run at all of these levels. Only
 /// then can a batch, which has no guard, replace the estimator.
@@ -133,125 +134,5 @@ TaskCounts evaluate(const Plan& plan, const Task& task, const RunSignals& run,
 bool evaluate_and_save(const Plan& plan, const Task& task, const Rollout& run,
                        const Experiment& experiment, const FittedModels& models, const Store& store,
                        NoiseFreeScores& noise_free, const ShouldContinue& should_continue);
-
-/// All results of one condition: `samples[c][i]` belongs to cell c and statistical sample i (a run
-/// or a drop), all noise seeds added.
-template <typename Sample>
-struct ConditionSamples {
-  Condition condition;
-  std::vector<std::vector<Sample>> samples;
-};
-
-/// The conditions that were fitted on the engine of their test, with the experiment's own fit.
-template <typename Sample>
-std::vector<ConditionSamples<Sample>> own(std::vector<ConditionSamples<Sample>> all) {
-  std::erase_if(all, [](const auto& one) { return !one.condition.is_fitted_in_domain(); });
-  return all;
-}
-
-/// The samples of one condition in one cell.
-template <typename Sample>
-const std::vector<Sample>& samples_of(const std::vector<ConditionSamples<Sample>>& all,
-                                      const Condition& condition, std::size_t cell) {
-  return std::ranges::find(all, condition, &ConditionSamples<Sample>::condition)->samples[cell];
-}
-
-using ConditionCounts = ConditionSamples<scoring::Classification>;  ///< both wheels added
-using ConditionScores = ConditionSamples<scoring::RobotScore>;
-
-/// The origin of a statistical sample.
-struct SampleOrigin {
-  std::size_t run = 0;      ///< index in the plan
-  std::size_t segment = 0;  ///< of the run: a drop
-};
-
-struct CollectedCounts {
-  std::vector<ConditionCounts> counted;
-  std::vector<ConditionScores> scored;
-  /// Of the samples, by engine.
-  std::map<std::string, std::vector<SampleOrigin>> origins = {};
-};
-
-/// Adds the results of all tasks of these runs of one group, in the order of the tasks. The sums
-/// thereby do not depend on which process computed the tasks, and when. Errors: `Error` when one is
-/// missing.
-CollectedCounts collect(const Plan& plan, std::span<const std::size_t> runs, const Store& store);
-
-/// The results of all tasks of these runs in memory, for several readers: each file is read once.
-/// Errors: `Error` when one is missing.
-Store in_memory(const Plan& plan, std::span<const std::size_t> runs, const Store& store);
-
-/// The results of all tasks of one run, by noise seed. Errors: `Error` when one is missing.
-std::vector<TaskCounts> task_counts_of(std::size_t run, const Plan& plan, const Store& store);
-
-/// What a measure wrote about a run itself, noise seed by noise seed; empty for a run that is not
-/// scored. Errors: `Error` when a task is missing.
-std::string measured_of_run(std::string_view measure, std::size_t run, const Plan& plan,
-                            const Store& store);
-
-/// The scores of one measure in one run, all noise seeds added.
-template <typename Score>
-struct MeasuredScores {
-  std::uint32_t condition = 0;  ///< as in `MeasuredBytes`
-  std::uint32_t cell = 0;
-  std::vector<Score> scores;
-};
-
-/// The scores of a measure in one run of the plan, in the order of their measurement; empty for a
-/// run that is not scored. Errors: `Error` when a task is missing.
-template <typename Score>
-std::vector<MeasuredScores<Score>> measured(std::string_view measure, std::size_t run,
-                                            const Plan& plan, const Store& store) {
-  std::vector<MeasuredScores<Score>> sums;
-  for (const TaskCounts& task : task_counts_of(run, plan, store)) {
-    for (const MeasuredBytes& found : task.measured) {
-      if (found.measure != measure) continue;
-      const std::vector<Score> scores = from_bytes<Score>(found.bytes);
-      const auto same = std::find_if(sums.begin(), sums.end(), [&](const auto& one) {
-        return one.condition == found.condition && one.cell == found.cell;
-      });
-      if (same == sums.end()) {
-        sums.push_back({found.condition, found.cell, scores});
-      } else {
-        for (std::size_t i = 0; i < scores.size(); ++i) same->scores[i] += scores[i];
-      }
-    }
-  }
-  return sums;
-}
-
-/// The first score of a measure of predictions, by condition and cell; a sample is a run. `runs`
-/// are of one group. Conditions without scores have no samples.
-template <typename Score>
-std::vector<ConditionSamples<Score>> measured_samples(std::string_view measure,
-                                                      std::span<const std::size_t> runs,
-                                                      const Plan& plan, const Store& store) {
-  std::vector<ConditionSamples<Score>> all;
-  if (runs.empty()) return all;
-  const RunGroup& group = plan.groups[plan.runs[runs.front()].group];
-  for (const Condition& condition : group.conditions) {
-    all.push_back({condition, std::vector<std::vector<Score>>(group.scored.size())});
-  }
-  for (const std::size_t run : runs) {
-    std::vector<ConditionSamples<Score>*> tested;
-    for (ConditionSamples<Score>& one : all) {
-      if (one.condition.test_simulator == plan.runs[run].simulator) tested.push_back(&one);
-    }
-    for (const MeasuredScores<Score>& found : measured<Score>(measure, run, plan, store)) {
-      tested[found.condition]->samples[found.cell].push_back(found.scores.front());
-    }
-  }
-  return all;
-}
-
-/// The evaluated experiment, as its studies use it.
-struct Evaluation {
-  const RunRequest& request;
-  const Plan& plan;
-  const FinishedRuns& runs;    ///< the test runs, and those of their fits
-  const Store& saved;          ///< the results of tasks and model tasks
-  const CollectedCounts& own;  ///< of the experiment's own test runs
-  const FittedModels& models;
-};
 
 }  // namespace touchdown::experiments

@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/fingerprint.hpp"
+#include "core/table.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/run_directory/directory.hpp"
@@ -18,17 +19,26 @@
 #include "noise/sensor_noise.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/leg_geometry.hpp"
+#include "scenarios/scenario_file.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-/// The scenario with the setup's robot; recordings are named after both.
+/// The scenario with the setup's robot and change; recordings are named after all.
 scenarios::Scenario scene_of(const RunRequest& request, const std::string& file,
-                             const RobotAndSensors& setup) {
+                             const RunSetup& setup) {
   scenarios::Scenario scene = scenario_of(request, file, setup.robot).scenario;
-  if (setup.robot.empty()) return scene;
-  scene.name = fmt::format("{}_{}", scene.name, std::filesystem::path(setup.robot).stem().string());
+  const auto& [key, value] = setup.change;
+  if (!key.empty()) {
+    scene = scenarios::varied(scene, key, value, file);
+    std::string change = fmt::format("_{}_{}", key, exact(value));
+    std::ranges::replace(change, '.', '_');
+    scene.name += change;
+  }
+  if (!setup.robot.empty()) {
+    scene.name += "_" + std::filesystem::path(setup.robot).stem().string();
+  }
   return scene;
 }
 
@@ -95,6 +105,19 @@ void add_measure(Measure measure, RunGroup& group) {
   if (same == group.measures.end()) group.measures.push_back(std::move(measure));
 }
 
+std::vector<std::size_t> RunGroup::tested_on(std::string_view simulator) const {
+  std::vector<std::size_t> tested;
+  for (std::size_t c = 0; c < conditions.size(); ++c) {
+    if (conditions[c].test_simulator == simulator) tested.push_back(c);
+  }
+  return tested;
+}
+
+std::span<const Task> Plan::tasks_of(std::size_t run) const {
+  const auto of_run = std::ranges::equal_range(tasks, run, {}, &Task::run);
+  return {of_run.begin(), of_run.end()};
+}
+
 std::string_view to_text(RunRole role) { return role == RunRole::fit ? "fit" : "test"; }
 
 std::uint64_t seed_of_fit(const Experiment& experiment) {
@@ -123,8 +146,8 @@ std::vector<std::size_t> Plan::runs_in(std::size_t group, std::string_view simul
   return indices;
 }
 
-void plan_runs(const RunRequest& request, RunRole role, const RobotAndSensors& setup,
-               std::size_t group, Plan& plan) {
+void plan_runs(const RunRequest& request, RunRole role, const RunSetup& setup, std::size_t group,
+               Plan& plan) {
   const Experiment& experiment = request.experiment;
   const bool is_fit = role == RunRole::fit;
   const RunsConfig& runs = is_fit ? experiment.fit : experiment.test;

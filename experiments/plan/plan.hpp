@@ -1,14 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "experiments/estimators/fitted_model.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/plan/request.hpp"
+#include "experiments/run_directory/store.hpp"
 #include "experiments/signals/run_signals.hpp"
 #include "noise/sensor_noise.hpp"
 #include "scenarios/scenario.hpp"
@@ -44,27 +44,13 @@ struct MeasuredPrediction {
   const scoring::Prediction& prediction;
 };
 
-/// Scores of one type in their memory layout, one after the other. Only the same build reads them.
-template <typename Score>
-std::string to_bytes(const std::vector<Score>& scores) {
-  static_assert(std::is_trivially_copyable_v<Score>);
-  return {reinterpret_cast<const char*>(scores.data()), scores.size() * sizeof(Score)};
-}
-template <typename Score>
-std::vector<Score> from_bytes(const std::string& bytes) {
-  static_assert(std::is_trivially_copyable_v<Score>);
-  std::vector<Score> scores(bytes.size() / sizeof(Score));
-  if (!scores.empty()) std::memcpy(scores.data(), bytes.data(), scores.size() * sizeof(Score));
-  return scores;
-}
-
 /// What the tasks of a group of runs measure in addition to the scores of every experiment. A study
 /// adds measures to its groups and reads their scores by name.
 struct Measure {
   std::string name;  ///< unique in a group
 
-  /// Scores of the run itself, and of each prediction, as `to_bytes` writes them. An empty function
-  /// or an empty text: nothing is measured there.
+  /// Scores of the run itself, and of each prediction: a packed list. An empty function or an empty
+  /// text: nothing is measured there.
   std::function<std::string(const MeasuredRun&)> of_run = {};
   std::function<std::string(const MeasuredPrediction&)> of_prediction = {};
 };
@@ -76,7 +62,7 @@ Measure measure_of_predictions(
   return {std::move(name),
           {},
           [of_prediction = std::move(of_prediction)](const MeasuredPrediction& prediction) {
-            return to_bytes(of_prediction(prediction));
+            return pack(of_prediction(prediction));
           }};
 }
 
@@ -84,11 +70,18 @@ enum class RunRole : int { fit, test };
 
 std::string_view to_text(RunRole role);
 
-/// A robot and its sensors, with a fit of their own.
-struct RobotAndSensors {
+/// A number of scenarios that is changed.
+struct Change {
+  std::string key = {};  ///< dotted, such as `terrain.friction`; empty: none
+  double value = 0.0;    ///< in the key's own unit
+};
+
+/// What the runs of a group differ in from the experiment's own.
+struct RunSetup {
   std::string fit = {};     ///< name of the fit; empty: the experiment's own
   std::string robot = {};   ///< file; empty: each scenario's own
   std::size_t sensors = 0;  ///< index in the plan's sensors
+  Change change = {};
 };
 
 /// One run of an experiment, before it is simulated.
@@ -116,6 +109,8 @@ struct RunGroup {
   bool scores_transfer = false;        ///< whether out-of-domain conditions are scored, too
   std::vector<Measure> measures = {};  ///< what studies measure in addition
 
+  /// The indices of the conditions that are tested on an engine.
+  std::vector<std::size_t> tested_on(std::string_view simulator) const;
   bool predicts(const Condition& condition) const {
     return scores_transfer || condition.is_in_domain(fit);
   }
@@ -170,6 +165,8 @@ struct Plan {
   bool needs_motion = false;            ///< whether test runs keep their motion
   TaskRange all_tasks() const { return {0, tasks.size()}; }
   const RunGroup& group_of(const Task& task) const { return groups[runs[task.run].group]; }
+  /// The tasks of a run, by noise seed.
+  std::span<const Task> tasks_of(std::size_t run) const;
   /// The group of this name, if there is one.
   std::optional<std::size_t> group_called(std::string_view name) const;
   /// The model tasks of this name. Errors: `Error` if there are none.
@@ -187,10 +184,10 @@ std::uint64_t seed_of_fit(const Experiment& experiment);
 /// The plan of the file's sections `fit`, `test`, `noise` and `highlights`.
 Plan plan_of(const RunRequest& request);
 
-/// Adds the runs of one role with one robot and its sensors, in every engine. Test runs go to
-/// `group`.
-void plan_runs(const RunRequest& request, RunRole role, const RobotAndSensors& setup,
-               std::size_t group, Plan& plan);
+/// Adds the runs of one role with this setup, in every engine. Test runs go to `group`. Errors:
+/// `InputError` for a change that a scenario does not permit.
+void plan_runs(const RunRequest& request, RunRole role, const RunSetup& setup, std::size_t group,
+               Plan& plan);
 
 /// The test runs of these tasks, and the runs of their estimators' fits.
 std::set<std::size_t> runs_for(const Plan& plan, const TaskRange& tasks);

@@ -31,13 +31,7 @@ constexpr std::array named_counts = {
     NamedCount{"flight_as_contact", &Classification::flight_as_contact},
     NamedCount{"flight_as_flight", &Classification::flight_as_flight}};
 
-/// A row of the table.
-struct SampleRow {
-  const Condition* condition;
-  const noise::NoiseCell* noise;
-  SampleKey key;
-  Classification counts;
-};
+using SampleRow = Scored<Classification>;
 
 Columns<SampleRow> sample_columns() {
   const auto noise = [](const SampleRow& row) -> const noise::NoiseCell& { return *row.noise; };
@@ -47,12 +41,11 @@ Columns<SampleRow> sample_columns() {
       .text("estimator", [](const SampleRow& row) { return row.condition->estimator; })
       .part(noise, noise_columns())
       .part(noise, knee_wheel_columns())
-      .text("scenario", [](const SampleRow& row) { return row.key.scenario; })
-      .number("run", [](const SampleRow& row) { return row.key.run; })
-      .number("segment", [](const SampleRow& row) { return row.key.segment; });
+      .text("scenario", [](const SampleRow& row) { return row.run->scenario.name; })
+      .number("run", [](const SampleRow& row) { return row.run->run; })
+      .number("segment", &SampleRow::segment);
   for (const NamedCount& one : named_counts) {
-    columns.count(one.name,
-                  [count = one.count](const SampleRow& row) { return row.counts.*count; });
+    columns.count(one.name, [count = one.count](const SampleRow& row) { return row.score.*count; });
   }
   return columns;
 }
@@ -128,29 +121,20 @@ scoring::BootstrapConfig bootstrap_in(const fs::path& config) {
 
 }  // namespace
 
-void write_samples(const CollectedCounts& counts, const Plan& plan, const RunDirectory& directory) {
-  const std::vector<noise::NoiseCell>& cells = plan.groups.front().counted;
+void write_samples(const std::vector<SampleRow>& rows, const RunDirectory& directory) {
   const Columns<SampleRow> columns = sample_columns();
-  const auto write_cell = [&](const ConditionCounts& one, std::size_t cell, std::ostream& file) {
-    std::vector<SampleRow> rows;
-    for (const SampleOrigin& origin : counts.origins.at(one.condition.test_simulator)) {
-      const PlannedRun& run = plan.runs[origin.run];
-      rows.push_back({&one.condition,
-                      &cells[cell],
-                      {run.scenario.name, run.run, static_cast<std::int64_t>(origin.segment)},
-                      one.samples[cell][rows.size()]});
-    }
-    const std::string csv = to_csv(columns.table(rows));
-    file << std::string_view(csv).substr(csv.find('\n') + 1);
-  };
   // Cell by cell: of a large study all rows at once would take more memory than the study itself.
   write_stream_atomically(directory.own_file("tables", "samples.csv"), [&](std::ostream& file) {
     file << to_csv(columns.table(std::vector<SampleRow>()));
-    for (const ConditionCounts& one : counts.counted) {
-      if (!one.condition.fit.empty() || !counts.origins.contains(one.condition.test_simulator)) {
-        continue;
+    for (auto row = rows.begin(); row != rows.end();) {
+      std::vector<SampleRow> alike;
+      const auto first = row;
+      for (; row != rows.end() && row->condition == first->condition && row->noise == first->noise;
+           ++row) {
+        if (row->run != nullptr && row->condition->fit.empty()) alike.push_back(*row);
       }
-      for (std::size_t cell = 0; cell < cells.size(); ++cell) write_cell(one, cell, file);
+      const std::string csv = to_csv(columns.table(alike));
+      file << std::string_view(csv).substr(csv.find('\n') + 1);
     }
   });
 }

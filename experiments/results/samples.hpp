@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/evaluation/tasks.hpp"
+#include "experiments/evaluation/scored.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "noise/sensor_noise.hpp"
 #include "scoring/bootstrap.hpp"
@@ -16,7 +16,8 @@ namespace touchdown::experiments {
 
 /// Writes `samples.csv`: the point-wise counts of every sample of an experiment's own test runs.
 /// Unlike the parts in `state/`, other builds read it.
-void write_samples(const CollectedCounts& counts, const Plan& plan, const RunDirectory& directory);
+void write_samples(const std::vector<Scored<scoring::Classification>>& rows,
+                   const RunDirectory& directory);
 
 /// The identity of a statistical sample of one engine, in every run of an experiment.
 struct SampleKey {

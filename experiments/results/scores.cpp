@@ -1,6 +1,7 @@
 #include "experiments/results/scores.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <functional>
 #include <utility>
 
@@ -9,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/rows.hpp"
 #include "experiments/evaluation/query.hpp"
 
 namespace touchdown::experiments {
@@ -18,10 +20,8 @@ namespace {
 using scoring::Score;
 using ScoreRow = Scored<Score>;
 
-Answer<scoring::Classification> cells_of(const CollectedCounts& counts, const Plan& plan,
-                                         const Experiment& experiment) {
+Table cells_of(const ScoreRows& rows, const scoring::BootstrapConfig& bootstrap) {
   using Row = Scored<scoring::Classification>;
-  const std::vector<ConditionCounts> counted = own(counts.counted);
   Query<scoring::Classification> query;
   query.by = setting_keys<scoring::Classification>().part(
       [](const Row& row) -> const noise::NoiseCell& { return *row.noise; }, knee_wheel_columns());
@@ -31,14 +31,14 @@ Answer<scoring::Classification> cells_of(const CollectedCounts& counts, const Pl
   query.totals.metric("always_contact_success", [](const scoring::Classification& all) {
     return scoring::ratio(all.contact(), all.points());
   });
-  return answer(rows_of(counted, plan.groups.front().counted, counts, plan), query,
-                experiment.intervals.bootstrap);
+  return answer(where(rows.counted, is_own<scoring::Classification>), query, bootstrap).table;
 }
 
-/// A row for each view of each score, the cell first.
+/// A row for each view of each score of the experiment's own fits, by noise setting first.
 std::vector<ScoreRow> rows_by_view(const std::vector<Scored<scoring::RobotScore>>& robots) {
   std::vector<ScoreRow> rows;
   for (const Scored<scoring::RobotScore>& robot : robots) {
+    if (!is_own(robot)) continue;
     for (std::size_t view = 0; view < scoring::scored_views().size(); ++view) {
       rows.push_back({robot.run, robot.segment, robot.condition, robot.noise, view,
                       scoring::score_of_view(robot.score, view)});
@@ -92,53 +92,53 @@ Table reliability_of(const std::vector<ScoreRow>& rows, const scoring::Bootstrap
   return answer(by_bin, query, bootstrap).table;
 }
 
-/// Both wheels' scores of a condition in one noise setting, by sample.
-std::vector<Score> wheels_of(const ConditionScores& scores, std::size_t cell) {
-  std::vector<Score> samples;
-  for (const scoring::RobotScore& robot : scores.samples[cell]) samples.push_back(robot.wheels());
-  return samples;
-}
-
-Table differences_of(const std::vector<ConditionScores>& scores, const Experiment& experiment) {
+Table differences_of(const std::vector<ScoreRow>& rows, const scoring::BootstrapConfig& bootstrap) {
+  struct Line {
+    const ScoreRow* of;
+    std::vector<Score> samples;
+  };
   struct Pair {
-    const ConditionScores* first;
-    const ConditionScores* second;
-    std::size_t cell;
+    const Line* first;
+    const Line* second;
     std::vector<Interval> difference = {};  ///< by metric
   };
+  const auto setting = [](const ScoreRow* row) {
+    return std::pair(row->noise, row->condition->test_simulator);
+  };
+  std::vector<const ScoreRow*> wheels;
+  for (const ScoreRow& row : rows) {
+    if (row.item == 0) wheels.push_back(&row);
+  }
+  std::deque<Line> lines;  // pairs refer to them
   std::vector<Pair> pairs;
-  for (std::size_t cell = 0; cell < experiment.highlights.size(); ++cell) {
-    const ConditionScores* first = nullptr;
-    for (const ConditionScores& other : scores) {
-      const bool is_new_engine =
-          first == nullptr || first->condition.test_simulator != other.condition.test_simulator;
-      if (is_new_engine) {
-        first = &other;
-      } else {
-        pairs.push_back({first, &other, cell});
-      }
+  for (const auto& alike : group_by(wheels, setting)) {
+    const Line* first = nullptr;
+    for (const auto& own : group_by(alike.rows, &ScoreRow::condition)) {
+      lines.push_back({own.rows.front(), samples_of(own.rows)});
+      if (first != nullptr) pairs.push_back({first, &lines.back()});
+      if (first == nullptr) first = &lines.back();
     }
   }
   std::vector<std::function<double(const Score&)>> statistics;
   for (const scoring::Metric& metric : scoring::metrics()) statistics.push_back(metric.of);
   tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
     pairs[i].difference = scoring::bootstrap_differences(
-        wheels_of(*pairs[i].first, pairs[i].cell), wheels_of(*pairs[i].second, pairs[i].cell),
-        statistics, experiment.intervals.bootstrap);
+        pairs[i].first->samples, pairs[i].second->samples, statistics, bootstrap);
   });
   using Row = std::pair<const Pair*, std::size_t>;  // and a metric
-  std::vector<Row> rows;
+  std::vector<Row> by_metric;
   for (const Pair& pair : pairs) {
-    for (std::size_t m = 0; m < statistics.size(); ++m) rows.emplace_back(&pair, m);
+    for (std::size_t m = 0; m < statistics.size(); ++m) by_metric.emplace_back(&pair, m);
   }
   return Columns<Row>()
-      .text("simulator", [](const Row& row) { return row.first->first->condition.test_simulator; })
-      .part([&](const Row& row) { return experiment.highlights[row.first->cell]; }, noise_columns())
-      .text("first", [](const Row& row) { return row.first->first->condition.estimator; })
-      .text("second", [](const Row& row) { return row.first->second->condition.estimator; })
+      .text("simulator",
+            [](const Row& row) { return row.first->first->of->condition->test_simulator; })
+      .part([](const Row& row) { return *row.first->first->of->noise; }, noise_columns())
+      .text("first", [](const Row& row) { return row.first->first->of->condition->estimator; })
+      .text("second", [](const Row& row) { return row.first->second->of->condition->estimator; })
       .text("metric", [](const Row& row) { return scoring::metrics()[row.second].name; })
       .interval("difference", [](const Row& row) { return row.first->difference[row.second]; })
-      .table(rows);
+      .table(by_metric);
 }
 
 using Names = std::vector<std::string>;
@@ -193,17 +193,13 @@ const PointMetric& mapped_metric(const Experiment& experiment) {
                             [](const PointMetric& metric) { return std::string(metric.name); });
 }
 
-ScoreTables score_tables(const CollectedCounts& counts, const Plan& plan,
-                         const Experiment& experiment) {
-  const scoring::BootstrapConfig& bootstrap = experiment.intervals.bootstrap;
-  const std::vector<ConditionScores> scored = own(counts.scored);
-  const std::vector<ScoreRow> rows =
-      rows_by_view(rows_of(scored, experiment.highlights, counts, plan));
+ScoreTables score_tables(const ScoreRows& all, const scoring::BootstrapConfig& bootstrap) {
+  const std::vector<ScoreRow> rows = rows_by_view(all.scored);
   Answer<Score> scores = scores_of(rows, bootstrap);
-  return {.cells = cells_of(counts, plan, experiment).table,
+  return {.cells = cells_of(all, bootstrap),
           .scores = std::move(scores.table),
           .reliability = reliability_of(rows, bootstrap),
-          .differences = differences_of(scored, experiment),
+          .differences = differences_of(rows, bootstrap),
           .totals = std::move(scores.totals)};
 }
 

@@ -7,7 +7,7 @@
 
 #include "core/table.hpp"
 #include "experiments/config/experiment.hpp"
-#include "experiments/evaluation/tasks.hpp"
+#include "experiments/evaluation/scored.hpp"
 #include "experiments/run_directory/directory.hpp"
 #include "noise/sensor_noise.hpp"
 
@@ -45,8 +45,7 @@ struct ScoreTables {
 };
 
 /// All but the runs. The experiment's own fits count, each tested on its engine.
-ScoreTables score_tables(const CollectedCounts& counts, const Plan& plan,
-                         const Experiment& experiment);
+ScoreTables score_tables(const ScoreRows& rows, const scoring::BootstrapConfig& bootstrap);
 
 /// Writes `runs.csv`; `success.csv` and `classification.csv` (every noise cell); of the highlighted
 /// ones `ranking.csv`, `views.csv` (per wheel, pooled, and for the robot), `transitions.csv`,

@@ -1,14 +1,13 @@
 #include "estimator/bayes/ablation.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "core/rows.hpp"
 #include "experiments/config/experiment_yaml.hpp"
 #include "experiments/estimators/entries.hpp"
 #include "experiments/estimators/registry.hpp"
@@ -73,85 +72,69 @@ std::vector<EstimatorEntry> ablation_estimators() {
   return entries;
 }
 
-/// One estimator of the row in one noise setting: means over scenes and engines with equal weights.
-struct AblationRow {
-  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-  noise::NoiseCell noise;
-  std::string estimator;
-  std::string before = {};             ///< the estimator before it; empty for the first one
-  Resampled balanced_accuracy = {};    ///< over scenes and engines with scored runs
-  Interval accuracy = {};              ///< the same with its interval
-  Interval gain = {none, none, none};  ///< over that one, in the same resamples
-  int runs = 0;                        ///< scored
-};
-
-/// The row of one estimator, without its gain.
-AblationRow row_of(const std::vector<CollectedCounts>& scenes, const std::string& estimator,
-                   std::size_t cell, const Experiment& experiment) {
-  const scoring::BootstrapConfig& bootstrap = experiment.intervals.bootstrap;
-  AblationRow row{experiment.highlights[cell], estimator};
-  std::vector<SceneValues> by_scene;
-  for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
-    SceneValues of_engines;
-    for (const std::string& simulator : experiment.simulators) {
-      const CountsByFit scores =
-          points_by_fit(scenes[scene], {simulator, simulator, estimator}, cell);
-      if (scores.empty() || scores.front().empty()) continue;
-      of_engines.push_back(
-          balanced_accuracy(scores, stream_of(scene, simulator, experiment), bootstrap));
-      row.runs += static_cast<int>(scores.front().size());
-    }
-    if (!of_engines.empty()) by_scene.push_back(std::move(of_engines));
-  }
-  row.balanced_accuracy = mean_over_scenes(by_scene, bootstrap);
-  row.accuracy = interval_of(row.balanced_accuracy, bootstrap.level);
-  return row;
-}
-
-/// Rows by noise, then step. Refits of a benchmark widen the intervals, as in its standings.
-std::vector<AblationRow> ablation_rows(const Evaluation& evaluation) {
+/// Balanced accuracy of every step, and its gain over the step before in the same resamples, by
+/// noise, then step: means over scenes and engines with equal weights. Refits of a benchmark widen
+/// the intervals, as in its standings.
+Table ablation_table(const Evaluation& evaluation) {
+  struct Row {
+    const noise::NoiseCell* noise;
+    std::string estimator;
+    std::string before = {};  ///< the estimator before it; empty for the first one
+    Interval accuracy = {};
+    Interval gain = {NAN, NAN, NAN};
+    std::int64_t runs = 0;  ///< scored
+  };
   const Experiment& experiment = evaluation.request.experiment;
-  const std::vector<CollectedCounts> scenes = counts_by_scene(evaluation, 0);
+  const scoring::BootstrapConfig& bootstrap = experiment.intervals.bootstrap;
   const std::vector<std::string> steps =
       steps_of(experiment.studies.at<AblationConfig>(), experiment.estimators);
-  std::vector<AblationRow> rows;
-  for (std::size_t cell = 0; cell < experiment.highlights.size(); ++cell) {
-    for (const std::string& estimator : steps) {
-      AblationRow row = row_of(scenes, estimator, cell, experiment);
-      if (estimator != steps.front()) {
-        row.before = rows.back().estimator;
-        row.gain = interval_of(row.balanced_accuracy - rows.back().balanced_accuracy,
-                               experiment.intervals.bootstrap.level);
+  std::vector<Row> rows;
+  for (const noise::NoiseCell& cell : evaluation.plan.groups.front().scored) {
+    Resampled before;
+    for (const std::string& step : steps) {
+      Row row{&cell, step};
+      EstimatorRows own;
+      for (const auto& scored : evaluation.own.scored) {
+        const Condition& condition = *scored.condition;
+        const bool is_own = scored.run != nullptr && scored.noise == &cell &&
+                            condition.estimator == step && condition.is_in_domain("");
+        if (!is_own) continue;
+        own.push_back(&scored);
+        row.runs += condition.refit == 0 ? 1 : 0;
       }
+      Resampled accuracy = mean_over_scenes(balanced_accuracies(own, experiment), bootstrap);
+      row.accuracy = interval_of(accuracy, bootstrap.level);
+      if (step != steps.front()) {
+        row.before = rows.back().estimator;
+        row.gain = interval_of(accuracy - before, bootstrap.level);
+      }
+      before = std::move(accuracy);
       rows.push_back(std::move(row));
     }
   }
-  return rows;
-}
-
-Columns<AblationRow> ablation_columns() {
-  using Row = AblationRow;
   return Columns<Row>()
-      .part(&Row::noise, noise_columns())
+      .part([](const Row& row) { return *row.noise; }, noise_columns())
       .text("estimator", &Row::estimator)
       .text("before", &Row::before)
       .interval("balanced_accuracy", &Row::accuracy)
       .interval("gain", &Row::gain)
-      .runs("runs", &Row::runs);
+      .runs("runs", &Row::runs)
+      .table(rows);
 }
 
 /// Balanced accuracy and gain of every step, for the terminal.
-std::string ablation_text(const std::vector<AblationRow>& rows, const Experiment& experiment) {
+std::string ablation_text(const Table& ablation, const Experiment& experiment) {
   std::string text = fmt::format(
       "Balanced accuracy of every step and its gain over the step before, mean over scenes and "
       "engines ({}; {})\n",
       labels_text(experiment), intervals_text(experiment));
-  for (const auto& [noise, alike] : group_by(rows, &AblationRow::noise)) {
-    TextTable table{{noise_text(noise), "balanced accuracy", "gain"}, {}};
-    for (const AblationRow& row : alike) {
-      table.rows.push_back({estimator_title_in(experiment, row.estimator),
-                            with_interval(row.accuracy), with_interval(row.gain)});
+  for (const noise::NoiseCell& cell : experiment.highlights) {
+    TextTable table{{noise_text(cell), "balanced accuracy", "gain"}, {}};
+    for (const TableRow& row : ablation.all()) {
+      if (!is_at(row, cell)) continue;
+      table.rows.push_back({estimator_title_in(experiment, row.text("estimator")),
+                            with_interval(row.interval("balanced_accuracy")),
+                            with_interval(row.interval("gain"))});
     }
     text += fmt::format("\n{}", to_text(table));
   }
@@ -191,9 +174,8 @@ class AblationStudy final : public SectionStudy<AblationConfig> {
   StudyResult summarize(const Evaluation& evaluation,
                         const RunDirectory& directory) const override {
     const Experiment& experiment = evaluation.request.experiment;
-    const std::vector<AblationRow> rows = ablation_rows(evaluation);
-    const Table table = directory.write_table("ablation.csv", ablation_columns(), rows);
-    return {{ablation_text(rows, experiment)}, {}, {ablation_figure(table, experiment)}};
+    const Table& table = directory.write_measured("ablation.csv", ablation_table(evaluation));
+    return {{ablation_text(table, experiment)}, {}, {ablation_figure(table, experiment)}};
   }
 };
 

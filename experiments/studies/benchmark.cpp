@@ -89,17 +89,15 @@ std::vector<BenchmarkSetup> benchmark_setups(const RunRequest& request, const Pl
   for (std::size_t r = 0; r < robots.size(); ++r) {
     for (std::size_t s = 0; s < sensors.size(); ++s) {
       BenchmarkSetup setup{short_name(robots[r]), short_name(sensors[s]), {}, 0};
-      if (r > 0) setup.robot_and_sensors.robot = robots[r];
-      if (!all.empty())
-        setup.robot_and_sensors.fit = fmt::format("_{}_{}", setup.robot, setup.sensors);
+      if (r > 0) setup.runs.robot = robots[r];
+      if (!all.empty()) setup.runs.fit = fmt::format("_{}_{}", setup.robot, setup.sensors);
       if (s > 0) {
-        setup.robot_and_sensors.sensors =
-            index_of(plan.sensors,
-                     [&](const PlannedSensors& planned) { return planned.name == setup.sensors; });
+        setup.runs.sensors = index_of(plan.sensors, [&](const PlannedSensors& planned) {
+          return planned.name == setup.sensors;
+        });
       }
-      setup.group = index_of(plan.groups, [&](const RunGroup& group) {
-        return group.fit == setup.robot_and_sensors.fit;
-      });
+      setup.group =
+          index_of(plan.groups, [&](const RunGroup& group) { return group.fit == setup.runs.fit; });
       all.push_back(std::move(setup));
     }
   }
@@ -130,9 +128,9 @@ void add_transfers(const Experiment& experiment, const std::vector<BenchmarkSetu
   for (const Condition& own : own_engine_conditions(experiment)) {
     if (!estimator_entry(experiment, own.estimator).fits()) continue;
     for (const BenchmarkSetup& other : setups) {
-      if (other.robot_and_sensors.fit == group.fit) continue;
+      if (other.runs.fit == group.fit) continue;
       group.conditions.push_back(
-          {own.fit_simulator, own.test_simulator, own.estimator, other.robot_and_sensors.fit});
+          {own.fit_simulator, own.test_simulator, own.estimator, other.runs.fit});
     }
     for (const std::string& engine : experiment.simulators) {
       const Condition transferred{engine, own.test_simulator, own.estimator, group.fit};
@@ -185,9 +183,9 @@ class BenchmarkStudy final : public SectionStudy<BenchmarkConfig> {
     const std::vector<BenchmarkSetup> setups = benchmark_setups(request, plan);
     const std::size_t first = plan.runs.size();
     for (const BenchmarkSetup& setup : setups) {
-      const std::string& fit = setup.robot_and_sensors.fit;
+      const std::string& fit = setup.runs.fit;
       plan.refits[fit] = refits_of(benchmark, fit);
-      const RobotAndSensors& where = setup.robot_and_sensors;
+      const RunSetup& where = setup.runs;
       if (where.fit.empty()) {
         add_measure(extended_scores(), plan.groups.front());
         if (benchmark.transfer) add_transfers(experiment, setups, plan.groups.front());

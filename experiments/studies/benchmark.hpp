@@ -1,9 +1,10 @@
 #pragma once
 
 #include <cmath>
-#include <map>
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "core/interval.hpp"
@@ -33,10 +34,10 @@ struct BenchmarkConfig {
 
 /// A robot with its sensors, by their names in tables.
 struct BenchmarkSetup {
-  std::string robot;    ///< "upkie_heavy"; the experiment's own is that of its first scenario
-  std::string sensors;  ///< "harsh", "ideal"
-  RobotAndSensors robot_and_sensors;  ///< of its runs in the plan
-  std::size_t group = 0;              ///< of its runs in the plan
+  std::string robot;      ///< "upkie_heavy"; the experiment's own is that of its first scenario
+  std::string sensors;    ///< "harsh", "ideal"
+  RunSetup runs;          ///< in the plan
+  std::size_t group = 0;  ///< of its runs in the plan
 };
 
 /// Every combination of a robot and sensors, the experiment's own first.
@@ -57,13 +58,13 @@ struct BenchmarkRow {
   std::string scene;
   /// "test": other draws of this scene are in the fit; "unseen": none are.
   std::string split;
-  noise::NoiseCell noise;
+  noise::NoiseCell noise = {};
   std::string estimator;
   /// Where the estimator was fitted: "own", or the name of another engine or setup.
   std::string fitted_on;
-  Resampled balanced_accuracy;
-  scoring::Score score;
-  scoring::ExtendedScore extended;
+  Resampled balanced_accuracy = {};
+  scoring::Score score = {};
+  scoring::ExtendedScore extended = {};
   double air = 0.0;        ///< time of true air in the scored runs, both wheels added (s)
   std::size_t refits = 0;  ///< resampled together with the runs
   int runs = 0;            ///< simulated
@@ -75,20 +76,22 @@ struct BenchmarkRow {
 /// A scene with less true air says nothing about how well it is found (s).
 inline constexpr double least_air = 0.1;
 
-/// The scores of a submitted estimator in a benchmark, by highlighted noise setting, then by task
-/// name. Tasks without submitted beliefs are missing.
-struct SubmissionScores {
-  std::string name;
-  std::vector<std::map<std::string, TaskCounts>> by_cell;
+/// The scores of a submitted estimator in one run with one noise realisation.
+struct SubmittedRun {
+  std::uint64_t task = 0;                       ///< index in the plan
+  std::uint64_t cell = 0;                       ///< index in the experiment's highlights
+  std::vector<scoring::RobotScore> score = {};  ///< by segment of the run
+  scoring::ExtendedScore extended = {};
+
+  static auto members(auto& run) { return std::tie(run.task, run.cell, run.score, run.extended); }
 };
 
-/// Saves the scores; replaces those of the same name.
-void save(const SubmissionScores& scores, const Store& store);
+/// Saves the scores of a submitted estimator, by task; replaces those of the same name.
+void save(const std::string& name, const std::vector<SubmittedRun>& runs, const Store& store);
 
 /// Rows by setup, scene, engine, estimator, then noise. If every run of a scene failed, its scores
 /// are NaN. Rows of submitted estimators that were scored in this run directory follow the others,
-/// by estimator, then noise. `runs` of such a row counts runs with submitted beliefs, and failed
-/// runs.
+/// by estimator. `runs` of such a row counts runs with submitted beliefs, and failed runs.
 std::vector<BenchmarkRow> benchmark_rows(const Evaluation& evaluation,
                                          const RunDirectory& directory);
 

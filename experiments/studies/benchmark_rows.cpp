@@ -13,7 +13,6 @@
 #include "core/rows.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/evaluation/joint_bootstrap.hpp"
-#include "experiments/run_directory/store.hpp"
 #include "experiments/studies/benchmark.hpp"
 
 namespace touchdown::experiments {
@@ -27,10 +26,10 @@ bool is_fitted_scene(const Experiment& experiment, const std::string& file) {
 
 std::string fitted_on(const Condition& condition, const BenchmarkSetup& here,
                       const std::vector<BenchmarkSetup>& setups) {
-  if (condition.is_fitted_in_domain(here.robot_and_sensors.fit)) return "own";
+  if (condition.is_fitted_in_domain(here.runs.fit)) return "own";
   if (condition.fit_simulator != condition.test_simulator) return condition.fit_simulator;
   const auto there = std::find_if(setups.begin(), setups.end(), [&](const BenchmarkSetup& setup) {
-    return setup.robot_and_sensors.fit == condition.fit;
+    return setup.runs.fit == condition.fit;
   });
   return fmt::format("{} {}", there->robot, there->sensors);
 }
@@ -41,124 +40,139 @@ double air_of(const scoring::Score& score) {
   return 1e-6 * static_cast<double>(score.scored_us) * share;
 }
 
-std::vector<BenchmarkRow> rows_of(const Evaluation& evaluation) {
+/// The scores of some conditions in the runs of one setup.
+struct SetupScores {
+  const BenchmarkSetup* setup;
+  std::vector<Condition> conditions;
+  std::vector<Scored<scoring::RobotScore>> scored = {};
+  std::vector<Scored<scoring::ExtendedScore>> extended = {};
+};
+
+/// Scene, highlighted noise setting, and the condition without its refit.
+using RowKey =
+    std::tuple<std::size_t, std::size_t, std::string, std::string, std::string, std::string>;
+RowKey key_of(std::size_t scene, std::size_t cell, const Condition& condition) {
+  return {
+      scene,        cell, condition.test_simulator, condition.estimator, condition.fit_simulator,
+      condition.fit};
+}
+
+/// The rows of scored runs.
+template <typename Score>
+auto by_key(const std::vector<Scored<Score>>& rows, const Experiment& experiment) {
+  std::map<RowKey, std::vector<const Scored<Score>*>> found;
+  for (const Scored<Score>& row : rows) {
+    if (row.run == nullptr) continue;
+    found[key_of(scene_of(*row.run, experiment),
+                 noise::cell_index(experiment.highlights, *row.noise), *row.condition)]
+        .push_back(&row);
+  }
+  return found;
+}
+
+/// By scene, condition, then noise.
+void add_rows(const SetupScores& scores, const Evaluation& evaluation,
+              const std::vector<BenchmarkSetup>& setups, std::vector<BenchmarkRow>& rows) {
   const Experiment& experiment = evaluation.request.experiment;
   const std::vector<std::string>& scenes = experiment.test.scenarios;
-  const scoring::BootstrapConfig& bootstrap = experiment.intervals.bootstrap;
-  std::vector<BenchmarkRow> rows;
-  const auto setups = benchmark_setups(evaluation.request, evaluation.plan);
-  for (const BenchmarkSetup& setup : setups) {
-    for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
-      const auto runs = runs_in_scene(evaluation.plan, experiment, setup.group, scene);
-      const Store saved = in_memory(evaluation.plan, runs, evaluation.saved);
-      const CollectedCounts counts = collect(evaluation.plan, runs, saved);
-      const auto extended =
-          measured_samples<scoring::ExtendedScore>(extended_measure, runs, evaluation.plan, saved);
-      for (std::size_t c = 0; c < counts.scored.size(); ++c) {
-        const ConditionScores& scored = counts.scored[c];
-        if (scored.condition.refit > 0) continue;
-        const std::string& simulator = scored.condition.test_simulator;
-        BenchmarkRow row{simulator,
-                         setup.robot,
-                         setup.sensors,
-                         scenario_of(evaluation.request, scenes[scene]).scenario.name,
-                         is_fitted_scene(experiment, scenes[scene]) ? "test" : "unseen",
-                         {},
-                         scored.condition.estimator,
-                         fitted_on(scored.condition, setup, setups),
-                         {},
-                         {},
-                         {}};
-        for (const std::size_t index : runs) {
-          const FinishedRun& run = evaluation.runs.at(index);
-          if (run.plan.simulator != simulator) continue;
-          ++row.runs;
-          row.failed += run.failed() ? 1 : 0;
-        }
-        for (std::size_t cell = 0; cell < experiment.highlights.size(); ++cell) {
-          row.noise = experiment.highlights[cell];
-          if (scored.samples[cell].empty()) {
-            row.balanced_accuracy = {std::numeric_limits<double>::quiet_NaN()};
-            row.score = {};
-            row.extended = {};
-            row.air = 0.0;
-            if (row.runs > 0 && row.failed == row.runs) rows.push_back(row);
-            continue;
+  const auto scored = by_key(scores.scored, experiment);
+  const auto extended = by_key(scores.extended, experiment);
+  for (std::size_t scene = 0; scene < scenes.size(); ++scene) {
+    for (const Condition& condition : scores.conditions) {
+      if (condition.refit > 0) continue;
+      BenchmarkRow row{.simulator = condition.test_simulator,
+                       .robot = scores.setup->robot,
+                       .sensors = scores.setup->sensors,
+                       .scene = scenario_of(evaluation.request, scenes[scene]).scenario.name,
+                       .split = is_fitted_scene(experiment, scenes[scene]) ? "test" : "unseen",
+                       .estimator = condition.estimator,
+                       .fitted_on = fitted_on(condition, *scores.setup, setups)};
+      for (const std::size_t run :
+           evaluation.plan.runs_in(scores.setup->group, condition.test_simulator)) {
+        const FinishedRun& finished = evaluation.runs.at(run);
+        row.failed += scene_of(finished.plan, experiment) == scene && finished.failed() ? 1 : 0;
+      }
+      for (std::size_t cell = 0; cell < experiment.highlights.size(); ++cell) {
+        const auto found = scored.find(key_of(scene, cell, condition));
+        BenchmarkRow of_cell = row;
+        of_cell.noise = experiment.highlights[cell];
+        of_cell.balanced_accuracy = {std::numeric_limits<double>::quiet_NaN()};
+        of_cell.runs = row.failed;
+        if (found != scored.end()) {
+          std::set<const PlannedRun*> runs;
+          for (const auto* one : found->second) {
+            runs.insert(one->run);
+            of_cell.refits =
+                std::max(of_cell.refits, static_cast<std::size_t>(one->condition->refit));
+            if (one->condition->refit == 0) of_cell.score += one->score.wheels();
           }
-          const CountsByFit fits = points_by_fit(counts, scored.condition, cell);
-          row.refits = fits.size() - 1;
-          row.balanced_accuracy =
-              balanced_accuracy(fits, stream_of(scene, simulator, experiment), bootstrap);
-          row.score = scoring::sum(scored.samples[cell]).wheels();
-          row.extended = scoring::sum(samples_of(extended, scored.condition, cell));
-          row.air = air_of(row.score) / static_cast<double>(experiment.noise.seeds);
-          rows.push_back(row);
+          of_cell.runs += static_cast<int>(runs.size());
+          of_cell.balanced_accuracy =
+              balanced_accuracies(found->second, experiment).front().front();
+          for (const auto* one : extended.at(found->first)) of_cell.extended += one->score;
+          of_cell.air = air_of(of_cell.score) / static_cast<double>(experiment.noise.seeds);
         }
+        if (of_cell.runs > 0) rows.push_back(std::move(of_cell));
       }
     }
   }
-  return rows;
 }
 
 constexpr const char* submission_parts = "submissions";
 
-std::vector<SubmissionScores> saved_submissions(const Store& store) {
-  using CountsByCell = std::vector<std::map<std::string, TaskCounts>>;
-  std::vector<SubmissionScores> all;
-  for (const std::string& name : store.names(submission_parts)) {
-    std::optional<CountsByCell> by_cell = store.find<CountsByCell>(submission_parts, name);
-    if (by_cell) all.push_back({name, *std::move(by_cell)});
+/// The scores of a submission in the runs of one setup, as those of an estimator fitted there.
+SetupScores submitted(const std::string& name, const std::vector<SubmittedRun>& runs,
+                      const BenchmarkSetup& setup, const Evaluation& evaluation) {
+  const Plan& plan = evaluation.plan;
+  const Experiment& experiment = evaluation.request.experiment;
+  SetupScores scores{.setup = &setup, .conditions = {}};
+  for (const std::string& simulator : experiment.simulators) {
+    scores.conditions.push_back({simulator, simulator, name, setup.runs.fit});
   }
-  return all;
-}
-
-/// A plan that scores one estimator alone, at one noise setting.
-Plan plan_for(const std::string& estimator, const noise::NoiseCell& cell,
-              const Evaluation& evaluation) {
-  Plan plan = evaluation.plan;
-  for (const BenchmarkSetup& setup : benchmark_setups(evaluation.request, plan)) {
-    RunGroup& group = plan.groups[setup.group];
-    group.conditions.clear();
-    for (const std::string& simulator : evaluation.request.experiment.simulators) {
-      group.conditions.push_back({simulator, simulator, estimator, group.fit});
+  RowsBySetting<scoring::RobotScore> scored;
+  RowsBySetting<scoring::ExtendedScore> extended;
+  for (const SubmittedRun& one : runs) {
+    const PlannedRun& run = plan.runs[plan.tasks[one.task].run];
+    if (run.group != setup.group) continue;
+    const Condition& condition =
+        *std::ranges::find(scores.conditions, run.simulator, &Condition::test_simulator);
+    const noise::NoiseCell* const noise = &experiment.highlights[one.cell];
+    for (std::size_t segment = 0; segment < one.score.size(); ++segment) {
+      scored.add(0, one.cell, {&run, segment, &condition, noise, 0, one.score[segment]});
     }
-    group.counted.clear();
-    group.scored = {cell};
+    extended.add(0, one.cell, {&run, 0, &condition, noise, 0, one.extended});
   }
-  return plan;
+  scores.scored = scored.take();
+  scores.extended = extended.take();
+  return scores;
 }
 
 }  // namespace
 
-void save(const SubmissionScores& scores, const Store& store) {
-  store.put(submission_parts, scores.name, scores.by_cell);
+void save(const std::string& name, const std::vector<SubmittedRun>& runs, const Store& store) {
+  store.put(submission_parts, name, runs);
 }
 
 std::vector<BenchmarkRow> benchmark_rows(const Evaluation& evaluation,
                                          const RunDirectory& directory) {
-  std::vector<BenchmarkRow> rows = rows_of(evaluation);
-  for (const SubmissionScores& scores : saved_submissions(directory.store())) {
-    for (std::size_t cell = 0; cell < scores.by_cell.size(); ++cell) {
-      RunRequest request = evaluation.request;
-      request.experiment.highlights = {evaluation.request.experiment.highlights[cell]};
-      Plan plan = plan_for(scores.name, request.experiment.highlights.front(), evaluation);
-      std::map<std::string, TaskCounts> counts = scores.by_cell[cell];
-      std::set<std::size_t> incomplete;
-      for (const Task& task : plan.tasks) {
-        const std::string name = task_name(plan, task);
-        if (evaluation.runs.at(task.run).failed()) {
-          counts.emplace(name, TaskCounts{});
-        } else if (!counts.contains(name)) {
-          incomplete.insert(task.run);
-        }
-      }
-      constexpr std::size_t no_group = std::size_t{0} - 1;
-      for (const std::size_t run : incomplete) plan.runs[run].group = no_group;
-      const Store in_memory;
-      for (const auto& [name, found] : counts) in_memory.put(task_parts, name, found);
-      const Evaluation alone{request,   plan,           evaluation.runs,
-                             in_memory, evaluation.own, evaluation.models};
-      for (BenchmarkRow& row : rows_of(alone)) rows.push_back(std::move(row));
+  const Plan& plan = evaluation.plan;
+  const std::vector<BenchmarkSetup> setups = benchmark_setups(evaluation.request, plan);
+  std::vector<BenchmarkRow> rows;
+  for (const BenchmarkSetup& setup : setups) {
+    const RunGroup& group = plan.groups[setup.group];
+    const std::vector<std::size_t> runs = plan.runs_in(setup.group);
+    const SetupScores scores{
+        .setup = &setup,
+        .conditions = where(group.conditions, [&](const auto& one) { return group.predicts(one); }),
+        .scored = score_rows(runs, plan, evaluation.saved).scored,
+        .extended =
+            rows_of<scoring::ExtendedScore>(extended_measure, runs, plan, evaluation.saved)};
+    add_rows(scores, evaluation, setups, rows);
+  }
+  for (const std::string& name : directory.store().names(submission_parts)) {
+    const auto runs = directory.store().find<std::vector<SubmittedRun>>(submission_parts, name);
+    for (const BenchmarkSetup& setup : setups) {
+      if (runs) add_rows(submitted(name, *runs, setup, evaluation), evaluation, setups, rows);
     }
   }
   return rows;

@@ -11,7 +11,6 @@
 #include "core/rows.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/results/captions.hpp"
-#include "experiments/results/json.hpp"
 #include "experiments/results/scores.hpp"
 #include "experiments/studies/benchmark.hpp"
 
@@ -378,28 +377,21 @@ std::string text_of(const std::vector<BenchmarkRow>& rows, const std::vector<Sta
 }  // namespace
 
 /// The files: `benchmark.csv`, `benchmark_standings.csv`, `benchmark_unseen.csv`,
-/// `benchmark_differences.csv`, `loads.csv`, all five as `benchmark.json`, and
-/// `benchmark_unseen.md`.
+/// `benchmark_differences.csv`, `loads.csv` and `benchmark_unseen.md`.
 std::string write_benchmark(const Evaluation& evaluation, const RunDirectory& directory) {
   const Experiment& experiment = evaluation.request.experiment;
   const scoring::BootstrapConfig& intervals = experiment.intervals.bootstrap;
   const std::vector<BenchmarkRow> rows = benchmark_rows(evaluation, directory);
   const std::vector<Standings> all = standings(rows, intervals);
   const std::vector<Standings> unseen = standings(rows, intervals, true);
-  nlohmann::ordered_json json;
-  const auto write = [&](const std::string& name, const char* key, const auto& columns,
-                         const auto& table_rows) {
-    json[key] = json_of(directory.write_table(name, columns, table_rows));
-  };
-  write("benchmark.csv", "rows", row_columns(intervals.level), rows);
-  write("benchmark_standings.csv", "standings", with_setup(entry_columns()),
-        parts_of(all, &Standings::entries));
-  write("benchmark_unseen.csv", "unseen", with_setup(entry_columns()),
-        parts_of(unseen, &Standings::entries));
-  write("benchmark_differences.csv", "differences", with_setup(pair_columns()),
-        parts_of(all, &Standings::differences));
-  write("loads.csv", "loads", load_columns(), load_rows(rows));
-  write_atomically(directory.own_file("tables", "benchmark.json"), json.dump(1) + "\n");
+  directory.write_table("benchmark.csv", row_columns(intervals.level), rows);
+  directory.write_table("benchmark_standings.csv", with_setup(entry_columns()),
+                        parts_of(all, &Standings::entries));
+  directory.write_table("benchmark_unseen.csv", with_setup(entry_columns()),
+                        parts_of(unseen, &Standings::entries));
+  directory.write_table("benchmark_differences.csv", with_setup(pair_columns()),
+                        parts_of(all, &Standings::differences));
+  directory.write_table("loads.csv", load_columns(), load_rows(rows));
   const std::string markdown = unseen_markdown(unseen, experiment);
   if (!unseen.empty()) {
     write_atomically(directory.own_file("tables", "benchmark_unseen.md"), markdown);

@@ -146,9 +146,6 @@ scenarios::Scenario scenario_of(const RunRequest& request, const ClosedLoopCell&
   scenarios::Scenario scenario = named.scenario;
   try {
     if (!scene.key.empty()) {
-      if (std::isnan(scenarios::number_at(scenario, scene.key))) {
-        throw InputError(fmt::format("{} has no number there", named.file));
-      }
       scenario = scenarios::varied(scenario, scene.key, cell.value, named.file);
     }
   } catch (const InputError& error) {
@@ -210,12 +207,12 @@ class ClosedLoopStudy final : public SectionStudy<ClosedLoopConfig> {
     const std::size_t items = closed_loop_cells(request.experiment).size() *
                               static_cast<std::size_t>(section_of(request.experiment).runs);
     const auto scenes = std::make_shared<scenarios::CompiledScenes>();
-    plan.model_tasks.push_back({closed_loop_name, "run", items,
-                                [request, scenes](std::size_t run, const FittedModels& models,
-                                                  const ShouldContinue& should_continue) {
-                                  return to_bytes(std::vector{measure_closed_loop(
-                                      request, run, models, *scenes, should_continue)});
-                                }});
+    plan.model_tasks.push_back(
+        {closed_loop_name, "run", items,
+         [request, scenes](std::size_t run, const FittedModels& models,
+                           const ShouldContinue& should_continue) {
+           return pack(measure_closed_loop(request, run, models, *scenes, should_continue));
+         }});
   }
 
   StudyResult summarize(const Evaluation& evaluation,

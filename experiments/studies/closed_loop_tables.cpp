@@ -50,9 +50,9 @@ std::vector<ClosedLoopMetrics> metrics_of(std::size_t cell, const Evaluation& ev
   std::vector<ClosedLoopMetrics> metrics;
   for (std::size_t run = cell * runs; run < (cell + 1) * runs; ++run) {
     const std::optional<std::string> bytes = saved_result(tasks, run, evaluation.saved);
-    const auto of_run = from_bytes<ClosedLoopMetrics>(bytes.value_or(std::string()));
-    if (of_run.empty()) throw Error(fmt::format("run {} of the closed loop is missing", run));
-    metrics.push_back(of_run.front());
+    if (!bytes) throw Error(fmt::format("run {} of the closed loop is missing", run));
+    std::string_view rest = *bytes;
+    metrics.push_back(unpack<ClosedLoopMetrics>(rest));
   }
   return metrics;
 }

@@ -34,18 +34,6 @@ KeyNotes describe_subset(Fields& fields, std::string_view key,
 
 }  // namespace
 
-static void describe(Fields& fields, Factor& factor, const std::vector<std::string>& simulators) {
-  fields("name", factor.name).fallback("the key").doc("Name in tables.");
-  fields.require("key", factor.key).doc("Dotted key of the scenario, such as `terrain.friction`.");
-  if (!fields.present("name", true)) factor.name = factor.key;
-  fields.require("values", factor.values).doc("Values of the key.");
-  fields.check(!factor.values.empty(), "values", "expected at least one number");
-  describe_subset(fields, "simulators", simulators, factor.simulators)
-      .fallback("all")
-      .doc("Engines with this quantity.");
-  if (fields.reading() && factor.simulators.empty()) factor.simulators = simulators;
-}
-
 static void describe(Fields& fields, CausesConfig& causes, const Experiment& experiment) {
   if (fields.reading()) causes.runs = std::min(causes.runs, experiment.test.runs);
   fields("runs", causes.runs, 1, experiment.test.runs)
@@ -66,20 +54,9 @@ static void describe(Fields& fields, CausesConfig& causes, const Experiment& exp
 }
 
 static void describe(Fields& section, CrossSimulatorConfig& config, const Experiment& experiment) {
-  section
-      .within("sensitivity",
-              [&](Fields& fields) {
-                if (fields.reading())
-                  config.sensitivity_runs = std::min(config.sensitivity_runs, experiment.test.runs);
-                fields("runs", config.sensitivity_runs, 1, 100'000)
-                    .range("1 to test.runs")
-                    .doc("Test runs per engine and value.");
-                fields.check(config.sensitivity_runs <= experiment.test.runs, "runs",
-                             fmt::format("expected at most test.runs, {}", experiment.test.runs));
-                fields.list_if_any("factors", config.factors, experiment.simulators)
-                    .doc("Quantities of the scenario that are varied, one at a time.");
-              })
-      .doc("How the results depend on quantities of the scenario.");
+  section.check(
+      !section.reading() || !section.node()["sensitivity"].IsDefined(), "sensitivity",
+      "is now the section `vary` of the experiment, such as {terrain.friction: [0.5, 1]}");
   section
       .within("verdict",
               [&](Fields& fields) {
@@ -111,52 +88,7 @@ std::string group_name(const ChangedRuns& changed) {
   return changed.change.empty() ? "" : changed.change + " " + changed.simulator;
 }
 
-/// The scene with one value of a factor.
-scenarios::Scenario varied_scene(const RunRequest& request, const Variation& variation) {
-  const auto& config = request.experiment.studies.at<CrossSimulatorConfig>();
-  const std::string& key = config.factors[variation.factor_index].key;
-  const NamedScenario& named = scenario_of(request, request.experiment.test.scenarios.front());
-  try {
-    return scenarios::varied(named.scenario, key, variation.value, named.file);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("cross_simulator.sensitivity.factors.{}: {}={}: {}",
-                                 variation.factor_index, key, exact(variation.value),
-                                 error.what()));
-  }
-}
-
 }  // namespace
-
-std::vector<Variation> variations(const RunRequest& request) {
-  const Experiment& experiment = request.experiment;
-  const NamedScenario& named = scenario_of(request, experiment.test.scenarios.front());
-  std::vector<Variation> all;
-  const std::vector<Factor>& factors = experiment.studies.at<CrossSimulatorConfig>().factors;
-  for (std::size_t f = 0; f < factors.size(); ++f) {
-    const double nominal = scenarios::number_at(named.scenario, factors[f].key);
-    if (std::isnan(nominal)) {
-      throw InputError(fmt::format("cross_simulator.sensitivity.factors.{}: {} has no number at {}",
-                                   f, named.file, factors[f].key));
-    }
-    std::set<double> values(factors[f].values.begin(), factors[f].values.end());
-    values.insert(nominal);
-    for (const std::string& simulator : factors[f].simulators) {
-      for (const double value : values) {
-        all.push_back({f, factors[f].name, value, nominal, simulator});
-      }
-    }
-  }
-  return all;
-}
-
-ChangedRuns changed_runs(const Variation& variation, const Experiment& experiment) {
-  std::string change;
-  if (!variation.is_nominal()) {
-    change = fmt::format("factor_{}_{}", variation.factor_index, exact(variation.value));
-  }
-  return {std::move(change), variation.simulator,
-          experiment.studies.at<CrossSimulatorConfig>().sensitivity_runs};
-}
 
 void plan_changed_runs(const RunRequest& request, const ChangedRuns& changed,
                        const scenarios::Scenario& scenario, std::vector<Condition> conditions,
@@ -210,9 +142,8 @@ class CrossSimulatorStudy final : public SectionStudy<CrossSimulatorConfig> {
     return section;
   }
 
-  /// Estimators that were fitted in the other engine are evaluated, too. Every value but the
-  /// nominal ones, and every setting of `causes`, gets a group of runs. Errors: `InputError` that
-  /// names the factor and the invalid value.
+  /// Estimators that were fitted in the other engine are evaluated, too. Every setting of `causes`
+  /// gets a group of runs.
   void plan(const RunRequest& request, Plan& plan) const override {
     const Experiment& experiment = request.experiment;
     RunGroup& own = plan.groups.front();
@@ -221,12 +152,6 @@ class CrossSimulatorStudy final : public SectionStudy<CrossSimulatorConfig> {
       if (!condition.is_fitted_in_domain()) own.conditions.push_back(condition);
     }
     const std::size_t first = plan.runs.size();
-    for (const Variation& variation : variations(request)) {
-      if (variation.is_nominal()) continue;
-      plan_changed_runs(
-          request, changed_runs(variation, experiment), varied_scene(request, variation),
-          tested_on(own_engine_conditions(experiment), variation.simulator), false, plan);
-    }
     plan_causes(request, plan);
     plan_tasks(experiment, first, plan);
     plan.pictured.insert(section_of(request.experiment).overlay.run);

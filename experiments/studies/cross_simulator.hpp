@@ -14,14 +14,6 @@
 
 namespace touchdown::experiments {
 
-/// One quantity of the scenario that is varied, with all others unchanged.
-struct Factor {
-  std::string name;
-  std::string key;                      ///< of the scenario, dotted: `terrain.friction`
-  std::vector<double> values;           ///< in the key's own unit
-  std::vector<std::string> simulators;  ///< engines with this quantity; empty: all
-};
-
 /// The conditions for an estimator's verdict.
 struct VerdictConfig {
   /// Fitted in the other engine, it must lose less accuracy than this (upper end of the paired
@@ -70,8 +62,6 @@ struct CausesConfig {
 
 /// The section `cross_simulator`: how much the results depend on the engine.
 struct CrossSimulatorConfig {
-  std::vector<Factor> factors;
-  int sensitivity_runs = 4;  ///< test runs per engine and value of a factor, at most
   VerdictConfig verdict;
   OverlayConfig overlay;
   std::optional<CausesConfig> causes;
@@ -87,29 +77,11 @@ struct ChangedRuns {
 /// These runs in the plan.
 std::vector<std::size_t> runs_of(const ChangedRuns& changed, const Plan& plan);
 
-/// One value of one factor in one engine.
-struct Variation {
-  std::size_t factor_index = 0;  ///< in the file's list
-  std::string factor;
-  double value = 0.0;
-  double nominal = 0.0;
-  std::string simulator;
-
-  bool is_nominal() const { return value == nominal; }
-};
-
 /// Adds a group with these runs in a changed scene, evaluated at the first highlighted noise
 /// setting. They have the perturbations of the experiment's test runs.
 void plan_changed_runs(const RunRequest& request, const ChangedRuns& changed,
                        const scenarios::Scenario& scenario, std::vector<Condition> conditions,
                        bool has_half_step, Plan& plan);
-
-/// Every value of every factor, nominal ones included, in each engine of the factor. Errors:
-/// `InputError` that names the factor when the scenario has no such key.
-std::vector<Variation> variations(const RunRequest& request);
-
-/// The runs of one value; a nominal value changes nothing.
-ChangedRuns changed_runs(const Variation& variation, const Experiment& experiment);
 
 /// A mean as a sum and a count, so that parts can be added.
 struct Mean {
@@ -182,20 +154,6 @@ struct Agreement {
 Agreement agreement(const std::vector<RunFacts>& first, const std::vector<RunFacts>& second,
                     const scoring::BootstrapConfig& config);
 
-/// An estimator fitted in one engine and tested in one, the same or the other, at one noise
-/// setting.
-struct Transfer {
-  Condition condition;
-  noise::NoiseCell cell;
-  bool is_fitted = true;  ///< false: nothing to fit, the engine of the fit is irrelevant
-  Interval success;       ///< accuracy
-  Interval no_contact_recall;
-  /// Accuracy of the same estimator fitted in the test engine, minus this one's, on the same runs.
-  Interval loss;
-  /// Accuracy minus that of always contact on the same runs.
-  Interval gain;
-};
-
 /// Every estimator, fit engine and test engine of the experiment, "always contact" last.
 std::vector<Condition> transfer_conditions(const Experiment& experiment);
 
@@ -212,18 +170,9 @@ struct Verdict {
 /// engine, its loss is below the limit and its gain over always contact is above the limit. This
 /// must hold for the ends of the intervals in every engine and noise setting. Undefined numbers
 /// fail.
-std::vector<Verdict> verdicts(const std::vector<Transfer>& transfers, const Experiment& experiment);
+std::vector<Verdict> verdicts(const Table& transfers, const Experiment& experiment);
 
 std::vector<std::string> failed_demands(const std::vector<Verdict>& verdicts);
-
-/// Scores of an estimator, fitted on the nominal scene, in a varied one.
-struct Sensitivity {
-  Variation variation;
-  std::string estimator;
-  std::size_t runs = 0;    ///< scored
-  std::size_t failed = 0;  ///< fell or diverged
-  Interval success;        ///< accuracy; NaN without scored runs
-};
 
 /// One setting of the runs that separate causes.
 struct CauseSetting {
@@ -278,19 +227,18 @@ Causes causes_of(const Evaluation& evaluation);
 struct CrossSimulatorResult {
   Experiment experiment;
   Agreement agreement;
-  std::vector<Transfer> transfers;
-  std::vector<Sensitivity> sensitivities;
+  Table transfers;
   std::vector<Verdict> verdicts;
   Causes causes;
 };
 
-/// Compares the runs of the two engines, the loss of estimators that were fitted in the other
-/// engine, and the effect of one factor at a time, separates causes, and gives verdicts. A failed
+/// Compares the runs of the two engines and the loss of estimators that were fitted in the other
+/// engine, separates causes, and gives verdicts. A failed
 /// verdict is a result, not an error. Errors: `Error` when the robot completes no test run in both
 /// engines.
 CrossSimulatorResult check_across_simulators(const Evaluation& evaluation);
 
-/// Writes `tables/{agreement,torques,transfer,sensitivity,verdicts}.csv`, those of causes, and
+/// Writes `tables/{agreement,torques,transfer,verdicts}.csv`, those of causes, and
 /// `tables/cross_simulator.md`, and returns texts and figures.
 StudyResult summarize_check(const CrossSimulatorResult& result, const RunDirectory& directory);
 

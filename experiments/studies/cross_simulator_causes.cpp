@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "experiments/config/experiment.hpp"
+#include "experiments/evaluation/query.hpp"
 #include "experiments/studies/cross_simulator.hpp"
 #include "scoring/bootstrap.hpp"
 
@@ -162,14 +163,18 @@ Causes causes_of(const Evaluation& evaluation) {
   }
   Causes causes{runs.front().size(), cause_effects(facts, experiment), {}};
 
-  std::vector<CollectedCounts> counts;
+  std::vector<ScoreRows> rows;
   for (const std::vector<std::size_t>& of_setting : runs) {
-    counts.push_back(collect(evaluation.plan, of_setting, evaluation.saved));
+    rows.push_back(score_rows(of_setting, evaluation.plan, evaluation.saved));
   }
   const auto samples = [&](std::size_t s, const Condition& condition) {
-    const RunGroup& group = evaluation.plan.groups[evaluation.plan.runs[runs[s].front()].group];
-    return samples_of(counts[s].counted, condition,
-                      noise::cell_index(group.counted, experiment.highlights.front()));
+    std::vector<const Scored<scoring::Classification>*> alike;
+    for (const auto& row : rows[s].counted) {
+      const bool is_theirs =
+          *row.condition == condition && *row.noise == experiment.highlights.front();
+      if (is_theirs) alike.push_back(&row);
+    }
+    return samples_of(alike);
   };
   const auto add_costs = [&](const std::string& cause, std::size_t reference, std::size_t changed) {
     const std::string& fit = settings[reference].runs.simulator;

@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/rows.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/baselines.hpp"
+#include "experiments/evaluation/query.hpp"
 #include "experiments/studies/cross_simulator.hpp"
 #include "scoring/bootstrap.hpp"
 #include "scoring/histogram.hpp"
@@ -128,14 +130,14 @@ static constexpr const char* facts_name = "facts";
 
 Measure facts_measure() {
   return {.name = facts_name, .of_run = [](const MeasuredRun& run) {
-            return run.seed > 0 ? std::string() : pack(facts_of(run.signals, run.scoring));
+            return run.seed > 0 ? std::string()
+                                : pack(std::vector{facts_of(run.signals, run.scoring)});
           }};
 }
 
 RunFacts saved_facts(std::size_t run, const Evaluation& evaluation) {
-  const std::string bytes = measured_of_run(facts_name, run, evaluation.plan, evaluation.saved);
-  std::string_view rest = bytes;
-  RunFacts facts = unpack<RunFacts>(rest);
+  RunFacts facts =
+      rows_of<RunFacts>(facts_name, {&run, 1}, evaluation.plan, evaluation.saved).front().score;
   add_descent(evaluation.runs.at(run), facts);
   return facts;
 }
@@ -193,34 +195,54 @@ std::vector<Condition> transfer_conditions(const Experiment& experiment) {
 
 namespace {
 
-/// Losses and gains at every highlighted noise setting, in the order of `transfer_conditions`, from
-/// the counts in these cells.
-std::vector<Transfer> transfers(const std::vector<ConditionCounts>& counts,
-                                const std::vector<noise::NoiseCell>& cells,
-                                const Experiment& experiment) {
-  const scoring::BootstrapConfig& config = experiment.intervals.bootstrap;
-  const auto success = [](const scoring::Classification& sum) { return sum.success(); };
-  const auto difference = [&](const std::vector<scoring::Classification>& first,
-                              const std::vector<scoring::Classification>& second) {
-    return scoring::bootstrap_differences(first, second, {success}, config).front();
+/// Losses and gains at every highlighted noise setting, in the order of `transfer_conditions`.
+/// Loss: success rate of the same estimator fitted in the test engine, minus this one's. Gain: over
+/// always contact. Both on the same runs.
+Table transfers(const std::vector<Scored<scoring::Classification>>& counted,
+                const Experiment& experiment) {
+  using scoring::Classification;
+  using Row = Scored<Classification>;
+  const auto conditions = transfer_conditions(experiment);
+  const auto place = [&](const Condition& condition) {
+    return std::ranges::find(conditions, condition) - conditions.begin();
   };
-  std::vector<Transfer> result;
+  std::vector<Row> rows;
   for (const noise::NoiseCell& cell : experiment.highlights) {
-    const std::size_t c = noise::cell_index(cells, cell);
-    for (const Condition& condition : transfer_conditions(experiment)) {
-      Condition own = condition;
-      own.fit_simulator = own.test_simulator;
-      Condition always = own;
-      always.estimator = always_contact_name;
-      const std::vector<scoring::Classification>& samples = samples_of(counts, condition, c);
-      const std::vector<Interval> scores = scoring::bootstrap<scoring::Classification>(
-          samples, {success, &scoring::Classification::no_contact_recall}, config);
-      result.push_back({condition, cell, estimator_entry(experiment, condition.estimator).fits(),
-                        scores[0], scores[1], difference(samples_of(counts, own, c), samples),
-                        difference(samples, samples_of(counts, always, c))});
-    }
+    auto at_cell = where(counted, [&](const Row& row) {
+      return *row.noise == cell && place(*row.condition) < std::ssize(conditions);
+    });
+    std::ranges::stable_sort(at_cell, {}, [&](const Row& row) { return place(*row.condition); });
+    rows.insert(rows.end(), at_cell.begin(), at_cell.end());
   }
-  return result;
+  const auto is_in = [](const Row& line, const Row& other, const std::string& estimator) {
+    const std::string& engine = line.condition->test_simulator;
+    return other.noise == line.noise && *other.condition == Condition{engine, engine, estimator};
+  };
+  Query<Classification> query;
+  query.by.part([](const Row& row) { return *row.noise; }, noise_columns())
+      .text("estimator", [](const Row& row) { return row.condition->estimator; })
+      .text("fit_simulator", [](const Row& row) { return row.condition->fit_simulator; })
+      .text("test_simulator", [](const Row& row) { return row.condition->test_simulator; })
+      .as("simulator")
+      .flag("is_fitted",
+            [&](const Row& row) {
+              return estimator_entry(experiment, row.condition->estimator).fits();
+            })
+      .is(ColumnRole::note);
+  query.statistics = {{"success", &Classification::success},
+                      {"no_contact_recall", &Classification::no_contact_recall}};
+  query.differences = {
+      {.name = "loss",
+       .of = &Classification::success,
+       .from = [&](const Row& line,
+                   const Row& other) { return is_in(line, other, line.condition->estimator); },
+       .is_reversed = true},
+      {.name = "gain",
+       .of = &Classification::success,
+       .from = [&](const Row& line, const Row& other) {
+         return is_in(line, other, std::string(always_contact_name));
+       }}};
+  return answer(rows, query, experiment.intervals.bootstrap).table;
 }
 
 std::string words_of(const Verdict& verdict, const Experiment& experiment) {
@@ -254,22 +276,21 @@ double worse(double a, double b, bool greater_is_worse) {
 
 }  // namespace
 
-std::vector<Verdict> verdicts(const std::vector<Transfer>& transfers,
-                              const Experiment& experiment) {
+std::vector<Verdict> verdicts(const Table& transfers, const Experiment& experiment) {
   const VerdictConfig& config = experiment.studies.at<CrossSimulatorConfig>().verdict;
   std::vector<Verdict> result;
-  for (const Transfer& transfer : transfers) {
-    const Condition& condition = transfer.condition;
-    if (condition.estimator == always_contact_name) continue;
-    if (condition.fit_simulator == condition.test_simulator) continue;
-    auto verdict = std::ranges::find(result, condition.estimator, &Verdict::estimator);
+  for (const TableRow& transfer : transfers.all()) {
+    const std::string estimator = transfer.text("estimator");
+    if (estimator == always_contact_name) continue;
+    if (transfer.text("fit_simulator") == transfer.text("test_simulator")) continue;
+    auto verdict = std::ranges::find(result, estimator, &Verdict::estimator);
     if (verdict == result.end()) {
-      result.push_back({condition.estimator, false, false, -std::numeric_limits<double>::infinity(),
+      result.push_back({estimator, false, false, -std::numeric_limits<double>::infinity(),
                         std::numeric_limits<double>::infinity(), ""});
       verdict = result.end() - 1;
     }
-    verdict->loss = worse(verdict->loss, transfer.loss.high, true);
-    verdict->gain = worse(verdict->gain, transfer.gain.low, false);
+    verdict->loss = worse(verdict->loss, transfer.interval("loss").high, true);
+    verdict->gain = worse(verdict->gain, transfer.interval("gain").low, false);
   }
   for (Verdict& verdict : result) {
     verdict.holds = verdict.loss < config.largest_loss && verdict.gain > config.smallest_gain;
@@ -308,43 +329,15 @@ Agreement agreement_of(const Evaluation& evaluation) {
   return agreement(first_facts, second_facts, experiment.intervals.bootstrap);
 }
 
-/// Adds a row per in-domain estimator, at the experiment's first highlighted noise setting.
-void add_sensitivity(const Variation& variation, const Evaluation& evaluation,
-                     std::vector<Sensitivity>& all) {
-  const Experiment& experiment = evaluation.request.experiment;
-  const std::vector<std::size_t> varied =
-      runs_of(changed_runs(variation, experiment), evaluation.plan);
-  const auto failed = static_cast<std::size_t>(std::ranges::count_if(
-      varied, [&](std::size_t run) { return evaluation.runs.at(run).failed(); }));
-  const CollectedCounts counts = collect(evaluation.plan, varied, evaluation.saved);
-  const RunGroup& group = evaluation.plan.groups[evaluation.plan.runs[varied.front()].group];
-  const std::size_t cell = noise::cell_index(group.counted, experiment.highlights.front());
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const ConditionCounts& count : own(counts.counted)) {
-    if (count.condition.test_simulator != variation.simulator) continue;
-    Sensitivity row{
-        variation, count.condition.estimator, varied.size() - failed, failed, {nan, nan, nan}};
-    if (row.runs > 0) {
-      row.success = scoring::bootstrap<scoring::Classification>(count.samples[cell],
-                                                                {&scoring::Classification::success},
-                                                                experiment.intervals.bootstrap)
-                        .front();
-    }
-    all.push_back(std::move(row));
-  }
-}
-
 }  // namespace
 
 CrossSimulatorResult check_across_simulators(const Evaluation& evaluation) {
   const Experiment& experiment = evaluation.request.experiment;
-  CrossSimulatorResult result{experiment, agreement_of(evaluation), {}, {},
-                              {},         causes_of(evaluation)};
-  result.transfers =
-      transfers(evaluation.own.counted, evaluation.plan.groups.front().counted, experiment);
-  for (const Variation& variation : variations(evaluation.request)) {
-    add_sensitivity(variation, evaluation, result.sensitivities);
-  }
+  CrossSimulatorResult result{experiment,
+                              agreement_of(evaluation),
+                              transfers(evaluation.own.counted, experiment),
+                              {},
+                              causes_of(evaluation)};
   result.verdicts = verdicts(result.transfers, experiment);
   return result;
 }

@@ -12,7 +12,6 @@
 #include "experiments/results/captions.hpp"
 #include "experiments/results/scores.hpp"
 #include "experiments/results/text_tables.hpp"
-#include "experiments/results/value_figure.hpp"
 #include "experiments/studies/cross_simulator.hpp"
 #include "simulators/registry.hpp"
 
@@ -36,34 +35,6 @@ Columns<TorqueAgreement> torque_columns() {
       .interval("wasserstein_nm", &TorqueAgreement::distance)
       .interval("overlap", &TorqueAgreement::overlap)
       .metric("within_engine_nm", &TorqueAgreement::within_engine);
-}
-
-Columns<Transfer> transfer_columns() {
-  return Columns<Transfer>()
-      .part(&Transfer::cell, noise_columns())
-      .text("estimator", [](const Transfer& t) { return t.condition.estimator; })
-      .text("fit_simulator", [](const Transfer& t) { return t.condition.fit_simulator; })
-      .text("test_simulator", [](const Transfer& t) { return t.condition.test_simulator; })
-      .as("simulator")
-      .flag("is_fitted", &Transfer::is_fitted)
-      .is(ColumnRole::note)
-      .interval("success", &Transfer::success)
-      .interval("no_contact_recall", &Transfer::no_contact_recall)
-      .interval("loss", &Transfer::loss)
-      .interval("gain", &Transfer::gain);
-}
-
-Columns<Sensitivity> sensitivity_columns() {
-  return Columns<Sensitivity>()
-      .text("factor", [](const Sensitivity& s) { return s.variation.factor; })
-      .level("value", [](const Sensitivity& s) { return s.variation.value; })
-      .level("nominal", [](const Sensitivity& s) { return s.variation.nominal; })
-      .is(ColumnRole::note)
-      .text("simulator", [](const Sensitivity& s) { return s.variation.simulator; })
-      .text("estimator", &Sensitivity::estimator)
-      .runs("runs", &Sensitivity::runs)
-      .count("failed", &Sensitivity::failed)
-      .interval("success", &Sensitivity::success);
 }
 
 Columns<Verdict> verdict_columns() {
@@ -140,49 +111,18 @@ CaptionedTable transfer_table(const CrossSimulatorResult& result, const noise::N
       {{"estimator", "fit → test", "success rate", "no contact recall", "loss",
         "gain over always contact"},
        {}}};
-  for (const Transfer& t : result.transfers) {
-    if (!(t.cell == cell)) continue;
-    const bool own = t.condition.fit_simulator == t.condition.test_simulator;
-    if (!t.is_fitted && !own) continue;
-    const std::string where = t.is_fitted
-                                  ? t.condition.fit_simulator + " → " + t.condition.test_simulator
-                                  : "– → " + t.condition.test_simulator;
+  for (const TableRow& row : result.transfers.all()) {
+    if (!is_at(row, cell)) continue;
+    const std::string estimator = row.text("estimator");
+    const std::string fit = row.text("fit_simulator"), test = row.text("test_simulator");
+    const bool is_fitted = row.number("is_fitted") > 0.0;
+    if (!is_fitted && fit != test) continue;
     table.table.rows.push_back(
-        {estimator_entry(result.experiment, t.condition.estimator).title, where,
-         with_interval(t.success), with_interval(t.no_contact_recall),
-         own ? "–" : with_interval(t.loss, 4),
-         t.condition.estimator == always_contact_name ? "–" : with_interval(t.gain)});
-  }
-  return table;
-}
-
-/// One row per value and engine, one column per estimator.
-CaptionedTable sensitivity_table(const CrossSimulatorResult& result) {
-  CaptionedTable table{
-      fmt::format("Sensitivity: success rate of estimators fitted on the nominal scene (*), one "
-                  "factor at a time, {} runs each ({}{}).",
-                  result.experiment.studies.at<CrossSimulatorConfig>().sensitivity_runs,
-                  noise_text(result.experiment.highlights.front()),
-                  setup_caption(result.experiment)),
-      "sensitivity",
-      {{"factor", "simulator", "value", "fell"}, {}}};
-  for (const std::string& estimator : unique(result.sensitivities, &Sensitivity::estimator)) {
-    table.table.header.push_back(estimator_entry(result.experiment, estimator).title);
-  }
-  const auto value_of = [](const Sensitivity& s) {
-    return std::tuple(s.variation.factor, s.variation.simulator, s.variation.value);
-  };
-  for (const auto& alike : group_by(result.sensitivities, value_of)) {
-    const Sensitivity& first = alike.rows.front();
-    const Variation& variation = first.variation;
-    std::vector<std::string>& cells = table.table.rows.emplace_back(
-        std::vector{variation.factor, variation.simulator,
-                    exact(variation.value) + (variation.is_nominal() ? " *" : ""),
-                    fmt::format("{}/{}", first.failed, first.runs + first.failed)});
-    for (const Sensitivity& s : alike.rows) {
-      cells.push_back(std::isnan(s.success.estimate) ? "–"
-                                                     : fmt::format("{:.3f}", s.success.estimate));
-    }
+        {estimator_entry(result.experiment, estimator).title,
+         fmt::format("{} → {}", is_fitted ? fit : "–", test),
+         with_interval(row.interval("success")), with_interval(row.interval("no_contact_recall")),
+         fit == test ? "–" : with_interval(row.interval("loss"), 4),
+         estimator == always_contact_name ? "–" : with_interval(row.interval("gain"))});
   }
   return table;
 }
@@ -245,13 +185,12 @@ std::string verdict_lines(const std::vector<Verdict>& verdicts, const char* bull
   return text;
 }
 
-/// The tables of the report: agreement, transfer, sensitivity, causes.
+/// The tables of the report: agreement, transfer, causes.
 std::vector<CaptionedTable> report_tables(const CrossSimulatorResult& result) {
   std::vector<CaptionedTable> tables = {agreement_table(result), torque_table(result)};
   for (const noise::NoiseCell& cell : result.experiment.highlights) {
     tables.push_back(transfer_table(result, cell));
   }
-  if (!result.sensitivities.empty()) tables.push_back(sensitivity_table(result));
   if (result.causes.runs > 0) {
     tables.insert(tables.end(),
                   {effect_table(result, false), effect_table(result, true), cost_table(result)});
@@ -292,27 +231,6 @@ FigureSpec transfer_figure(const Table& transfer, const Experiment& experiment) 
   return spec;
 }
 
-/// Success rate over each factor: a figure for every engine, `sensitivity_<engine>`.
-std::vector<FigureSpec> sensitivity_figures(const Table& sensitivity,
-                                            const Experiment& experiment) {
-  std::vector<FigureSpec> specs;
-  for (const std::string& simulator : experiment.simulators) {
-    FigureSpec spec = accuracy_by_value(sensitivity, "sensitivity", "factor", "value of the factor",
-                                        simulator, experiment);
-    spec.title =
-        fmt::format("Sensitivity of the success rate: {}", simulators::simulator_title(simulator));
-    spec.caption = fmt::format(
-        "Success rate of estimators fitted on the nominal scene, one factor at a time, {} runs "
-        "each "
-        "({}; {}{}; {}). Values are equally spaced; curves are shifted sideways a little.",
-        experiment.studies.at<CrossSimulatorConfig>().sensitivity_runs,
-        noise_text(experiment.highlights.front()), labels_text(experiment),
-        setup_caption(experiment), intervals_text(experiment));
-    if (!spec.panels.groups.empty()) specs.push_back(std::move(spec));
-  }
-  return specs;
-}
-
 }  // namespace
 
 StudyResult summarize_check(const CrossSimulatorResult& result, const RunDirectory& directory) {
@@ -320,10 +238,7 @@ StudyResult summarize_check(const CrossSimulatorResult& result, const RunDirecto
   directory.write_table("agreement.csv", agreement_columns(experiment.simulators),
                         result.agreement.quantities);
   directory.write_table("torques.csv", torque_columns(), result.agreement.torques);
-  const Table transfer =
-      directory.write_table("transfer.csv", transfer_columns(), result.transfers);
-  const Table sensitivity =
-      directory.write_table("sensitivity.csv", sensitivity_columns(), result.sensitivities);
+  directory.write_measured("transfer.csv", result.transfers);
   if (result.causes.runs > 0) {
     directory.write_table("causes.csv", effect_columns(), result.causes.effects);
     directory.write_table("cause_costs.csv", cost_columns(), result.causes.costs);
@@ -338,9 +253,9 @@ StudyResult summarize_check(const CrossSimulatorResult& result, const RunDirecto
   text += "\nVerdicts\n\n" + verdict_lines(result.verdicts, "  ");
   markdown += "Verdicts\n\n" + verdict_lines(result.verdicts, "- ");
   write_atomically(directory.own_file("tables", "cross_simulator.md"), markdown);
-  std::vector<FigureSpec> figures = sensitivity_figures(sensitivity, experiment);
-  figures.insert(figures.begin(), transfer_figure(transfer, experiment));
-  return {{std::move(text)}, failed_demands(result.verdicts), std::move(figures)};
+  return {{std::move(text)},
+          failed_demands(result.verdicts),
+          {transfer_figure(result.transfers, experiment)}};
 }
 
 }  // namespace touchdown::experiments

@@ -64,6 +64,13 @@ double autocorrelation_time(const std::vector<TorqueSegment>& segments, Joint jo
 
 }  // namespace
 
+TorqueSegments& TorqueSegments::operator+=(const TorqueSegments& more) {
+  for (std::size_t state = 0; state < size(); ++state) {
+    std::ranges::copy(more[state], std::back_inserter((*this)[state]));
+  }
+  return *this;
+}
+
 void add_torques(const RunSignals& run, double skip, TorqueSegments& all) {
   const double period = run.period();
   for (std::size_t leg = 0; leg < models::wheel_count; ++leg) {
@@ -236,21 +243,13 @@ std::vector<EngineTorques> torques_by_engine(const Evaluation& evaluation) {
   std::vector<EngineTorques> engines;
   for (const std::string& simulator : experiment.simulators) {
     EngineTorques& engine = engines.emplace_back(EngineTorques{simulator});
+    const std::vector<std::size_t> runs = evaluation.plan.runs_in(0, simulator);
+    const auto scored =
+        rows_of<TorqueSegments>(moments_name, runs, evaluation.plan, evaluation.saved);
+    engine.runs = static_cast<int>(runs.size());
+    engine.failed = static_cast<int>(runs.size() - scored.size());
     TorqueSegments segments;
-    for (const std::size_t index : evaluation.plan.runs_in(0, simulator)) {
-      ++engine.runs;
-      if (evaluation.runs.at(index).failed()) {
-        ++engine.failed;
-        continue;
-      }
-      const std::string bytes =
-          measured_of_run(moments_name, index, evaluation.plan, evaluation.saved);
-      std::string_view rest = bytes;
-      auto of_run = unpack<TorqueSegments>(rest);
-      for (std::size_t state = 0; state < of_run.size(); ++state) {
-        std::ranges::move(of_run[state], std::back_inserter(segments[state]));
-      }
-    }
+    for (const auto& row : scored) segments += row.score;
     for (std::size_t i = 0; i < robot_torques.size(); ++i) {
       engine.distribution[i] =
           distribution_of(segments[robot_torques[i].contact], robot_torques[i].joint);
@@ -329,9 +328,10 @@ class MomentsStudy final : public SectionStudy<MomentsConfig> {
   /// Adds the torques of each test run, without noise.
   void plan(const RunRequest& /*request*/, Plan& plan) const override {
     const auto measure = [](const MeasuredRun& run) {
-      TorqueSegments segments;
-      if (run.seed == 0) add_torques(run.signals, run.scoring.skip, segments);
-      return run.seed == 0 ? pack(segments) : std::string();
+      if (run.seed > 0) return std::string();
+      std::vector<TorqueSegments> segments(1);
+      add_torques(run.signals, run.scoring.skip, segments.front());
+      return pack(segments);
     };
     add_measure({.name = moments_name, .of_run = measure}, plan.groups.front());
   }

@@ -27,7 +27,11 @@ struct TorqueSegment {
 using Joint = std::vector<double> TorqueSegment::*;
 
 /// Segments of both legs, by the wheel's contact state: 0 in the air, 1 in contact.
-using TorqueSegments = std::array<std::vector<TorqueSegment>, 2>;
+struct TorqueSegments : std::array<std::vector<TorqueSegment>, 2> {
+  TorqueSegments& operator+=(const TorqueSegments& more);
+
+  static auto members(auto& all) { return std::tie(all[0], all[1]); }
+};
 
 /// Adds a run's segments from `skip` (s) on. Steps without a record end a segment.
 void add_torques(const RunSignals& run, double skip, TorqueSegments& all);

@@ -56,11 +56,11 @@ Measure scores_measure(const OdometryStudyConfig& config, const std::string& fit
     for (const ContactTrack& track : oracle_tracks(config.delay, run.signals)) {
       scores.push_back(score(run, {track[0], track[1]}));
     }
-    return to_bytes(scores);
+    return pack(scores);
   };
   measure.of_prediction = [fit, score](const MeasuredPrediction& made) {
     if (made.cell > 0 || !made.condition.is_fitted_in_domain(fit)) return std::string();
-    return to_bytes(
+    return pack(
         Scores{score(made.run, {made.prediction[0].p_contact, made.prediction[1].p_contact})});
   };
   return measure;
@@ -213,18 +213,15 @@ std::vector<OdometryRow> scored_rows(const Evaluation& evaluation, const Benchma
     row.robot = setup.robot;
     row.sensors = setup.sensors;
   }
-  for (const std::size_t index :
-       runs_in_scene(evaluation.plan, experiment, setup.group, scene, simulator)) {
+  for (const std::size_t index : evaluation.plan.runs_in(setup.group, simulator)) {
+    if (scene_of(evaluation.plan.runs[index], experiment) != scene) continue;
     const bool failed = evaluation.runs.at(index).failed();
-    std::vector<scoring::TrajectoryScore> scores;  // by contact source, summed over noise seeds
-    for (const auto& found : measured<scoring::TrajectoryScore>(
-             odometry_measure, index, evaluation.plan, evaluation.saved)) {
-      scores.insert(scores.end(), found.scores.begin(), found.scores.end());
-    }
+    const auto scores = rows_of<scoring::TrajectoryScore>(odometry_measure, {&index, 1},
+                                                          evaluation.plan, evaluation.saved);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       ++rows[i].runs;
       rows[i].failed += failed ? 1 : 0;
-      if (!failed) rows[i].samples.push_back(scores.at(i));
+      if (!failed) rows[i].samples.push_back(scores.at(i).score);
     }
   }
   return rows;

@@ -8,7 +8,7 @@ const std::vector<std::unique_ptr<const Study>>& studies() {
   static const auto all = [] {
     std::vector<std::unique_ptr<const Study>> made;
     for (const auto make : {cross_simulator_study, benchmark_study, odometry_study,
-                            closed_loop_study, moments_study, sensor_sweep_study, ablation_study}) {
+                            closed_loop_study, moments_study, vary_study, ablation_study}) {
       made.push_back(make());
     }
     return made;

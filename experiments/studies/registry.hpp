@@ -14,7 +14,7 @@ std::unique_ptr<const Study> closed_loop_study();
 std::unique_ptr<const Study> cross_simulator_study();
 std::unique_ptr<const Study> moments_study();
 std::unique_ptr<const Study> odometry_study();
-std::unique_ptr<const Study> sensor_sweep_study();
+std::unique_ptr<const Study> vary_study();
 
 /// Every study, in the order of planning, of texts and of their sections in written experiments.
 const std::vector<std::unique_ptr<const Study>>& studies();

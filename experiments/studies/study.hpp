@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "experiments/config/experiment_yaml.hpp"
-#include "experiments/evaluation/tasks.hpp"
+#include "experiments/evaluation/scored.hpp"
 #include "experiments/figures/figure_spec.hpp"
 #include "experiments/plan/plan.hpp"
 #include "experiments/run_directory/directory.hpp"

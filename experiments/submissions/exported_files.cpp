@@ -196,7 +196,7 @@ double bytes_of_exported(double steps) {
 namespace {
 
 /// The scene's own name. On another robot, the name of a run's scenario ends with the robot's name.
-std::string scene_name(const PlannedRun& run, const RobotAndSensors& where) {
+std::string scene_name(const PlannedRun& run, const RunSetup& where) {
   const std::string& name = run.scenario.name;
   if (where.robot.empty()) return name;
   const std::string robot = std::filesystem::path(where.robot).stem().string();
@@ -205,7 +205,7 @@ std::string scene_name(const PlannedRun& run, const RobotAndSensors& where) {
 
 bool is_of(const PlannedRun& run, const BenchmarkSetup& setup) {
   if (run.role == RunRole::test) return run.group == setup.group;
-  return run.fit == setup.robot_and_sensors.fit && run.sensors == setup.robot_and_sensors.sensors;
+  return run.fit == setup.runs.fit && run.sensors == setup.runs.sensors;
 }
 
 /// Keeps the runs with a wanted name. Errors: `InputError` for a name that no run has.
@@ -246,8 +246,7 @@ std::vector<ExportedRun> exported_runs(const RunRequest& request, const Plan& pl
       if (!is_of(run, setup)) continue;
       const std::string stem = fmt::format("{}/{}/{}", setup.robot, setup.sensors,
                                            std::filesystem::path(run.file).stem().string());
-      ExportedRun exported{stem, setup.robot, setup.sensors,
-                           scene_name(run, setup.robot_and_sensors), i};
+      ExportedRun exported{stem, setup.robot, setup.sensors, scene_name(run, setup.runs), i};
       if (run.role == RunRole::fit) all.push_back(exported);
       for (const std::size_t task : tasks[i]) {
         for (std::size_t cell = 0; cell < experiment.highlights.size(); ++cell) {

@@ -1,7 +1,6 @@
 #include "experiments/submissions/score_beliefs.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <mutex>
@@ -219,49 +218,45 @@ std::vector<BeliefFile> complete(const std::vector<BeliefFile>& files,
   return scored;
 }
 
-/// The scores of a submitted prediction, as those of the only condition in one noise setting.
-TaskCounts scores_of(const RunSignals& run, const scoring::Prediction& prediction,
-                     const Experiment& experiment) {
-  const NoiseRun no_noise;
-  const MeasuredRun measured{run, no_noise, 0, {{}}, experiment.scoring};
-  const std::array measures = {extended_scores()};
-  const Condition condition;
-  TaskCounts counts;
-  add_scores({measured, condition, 0, prediction}, measures, 0, counts);
-  return counts;
-}
-
-SubmissionScores scores_of(const std::vector<BeliefFile>& files,
-                           const std::vector<ExportedRun>& exported, ExperimentContext& context,
-                           BeliefReport& report) {
+/// The scores of these files, by task.
+std::vector<SubmittedRun> scores_of(const std::vector<BeliefFile>& files,
+                                    const std::vector<ExportedRun>& exported,
+                                    ExperimentContext& context, BeliefReport& report) {
   Plan& plan = context.plan;
   const Experiment& experiment = context.request.experiment;
-  SubmissionScores scores{report.name, {}};
-  scores.by_cell.resize(experiment.highlights.size());
-  std::map<std::size_t, std::vector<const BeliefFile*>> by_run;
+  std::vector<SubmittedRun> scores(files.size());
+  std::map<std::size_t, std::vector<std::size_t>> by_run;  // indices of files
   std::set<std::size_t> needed;
-  for (const BeliefFile& file : files) {
-    PlannedRun& run = plan.runs[exported[file.run].run];
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::size_t index = exported[files[i].run].run;
+    PlannedRun& run = plan.runs[index];
     run.kept = run.kept && is_recorded(run, context.directory);
-    by_run[exported[file.run].run].push_back(&file);
-    needed.insert(exported[file.run].run);
+    by_run[index].push_back(i);
+    needed.insert(index);
   }
   std::mutex mutex;
   for_each_rollout(
       "scoring", experiment, plan, needed, context.directory, MissingRun::refuse,
-      context.should_continue, [&](std::size_t index, const Rollout& run) {
-        for (const BeliefFile* file : by_run.at(index)) {
+      context.should_continue, [&](std::size_t index, const Rollout& rollout) {
+        const RunSignals& run = rollout.signals;
+        const std::int64_t period = run.info.control_period_us;
+        for (const std::size_t i : by_run.at(index)) {
           if (!context.should_continue()) throw Stopped();
-          const ExportedRun& about = exported[file->run];
+          const ExportedRun& about = exported[files[i].run];
           const SubmittedPrediction submitted =
-              prediction_of(logs::read_beliefs(file->path), run.signals);
-          const TaskCounts counts = scores_of(run.signals, submitted.prediction, experiment);
+              prediction_of(logs::read_beliefs(files[i].path), run);
+          const scoring::Prediction& prediction = submitted.prediction;
+          scores[i] = {
+              *about.task, about.cell,
+              scoring::score(run.contact, prediction, run.segments, period, experiment.scoring),
+              scoring::extended_score(run.contact, run.normal_force, prediction, period,
+                                      experiment.scoring)};
           const std::scoped_lock lock(mutex);
-          scores.by_cell[about.cell].emplace(task_name(plan, plan.tasks[*about.task]), counts);
           report.missing_steps += submitted.without;
           report.files_with_missing += submitted.without > 0 ? 1 : 0;
         }
       });
+  std::ranges::stable_sort(scores, {}, &SubmittedRun::task);
   return scores;
 }
 
@@ -281,11 +276,11 @@ BeliefReport scored(const BeliefRequest& wanted, ExperimentContext& context) {
         wanted.beliefs.string(), report.without.size(),
         report.without.empty() ? exported.back().name : report.without.front()));
   }
-  const SubmissionScores scores = scores_of(files, exported, context, report);
+  const std::vector<SubmittedRun> scores = scores_of(files, exported, context, report);
   if (!context.should_continue()) throw Stopped();
-  save(scores, context.directory.store());
+  save(report.name, scores, context.directory.store());
   const Plan& plan = context.plan;
-  const CollectedCounts own = collect(plan, plan.runs_in(0), context.directory.store());
+  const ScoreRows own = score_rows(plan.runs_in(0), plan, context.directory.store());
   const FittedModels no_models;
   const Evaluation evaluation{context.request,           plan, runs,
                               context.directory.store(), own,  no_models};

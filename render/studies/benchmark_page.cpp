@@ -287,8 +287,8 @@ std::string header_of(const ReportSubject& subject, const BenchmarkTables& table
              "</dl>\n<p class=\"note\">{} {} runs per scene and engine. All numbers of "
              "this page: <a href=\"tables/benchmark.csv\">benchmark.csv</a>, <a "
              "href=\"tables/benchmark_standings.csv\">standings</a>, <a "
-             "href=\"tables/benchmark_differences.csv\">differences</a>, all as <a "
-             "href=\"tables/benchmark.json\">JSON</a>. The <a href=\"report.html\">report"
+             "href=\"tables/benchmark_differences.csv\">differences</a>. "
+             "The <a href=\"report.html\">report"
              "</a> shows the rest of the experiment.</p>\n",
              escaped(experiments::conditions_text(subject.experiment)),
              subject.experiment.test.runs);

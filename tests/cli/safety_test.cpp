@@ -131,7 +131,7 @@ TEST_F(RunDirectory, WithoutItsStateIsComputedAnew) {
 TEST_F(RunDirectory, HoldsNoUntrackedFile) {
   folder_.output_of(
       "run tiny.yaml --out a --set video.enabled=true --set detail.seed=0 --set paper_tables=true "
-      "--set cross_simulator.sensitivity.runs=1");
+      "--set cross_simulator.overlay.run=0");
   EXPECT_TRUE(folder_.has("a/figures/detail_bullet_spectrum_1.dat"));
   EXPECT_TRUE(folder_.has("a/videos/report.mp4"));
   EXPECT_THAT(untracked_files_in(folder_ / "a"), IsEmpty());

@@ -42,12 +42,12 @@ TEST(StudySections, AreFoundByTypeAndCopiedWithTheirExperiment) {
 
 TEST(StudySections, AreWrittenInTheirPlacesAndReadBack) {
   const std::string text =
-      to_yaml(with_sections("sweep: {delay: [0.25]}\nodometry: {delay: [0.5]}\n"));
-  const std::size_t sweep = text.find("\nsweep:\n  delay: [0.25]\n");
+      to_yaml(with_sections("vary: {sensors.delay: [0.25]}\nodometry: {delay: [0.5]}\n"));
+  const std::size_t vary = text.find("\nvary:\n  sensors.delay: [0.25]\n");
   const std::size_t odometry = text.find("\nodometry:\n  delay: [0.5]\n");
   ASSERT_NE(odometry, std::string::npos);
-  EXPECT_LT(text.find("\ntest:"), sweep);
-  EXPECT_LT(sweep, text.find("\nnoise:"));
+  EXPECT_LT(text.find("\ntest:"), vary);
+  EXPECT_LT(vary, text.find("\nnoise:"));
   EXPECT_LT(text.find("\npaper_tables:"), odometry);
   EXPECT_EQ(to_yaml(experiment_from_yaml(YamlDocument::parse(text, "again.yaml"))), text);
 }
@@ -59,7 +59,7 @@ TEST(StudySections, AddTheirFiles) {
   EXPECT_THAT(
       files_of(with_sections("closed_loop: {scenes: [{scenario: c.yaml}]}\n")).scenarios.back(),
       "c.yaml");
-  EXPECT_THAT(files_of(with_sections("sweep: {delay: [0.25]}\n")).sensors, ElementsAre());
+  EXPECT_THAT(files_of(with_sections("vary: {sensors.delay: [0.25]}\n")).sensors, ElementsAre());
 }
 
 TEST(StudySections, OfSeveralStudiesStandInOneFile) {
@@ -68,7 +68,7 @@ TEST(StudySections, OfSeveralStudiesStandInOneFile) {
       "test: {scenarios: [scenarios/stairs.yaml], runs: 3}\n";
   for (const char* tail : {"cross_simulator: {}\nmoments: true\n",
                            "cross_simulator: {}\nodometry: {}\nbenchmark: {}\n",
-                           "cross_simulator: {}\nsweep: {delay: [0.001]}\n"}) {
+                           "cross_simulator: {}\nvary: {sensors.delay: [0.001]}\n"}) {
     const std::string written =
         to_yaml(experiment_from_yaml(YamlDocument::parse(text + tail, "f")));
     EXPECT_EQ(to_yaml(experiment_from_yaml(YamlDocument::parse(written, "again.yaml"))), written);

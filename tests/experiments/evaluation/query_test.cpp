@@ -1,6 +1,7 @@
 #include "experiments/evaluation/query.hpp"
 
 #include <cmath>
+#include <deque>
 
 #include <gtest/gtest.h>
 
@@ -10,41 +11,46 @@
 namespace touchdown::experiments {
 namespace {
 
-/// A condition that decides `delay` steps late in ten runs with one flight each.
-ConditionScores delayed_by(const std::string& estimator, std::ptrdiff_t delay) {
-  ConditionScores scores{{"mujoco", "mujoco", estimator}, {{}}};
-  for (std::ptrdiff_t run = 0; run < 10; ++run) {
-    const auto sequence = [&](std::ptrdiff_t shift) {
-      scoring::ContactSequence contact(2000, 1);
-      std::fill(contact.begin() + 1000 + shift, contact.begin() + 1100 + 10 * run + shift, 0);
-      return contact;
-    };
-    const scoring::ContactSequence predicted = sequence(delay);
-    scoring::Prediction prediction;
-    prediction.fill({predicted, {predicted.begin(), predicted.end()}});
-    const auto segments = scoring::score({sequence(0), sequence(0)}, prediction, {0}, 1000, {});
-    scores.samples[0].push_back(segments.front());
-  }
-  return scores;
-}
+/// Ten runs with one flight each, and predictions of them.
+class TenRuns {
+ public:
+  explicit TenRuns(const noise::NoiseCell& cell = {}) : cell_(cell), runs_(10) {}
 
-/// The tables of conditions with ten runs each.
-ScoreTables tables_of(std::vector<ConditionScores> scores, const noise::NoiseCell& cell) {
-  Experiment experiment;
-  experiment.highlights = {cell};
-  experiment.intervals.bootstrap.resamples = 50;
-  Plan plan;
-  plan.groups.emplace_back();
-  CollectedCounts counts{.counted = {}, .scored = std::move(scores)};
-  for (std::size_t run = 0; run < 10; ++run) {
-    plan.runs.emplace_back();
-    counts.origins["mujoco"].push_back({run, 0});
+  /// Adds a condition that decides `delay` steps late.
+  TenRuns& delayed_by(const std::string& estimator, std::ptrdiff_t delay) {
+    conditions_.push_back({"mujoco", "mujoco", estimator});
+    for (std::size_t run = 0; run < runs_.size(); ++run) {
+      const auto sequence = [&](std::ptrdiff_t shift) {
+        scoring::ContactSequence contact(2000, 1);
+        const auto takeoff = contact.begin() + 1000 + shift;
+        std::fill(takeoff, takeoff + 100 + 10 * static_cast<std::ptrdiff_t>(run), 0);
+        return contact;
+      };
+      const scoring::ContactSequence predicted = sequence(delay);
+      scoring::Prediction prediction;
+      prediction.fill({predicted, {predicted.begin(), predicted.end()}});
+      const auto segments = scoring::score({sequence(0), sequence(0)}, prediction, {0}, 1000, {});
+      rows_.scored.push_back({&runs_[run], 0, &conditions_.back(), &cell_, 0, segments.front()});
+    }
+    return *this;
   }
-  return score_tables(counts, plan, experiment);
-}
+  /// Adds a condition of which no run was scored.
+  TenRuns& unscored(const std::string& simulator) {
+    conditions_.push_back({simulator, simulator, "robust"});
+    rows_.scored.push_back({.condition = &conditions_.back(), .noise = &cell_});
+    return *this;
+  }
+  ScoreTables tables() const { return score_tables(rows_, {.resamples = 50}); }
+
+ private:
+  noise::NoiseCell cell_;
+  std::vector<PlannedRun> runs_;
+  std::deque<Condition> conditions_;  // rows refer to them
+  ScoreRows rows_;
+};
 
 TEST(ScoreTables, CoverEveryViewAndMetric) {
-  const ScoreTables tables = tables_of({delayed_by("robust", 12)}, {0.25, 0.0});
+  const ScoreTables tables = TenRuns({0.25, 0.0}).delayed_by("robust", 12).tables();
   const std::vector<TableRow> scores = tables.scores.all();
   ASSERT_EQ(scores.size(), scoring::scored_views().size());
   for (const TableRow& row : scores) {
@@ -66,7 +72,7 @@ TEST(ScoreTables, CoverEveryViewAndMetric) {
 }
 
 TEST(ScoreTables, PairDifferencesByRun) {
-  const ScoreTables tables = tables_of({delayed_by("robust", 5), delayed_by("paper", 12)}, {});
+  const ScoreTables tables = TenRuns().delayed_by("robust", 5).delayed_by("paper", 12).tables();
   const auto latency = where(tables.differences.all(), [](const TableRow& row) {
     return row.text("metric") == "takeoff_latency_ms";
   });
@@ -79,8 +85,7 @@ TEST(ScoreTables, PairDifferencesByRun) {
 }
 
 TEST(ScoreTables, KeepTheRowOfAConditionWithoutAScoredRun) {
-  const ScoreTables tables =
-      tables_of({delayed_by("robust", 5), {{"bullet", "bullet", "robust"}, {{}}}}, {});
+  const ScoreTables tables = TenRuns().delayed_by("robust", 5).unscored("bullet").tables();
   const std::vector<TableRow> scores = tables.scores.all();
   ASSERT_EQ(scores.size(), 2 * scoring::scored_views().size());
   EXPECT_EQ(scores.back().text("simulator"), "bullet");
@@ -120,6 +125,31 @@ TEST(AQuery, HasALineForEachCombinationOfKeysAndASampleForEachRunAndSegment) {
             "mujoco,44.000000,44.000000,44.000000,88.000000,4\n"
             "bullet,22.000000,22.000000,22.000000,44.000000,2\n");
   EXPECT_EQ(found.totals[1].value, 22.0);
+}
+
+TEST(AQuery, SubtractsOtherRowsOnTheSameRuns) {
+  std::vector<PlannedRun> runs(4);
+  const Condition high{"a", "a", "high"}, low{"a", "a", "low"};
+  std::vector<Scored<Count>> rows;
+  for (const Condition* condition : {&high, &low}) {
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      Scored<Count> row{.run = &runs[i], .condition = condition};
+      row.score.value = 10.0 * static_cast<double>(i * i) + (condition == &high ? 3.0 : 0.0);
+      rows.push_back(row);
+    }
+  }
+  Query<Count> query;
+  query.by.text("estimator", [](const Scored<Count>& row) { return row.condition->estimator; });
+  const auto is_low = [&](const Scored<Count>& /*line*/, const Scored<Count>& other) {
+    return other.condition == &low;
+  };
+  const auto sum = [](const Count& all) { return all.value; };
+  query.differences = {{"gain", sum, is_low}, {"loss", sum, is_low, true}};
+  // However different the runs are: a resample draws the same four of both.
+  EXPECT_EQ(to_csv(answer(rows, query, {.resamples = 20}).table),
+            "estimator,gain,gain_low,gain_high,loss,loss_low,loss_high\n"
+            "high,12.000000,12.000000,12.000000,-12.000000,-12.000000,-12.000000\n"
+            "low,0.000000,0.000000,0.000000,0.000000,0.000000,0.000000\n");
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "experiments/estimators/registry.hpp"
-#include "experiments/evaluation/tasks.hpp"
+#include "experiments/evaluation/scored.hpp"
 #include "tests/draws.hpp"
 #include "tests/experiments/synthetic_runs.hpp"
 #include "tests/scratch_folder.hpp"
@@ -147,7 +147,7 @@ TEST(Evaluation, EqualsTheSumOfSingleConditions) {
   ASSERT_EQ(plan.tasks.size(), 4U);
   const Store saved(folder.path(), "key");
   const std::vector<std::size_t> both = plan.runs_in(0);
-  EXPECT_THROW(collect(plan, both, saved), Error);
+  EXPECT_THROW(score_rows(both, plan, saved), Error);
   // The order of tasks does not matter. Saved tasks are not computed again.
   std::vector<std::size_t> computed;
   for (const std::size_t t : {2U, 3U, 0U, 0U, 1U, 2U, 3U}) {
@@ -161,10 +161,10 @@ TEST(Evaluation, EqualsTheSumOfSingleConditions) {
   EXPECT_EQ(computed, (std::vector<std::size_t>{2, 3, 0, 1}));
   EXPECT_FALSE(
       saved_counts(plan, plan.tasks.front(), Store(folder.path(), "other build")).has_value());
-  const CollectedCounts all = collect(plan, both, saved);
-
-  ASSERT_EQ(all.counted.size(), conditions.size());
-  ASSERT_EQ(all.scored.size(), conditions.size());
+  const ScoreRows all = score_rows(both, plan, saved);
+  const std::size_t samples = both.size() * runs.front().signals.segments.size();
+  ASSERT_EQ(all.counted.size(), conditions.size() * cells.size() * samples);
+  ASSERT_EQ(all.scored.size(), conditions.size() * samples);
   for (std::size_t c = 0; c < conditions.size(); ++c) {
     for (std::size_t r = 0; r < both.size(); ++r) {
       const RunSignals& run = runs.at(r).signals;
@@ -185,10 +185,13 @@ TEST(Evaluation, EqualsTheSumOfSingleConditions) {
       for (std::size_t segment = 0; segment < run.segments.size(); ++segment) {
         const std::size_t sample = r * run.segments.size() + segment;
         for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-          EXPECT_EQ(all.counted[c].samples[cell][sample],
-                    counts[cell * run.segments.size() + segment]);
+          const auto& row = all.counted[(c * cells.size() + cell) * samples + sample];
+          EXPECT_EQ(row.score, counts[cell * run.segments.size() + segment]);
+          EXPECT_EQ(row.run, &plan.runs[both[r]]);
+          EXPECT_EQ(*row.condition, conditions[c]);
+          EXPECT_EQ(*row.noise, cells[cell]);
         }
-        const scoring::Score collected = all.scored[c].samples[0][sample].wheels();
+        const scoring::Score collected = all.scored[c * samples + sample].score.wheels();
         EXPECT_EQ(collected.points, scores[segment].points);
         EXPECT_EQ(collected.takeoff, scores[segment].takeoff);
         EXPECT_DOUBLE_EQ(collected.calibration.squared_error,

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "experiments/results/json.hpp"
 
 namespace touchdown::experiments {
 namespace {
@@ -35,13 +34,6 @@ TEST(Latex, EscapesMarkupAndUsesBooktabs) {
   EXPECT_THAT(latex, HasSubstr("\\begin{tabular}{llr}"));
   EXPECT_THAT(latex, ::testing::StartsWith("% Above 1 N > 0, 95 %\n\\begin{tabular}"));
   EXPECT_THAT(latex, ::testing::EndsWith("\\bottomrule\n\\end{tabular}\n"));
-}
-
-TEST(JsonTable, HasNumbersAsNumbersAndNothingForNan) {
-  const Table table{{{"name"}, {"value"}, {"other"}}, {{"a", 0.25, NAN}, {"1", 3, ""}}};
-  const auto json = json_of(table);
-  EXPECT_EQ(json.dump(),
-            R"([{"name":"a","value":0.25,"other":null},{"name":"1","value":3.0,"other":""}])");
 }
 
 }  // namespace

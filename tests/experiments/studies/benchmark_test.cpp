@@ -173,8 +173,7 @@ TEST(ABenchmark, ResamplesFitsAndRunsTogether) {
   }
   EXPECT_THAT(own_files(folder / "own"),
               IsSupersetOf({std::filesystem::path("tables") / "benchmark_standings.csv",
-                            std::filesystem::path("tables") / "benchmark_differences.csv",
-                            std::filesystem::path("tables") / "benchmark.json"}));
+                            std::filesystem::path("tables") / "benchmark_differences.csv"}));
 }
 
 TEST(ABenchmark, SimulatesARobotOnceForAllItsSensors) {

@@ -28,7 +28,7 @@ TEST(SectionsOfStudies, AreWrittenAsTheyAreReadAndOnlyIfSet) {
                                  Section{"ablation: {from: load_filter}", "to: robust"},
                                  Section{"moments: true", "moments: true"},
                                  Section{"odometry: {delay: [0.25, 0.5]}", "delay: [0.25, 0.5]"},
-                                 Section{"sweep: {dropout: [0.25]}", "dropout: [0.25]"}}) {
+                                 Section{"vary: {sensors.dropout: [0.25]}", "sensors.dropout: [0.25]"}}) {
     EXPECT_THAT(reread_yaml(with_section(section.text)), HasSubstr(section.written));
     const std::string key(section.text, std::string_view(section.text).find(':') + 1);
     EXPECT_THAT(to_yaml(with_section("")), Not(HasSubstr(key)));
