@@ -20,8 +20,8 @@ NpzNeeds model_needs(const std::filesystem::path& path) {
   const auto has = [&](std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
-  if (!has("contact_likelihood")) return any_array;
-  return [](std::string_view name) { return is_of_grid(name) ? any_array(name) : 0; };
+  if (has("contact_likelihood")) return is_of_grid;
+  return {};
 }
 
 /// What `make` makes of a file's model. The errors of `make` get the file's name in front.

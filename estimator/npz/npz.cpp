@@ -1,7 +1,5 @@
 #include "estimator/npz/npz.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <memory>
@@ -13,8 +11,8 @@ namespace touchdown {
 
 namespace {
 
-/// 1 GB of numbers: far more than any model has.
-constexpr std::size_t most_numbers = std::size_t{1} << 27U;
+/// Far more than the arrays of a model or a log have.
+constexpr std::size_t most_bytes = std::size_t{1} << 30U;
 constexpr std::string_view extension = ".npy";
 
 struct DiscardZip {
@@ -43,24 +41,26 @@ Zip open_zip(const std::filesystem::path& path, int flags) {
   throw InputError(path.string() + ": is not a readable .npz file: " + reason);
 }
 
+/// Takes the array's bytes from those that are `left` to read.
 ModelArray read_member(zip_t& archive, zip_uint64_t index, const std::string& where,
-                       std::size_t most) {
+                       std::size_t& left) {
   zip_stat_t status;
-  if (zip_stat_index(&archive, index, 0, &status) != 0 || (status.valid & ZIP_STAT_SIZE) == 0) {
+  if (zip_stat_index(&archive, index, 0, &status) != 0 || (status.valid & ZIP_STAT_SIZE) == 0 ||
+      status.size > left) {
     throw InputError(where + ": has no sensible size");
   }
   const Member member(zip_fopen_index(&archive, index, 0));
   if (!member) throw InputError(where + ": " + zip_strerror(&archive));
-  const NpyBytes bytes = [&](std::span<char> buffer) {
-    const zip_int64_t size = zip_fread(member.get(), buffer.data(), buffer.size());
-    if (size < 0) throw InputError(where + ": " + zip_file_strerror(member.get()));
-    return static_cast<std::size_t>(size);
-  };
-  ModelArray array = read_npy(bytes, status.size, where, most);
-  // libzip compares the checksum at the end of a member.
-  std::array<char, 1> rest{};
-  if (bytes(rest) != 0) throw InputError(where + ": is longer than its header states");
-  return array;
+  std::string bytes(status.size, '\0');
+  char beyond = 0;
+  const zip_int64_t size = zip_fread(member.get(), bytes.data(), bytes.size());
+  // libzip compares the checksum where it meets the end of the member.
+  if (size < 0 || zip_fread(member.get(), &beyond, 1) != 0) {
+    throw InputError(where + ": " + zip_file_strerror(member.get()));
+  }
+  bytes.resize(static_cast<std::size_t>(size));
+  left -= bytes.size();
+  return from_npy(bytes, where);
 }
 
 /// Calls `visit(index, name)` for every array of the file.
@@ -141,19 +141,13 @@ void add_member(zip_t& archive, const std::string& name, const std::string& byte
 
 }  // namespace
 
-std::size_t any_array(std::string_view /*name*/) { return most_numbers; }
-
 ModelArrays read_npz(const std::filesystem::path& path, const NpzNeeds& needs) {
   const Zip archive = open_npz(path);
   ModelArrays arrays;
-  std::size_t left = most_numbers;
+  std::size_t left = most_bytes;
   for_each_array(*archive, path, [&](zip_uint64_t index, const std::string& name) {
-    const std::size_t needed = needs(name);
-    if (needed == 0) return;
-    const std::string where = path.string() + ": " + name;
-    ModelArray array = read_member(*archive, index, where, std::min(needed, left));
-    left -= array.data.size();
-    arrays[name] = std::move(array);
+    if (needs && !needs(name)) return;
+    arrays[name] = read_member(*archive, index, path.string() + ": " + name, left);
   });
   return arrays;
 }

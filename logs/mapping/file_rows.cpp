@@ -240,8 +240,7 @@ class ArrayFile final : public FileSource {
     names_.are_arrays = true;
     names_.names = npz_names(path);
     names_.width = [path](const std::string& name) -> std::size_t {
-      const ModelArrays one = read_npz(
-          path, [&](std::string_view other) { return other == name ? any_array(other) : 0; });
+      const ModelArrays one = read_npz(path, [&](std::string_view other) { return other == name; });
       const auto found = one.find(name);
       return found != one.end() && found->second.shape.size() == 2 ? found->second.shape[1] : 1;
     };
@@ -251,9 +250,7 @@ class ArrayFile final : public FileSource {
     const std::vector<SourceColumn> wanted = columns_of(mapping);
     if (wanted.empty()) return;
     arrays_ = read_npz(path_, [&](std::string_view name) {
-      const bool is_wanted = std::any_of(wanted.begin(), wanted.end(),
-                                         [&](const SourceColumn& one) { return one.name == name; });
-      return is_wanted ? any_array(name) : 0;
+      return std::ranges::find(wanted, name, &SourceColumn::name) != wanted.end();
     });
     const std::string& first = wanted.front().name;
     rows_ = arrays_.at(first).shape.front();
