@@ -1,6 +1,7 @@
 #include "apps/cli/command_line.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <malloc.h>
 #include <new>
@@ -36,6 +37,15 @@ std::vector<std::string> verbs(const CLI::App& program) {
   return names;
 }
 
+/// A command of earlier versions, and what serves its need.
+struct FormerVerb {
+  std::string_view name;
+  const char* successor;
+};
+constexpr std::array former_verbs = {FormerVerb{"keys", "touchdown list KIND"},
+                                     FormerVerb{"manual", "touchdown list commands --markdown"},
+                                     FormerVerb{"clean", "rm -r runs/NAME/ID"}};
+
 /// A one-line message about a wrong command line that suggests the nearest existing verb or flag.
 std::string complaint(const CLI::App& program, int argc, char** argv,
                       const CLI::ParseError& error) {
@@ -43,6 +53,10 @@ std::string complaint(const CLI::App& program, int argc, char** argv,
   const std::string verb = argc > 1 ? argv[1] : "";
   if (std::find(known.begin(), known.end(), verb) == known.end()) {
     if (verb.starts_with('-')) return unknown_flag(verb, program);
+    const auto* const former = std::ranges::find(former_verbs, verb, &FormerVerb::name);
+    if (former != former_verbs.end()) {
+      return fmt::format("'{}' is gone: use '{}'", verb, former->successor);
+    }
     const std::string near = did_you_mean(verb, known);
     return fmt::format("unknown command '{}'{}", verb,
                        near.empty() ? fmt::format(" (known: {})", fmt::join(known, ", ")) : near);
@@ -82,10 +96,7 @@ int run_command_line(int argc, char** argv) {
   add_check(program, session);
   add_export(program, session);
   add_score(program, session);
-  add_clean(program, session);
   add_list(program, session);
-  add_keys(program, session);
-  add_manual(program, session);
 
   if (argc < 2) {
     print("{}", program.help());

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <memory>
 #include <sstream>
 
+#include "apps/cli/reference.hpp"
 #include "apps/cli/verb.hpp"
 #include "core/files.hpp"
 #include "core/program.hpp"
@@ -66,14 +68,30 @@ void list() {
         }));
 }
 
+struct ListFlags {
+  std::string what;
+  bool markdown = false;
+};
+
 }  // namespace
 
 void add_list(CLI::App& program, const CliSession& /*session*/) {
   Verb verb(
       program, "list",
-      "touchdown list\n\n"
-      "Lists the available experiments, scenarios, robots, sensors, simulators and estimators.");
-  verb.action(list);
+      "touchdown list\n"
+      "touchdown list scenario\n\n"
+      "Lists the available experiments, scenarios, robots, sensors, simulators and estimators, or\n"
+      "every key of a kind of YAML file, with type, unit, range, default and meaning. Kinds:\n"
+      "experiment, scenario, robot, sensors, mapping, training.");
+  const auto flags = std::make_shared<ListFlags>();
+  verb.option("what", &flags->what, "Kind of file, 'keys' of all kinds, or 'commands'")
+      .value_name("WHAT");
+  verb.flag("--markdown", &flags->markdown, "Print as a document: docs/reference/keys.md, cli.md");
+  verb.action([&program, flags] {
+    if (flags->what.empty()) return list();
+    print(flags->what == "commands" ? commands_reference(program)
+                                    : keys_reference(flags->what, flags->markdown));
+  });
 }
 
 }  // namespace touchdown::cli

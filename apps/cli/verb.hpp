@@ -85,9 +85,6 @@ void add_label(CLI::App& program, const CliSession& session);
 void add_check(CLI::App& program, const CliSession& session);
 void add_export(CLI::App& program, const CliSession& session);
 void add_score(CLI::App& program, const CliSession& session);
-void add_clean(CLI::App& program, const CliSession& session);
 void add_list(CLI::App& program, const CliSession& session);
-void add_keys(CLI::App& program, const CliSession& session);
-void add_manual(CLI::App& program, const CliSession& session);
 
 }  // namespace touchdown::cli

@@ -218,31 +218,6 @@ void remove_own_files(const fs::path& directory) {
   remove_empty_folders(directory);
 }
 
-UntrackedFiles remove_run(const fs::path& directory) {
-  remove_partial_files(directory);
-  remove_own_files(directory);
-  for (const fs::path& log : entries_in(directory / "logs")) {
-    const bool is_ours = has_shape(log.filename(), R"((shard|merge)_\d+(_\d+)?\.txt)");
-    if (is_ours && is_regular(directory, "logs" / log.filename())) remove_file(log);
-  }
-  if (is_regular(directory, "state/key")) remove_file(key_file(directory));
-  UntrackedFiles left;
-  std::error_code gone;
-  for (const fs::path& entry : entries_below(directory)) {
-    const fs::file_type type = fs::symlink_status(entry, gone).type();
-    if (type == fs::file_type::directory || entry == lock_file(directory)) continue;
-    ++left.files;
-    if (type == fs::file_type::regular) left.bytes += size_of_file(entry);
-  }
-  if (left.files > 0) return left;
-  // Other processes detect that the lock file is gone and lock a new one.
-  if (is_regular(directory, "state/lock")) remove_file(lock_file(directory));
-  remove_empty_folders(directory);
-  fs::remove(directory / "logs", gone);
-  fs::remove(directory, gone);
-  return left;
-}
-
 void remove_partial_files(const fs::path& directory) {
   std::vector<fs::path> folders = folders_of(directory);
   folders.emplace_back();  // the run directory itself, where others may have such files, too

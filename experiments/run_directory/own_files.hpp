@@ -58,16 +58,6 @@ void require_no_links(const std::filesystem::path& directory);
 /// Removes these files, and folders that are empty afterwards.
 void remove_own_files(const std::filesystem::path& directory);
 
-/// Files in a run directory that no run made.
-struct UntrackedFiles {
-  std::size_t files = 0;
-  std::uintmax_t bytes = 0;
-};
-
-/// Removes a run directory with key, lock and the logs of a cluster. Untracked files stay, and with
-/// them the directory.
-UntrackedFiles remove_run(const std::filesystem::path& directory);
-
 /// Removes half-written files and folders of killed processes, by their names, where a run writes.
 /// The caller must hold the directory alone, so that no other process is still writing them.
 void remove_partial_files(const std::filesystem::path& directory);

@@ -21,7 +21,7 @@ const std::vector<std::string> kinds = {"experiment", "scenario", "robot",
 
 struct Keys : InFolder {
   std::string printed(const std::string& arguments) const {
-    return folder_.output_of("keys " + arguments);
+    return folder_.output_of("list " + arguments);
   }
 };
 
@@ -59,9 +59,9 @@ TEST_F(Keys, OfEveryKindHaveAMeaningAndAType) {
 }
 
 TEST_F(Keys, AreTheDocument) {
-  EXPECT_TRUE(printed("--markdown") == read_file(std::filesystem::path(TOUCHDOWN_SOURCE_DIR) /
-                                                 "docs" / "reference" / "keys.md"))
-      << "docs/reference/keys.md is out of date; write it with: touchdown keys --markdown > "
+  EXPECT_TRUE(printed("keys --markdown") == read_file(std::filesystem::path(TOUCHDOWN_SOURCE_DIR) /
+                                                      "docs" / "reference" / "keys.md"))
+      << "docs/reference/keys.md is out of date; write it with: touchdown list keys --markdown > "
          "docs/reference/keys.md";
 }
 
@@ -78,52 +78,23 @@ TEST_F(Keys, ArePrintedForATerminalWithTypeUnitRangeDefaultAndMeaning) {
 }
 
 TEST_F(Keys, OfAllKindsArePrintedWithoutAKindAndAnUnknownOneIsRefused) {
-  EXPECT_THAT(printed(""), AllOf(HasSubstr("Experiment files\n"), HasSubstr("Mapping files\n"),
-                                 HasSubstr("Training files\n")));
-  folder_.expect_refusals({{"keys experimnt", {"did you mean 'experiment'?"}}});
+  EXPECT_THAT(printed("keys"), AllOf(HasSubstr("Experiment files\n"), HasSubstr("Mapping files\n"),
+                                     HasSubstr("Training files\n")));
+  folder_.expect_refusals({{"list experimnt", {"did you mean 'experiment'?"}}});
 }
 
-/// The completions that bash offers for the last of these words.
-std::string offered(const std::filesystem::path& share, const std::string& words) {
-  const std::string script = fmt::format(
-      "source {}/bash-completion/completions/touchdown; COMP_WORDS=({}); "
-      "COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); _touchdown; echo -n ${{COMPREPLY[*]}}",
-      share.string(), words);
-  FILE* pipe = ::popen(fmt::format("bash -c '{}' 2>&1", script).c_str(), "r");
-  std::string output;
-  for (int letter = std::fgetc(pipe); letter != EOF; letter = std::fgetc(pipe)) {
-    output += static_cast<char>(letter);
-  }
-  EXPECT_EQ(::pclose(pipe), 0) << output;
-  return output;
-}
+using Commands = InFolder;
 
-struct Manual : InFolder {
-  Manual() { folder_.output_of("manual share"); }
-  std::filesystem::path share = folder_ / "share";
-};
-
-TEST_F(Manual, ReferenceOfTheDocumentsIsThatOfTheProgram) {
+TEST_F(Commands, AreTheDocument) {
   const std::string file = TOUCHDOWN_SOURCE_DIR "/docs/reference/cli.md";
-  EXPECT_TRUE(folder_.output_of("manual --markdown") == read_file(file))
-      << file << " is out of date; write it with: touchdown manual --markdown";
-  folder_.expect_refusals({{"manual", {"manual: expected DIR or --markdown"}}});
+  EXPECT_TRUE(folder_.output_of("list commands --markdown") == read_file(file))
+      << file << " is out of date; write it with: touchdown list commands --markdown";
 }
 
-TEST_F(Manual, BashOffersCommandsFlagsAndKnownNames) {
-  EXPECT_EQ(offered(share, "touchdown si"), "simulate");
-  EXPECT_EQ(offered(share, "touchdown simulate --sim"), "--simulator");
-  EXPECT_EQ(offered(share, "touchdown simulate --simulator bu"), "bullet");
-  EXPECT_EQ(offered(share, "touchdown render --layout = side"), "side-by-side");
-  EXPECT_EQ(offered(share, "touchdown fit --estimator mea"), "measurement_only");
-  EXPECT_EQ(offered(share, "touchdown keys sc"), "scenario");
-  EXPECT_EQ(offered(share, "touchdown run experi"), "") << "bash itself completes files";
-}
-
-TEST_F(Manual, ZshReadsItsCompletion) {
-  const std::string file = (share / "zsh" / "site-functions" / "_touchdown").string();
-  if (std::system("command -v zsh >/dev/null") != 0) GTEST_SKIP() << "no zsh here";
-  EXPECT_EQ(std::system(("zsh -n " + file).c_str()), 0);
+TEST_F(Commands, ThatWentNameTheirSuccessor) {
+  folder_.expect_refusals({{"keys experiment", {"'keys' is gone: use 'touchdown list KIND'"}},
+                           {"manual share", {"touchdown list commands"}},
+                           {"clean --dry-run", {"rm -r runs/NAME/ID"}}});
 }
 
 }  // namespace

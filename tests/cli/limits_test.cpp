@@ -231,13 +231,12 @@ TEST_F(Limits, TooFewDescriptorsAreNamedByEveryVerb) {
                                           "fit a.mpack -o n.npz --grid 40 40",
                                           "simulate s.yaml -o b.mpack",
                                           "list",
-                                          "keys",
+                                          "list keys",
                                           "generate --count 1 -o generated",
                                           "render s.mpack -o b.mp4 --width 160 --height 120",
                                           "report out",
                                           "merge out --no-pictures",
-                                          run + " --no-pictures",
-                                          "clean ."};
+                                          run + " --no-pictures"};
   for (const std::string& arguments : verbs) {
     for (const int descriptors :
          draws_all() ? std::vector{4, 5, 6, 7, 8, 10, 12, 16} : std::vector{5, 8, 12}) {
@@ -291,7 +290,7 @@ TEST_F(Limits, AFullDiskIsNamedWithItsFileByEveryVerb) {
   }
   for (const std::string arguments :
        {"estimate a.mpack --estimator free_fall -o -", "estimate a.mpack", "check a.mpack", "list",
-        "keys", "fit a.mpack -o c.npz --estimator robust --grid 40 40"}) {
+        "list keys", "fit a.mpack -o c.npz --estimator robust --grid 40 40"}) {
     const Ended ended = folder_.run(arguments + " >/dev/full");
     EXPECT_EQ(ended.exit_code, 1) << arguments;
     EXPECT_THAT(last_line(ended.errors), HasSubstr("standard output")) << arguments;
@@ -329,7 +328,7 @@ TEST_F(StandardOutput, ThatIsFullOrClosedIsAnError) {
   for (const auto& [stream, reason] : std::map<std::string, std::string>{
            {">/dev/full", "No space left on device"}, {">&-", "Bad file descriptor"}}) {
     for (const std::string command :
-         {"list", "keys", "manual --markdown", "--help", "run --help", "--version"}) {
+         {"list", "list keys", "list commands --markdown", "--help", "run --help", "--version"}) {
       EXPECT_EQ(folder_.refusal_of(fmt::format("{} {}", command, stream), 1),
                 "touchdown: standard output cannot be written: " + reason + "\n")
           << command << stream;

@@ -179,7 +179,7 @@ TEST_F(OwnFiles, OfAnEarlierVersionAreRefused) {
   fs::remove(folder / "state/files");
   folder.write("state/files/tables:success.csv", "");
   for (const auto& use : std::vector<std::function<void()>>{
-           [&] { require_no_links(folder.path()); }, [&] { (void)remove_run(folder.path()); },
+           [&] { require_no_links(folder.path()); },
            [&] { record_file(folder.path(), "tables/success.csv"); }}) {
     EXPECT_THAT(use, ThrowsMessage<InputError>(AllOf(HasSubstr("of an earlier touchdown"),
                                                      HasSubstr("remove the directory"))));
@@ -196,16 +196,6 @@ TEST_F(OwnFiles, AreNotSearchedForThroughLinks) {
               ThrowsMessage<InputError>(HasSubstr("tables: is a link")));
   remove_own_files(folder.path());
   EXPECT_TRUE(fs::exists(elsewhere / "success.csv"));
-}
-
-TEST_F(OwnFiles, OfAWholeRunGoWithItsFolderUnlessUntrackedFilesStay) {
-  const UntrackedFiles left_over = remove_run(folder.path());
-  EXPECT_EQ(left_over.files, untracked.size());
-  EXPECT_EQ(left_over.bytes, untracked.size() * std::string("precious").size());
-  for (const std::string& file : untracked) fs::remove(folder / file);
-  fs::remove(folder / "data");
-  EXPECT_EQ(remove_run(folder.path()).files, 0U);
-  EXPECT_FALSE(fs::exists(folder.path()));
 }
 
 namespace fs = std::filesystem;
