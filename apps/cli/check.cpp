@@ -224,7 +224,7 @@ std::size_t check_robot(const std::string& path, const CheckFlags& flags,
 std::size_t check_log(const std::string& path, const std::string& mapping,
                       const experiments::LogRobot& robot, const CliSession& session) {
   logs::LogReader reader = open_log(path, {.mapping = mapping}, session);
-  experiments::LogSteps log(reader, nullptr, experiments::checked_robot(robot, reader.info()));
+  experiments::LogSteps log(reader, nullptr, robot);
   std::int64_t steps = 0;
   double last = 0.0;
   while (const experiments::LogStep* step = log.next()) {

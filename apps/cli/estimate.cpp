@@ -48,17 +48,17 @@ class BeliefWriter {
  public:
   /// A null stream means no such output. Streams must outlive this object.
   BeliefWriter(const EstimateStreams& streams, const std::optional<DrawnPart>& drawn)
-      : drawn_(drawn) {
-    if (streams.csv != nullptr) csv_.emplace(*streams.csv);
+      : csv_(streams.csv), drawn_(drawn) {
+    if (csv_ != nullptr) *csv_ << experiments::belief_columns;
     if (streams.mpack != nullptr) annotator_.emplace(*streams.mpack);
     if (streams.mcap != nullptr) bag_.emplace(*streams.mcap);
   }
 
   /// Call it before the first step, once the log's rate and robot are known.
-  void begin(const experiments::LogSteps& log, double robot_mass, bool labelled) {
-    threshold_ = scoring::force_threshold(labels_, robot_mass);
+  void begin(const experiments::LogSteps& log, bool labelled) {
+    threshold_ = scoring::force_threshold(labels_, log.robot_mass());
     summary_.emplace(log.period(), scoring::ScoringConfig{});
-    score_.emplace(log.period_us(), labels_, robot_mass, scoring::ScoringConfig{}, labelled);
+    score_.emplace(log.period_us(), labels_, log.robot_mass(), scoring::ScoringConfig{}, labelled);
   }
 
   /// Adds one step of `reader` and the estimator's belief after it.
@@ -68,9 +68,12 @@ class BeliefWriter {
     summary_->add(time, belief);
     score_->add(step.normal_force, belief);
     if (bag_) bag_->write(time, reader.start_time(), belief);
-    if (!csv_ && !annotator_ && !drawn_) return;
+    if (csv_ == nullptr && !annotator_ && !drawn_) return;
     const Evidence evidence = estimator.evidence();
-    if (csv_) csv_->write(time, reader.start_time(), belief, evidence);
+    if (csv_ != nullptr) {
+      experiments::write_csv(*csv_, time, reader.start_time(), belief, evidence);
+      require_written();
+    }
     if (annotator_) {
       annotator_->copy(reader.skipped());
       annotator_->annotate(reader.record(), belief, evidence);
@@ -80,9 +83,11 @@ class BeliefWriter {
     }
   }
 
-  /// Writes the buffered lines of the table.
+  /// Writes the buffered lines of the table. Errors: `Error` when its stream fails.
   void flush() {
-    if (csv_) csv_->flush();
+    if (csv_ == nullptr) return;
+    csv_->flush();
+    require_written();
   }
 
   /// Call it at the end of the log, with the number of findings about it. Returns the summary.
@@ -99,6 +104,10 @@ class BeliefWriter {
   const render::LogTrace& trace() const { return trace_; }
 
  private:
+  void require_written() const {
+    if (!*csv_) throw Error("the beliefs cannot be written: is the disk full?");
+  }
+
   void draw(const experiments::LogStep& step, const Belief& belief, const Evidence& evidence) {
     render::LogTraceStep drawn = render::log_trace_step(step.signals, belief, evidence);
     if (step.normal_force) {
@@ -110,7 +119,7 @@ class BeliefWriter {
 
   scoring::LabelConfig labels_;
   double threshold_ = 0.0;  ///< N
-  std::optional<experiments::BeliefCsv> csv_;
+  std::ostream* csv_;
   std::optional<experiments::BeliefBag> bag_;
   std::optional<logs::LogAnnotator> annotator_;
   std::optional<DrawnPart> drawn_;
@@ -119,11 +128,10 @@ class BeliefWriter {
   render::LogTrace trace_;
 };
 
-std::string model_line(const experiments::LogEstimator& chosen, const experiments::LogSteps& log,
-                       logs::LogReader& reader) {
+std::string model_line(const experiments::LogEstimator& chosen, const experiments::LogSteps& log) {
   const std::string text = chosen.model_text();
   if (text.empty()) return {};
-  const bool is_fitted = experiments::was_fitted_to(chosen.model, log, reader.info());
+  const bool is_fitted = experiments::was_fitted_to(chosen.model, log);
   return fmt::format("{:<12} {}{}\n", "model", text,
                      is_fitted ? "; it was fitted to this log, so that its score is no test" : "");
 }
@@ -162,11 +170,9 @@ void require_valid_steps(const logs::LogReader& reader, const BeliefWriter& writ
 Evaluation evaluate(logs::LogReader& reader, const experiments::LogEstimator& chosen,
                     const logs::ContactIntervals* labels, BeliefWriter& writer,
                     const CliSession& session) {
-  experiments::LogSteps log(reader, labels,
-                            experiments::checked_robot(chosen.request.robot, reader.info()));
-  const std::unique_ptr<ContactEstimator> estimator = chosen.make(log.sample_rate(), reader.info());
-  writer.begin(log, experiments::robot_mass(chosen.request.robot, reader.info()),
-               labels != nullptr);
+  experiments::LogSteps log(reader, labels, chosen.request.robot);
+  const std::unique_ptr<ContactEstimator> estimator = chosen.make(log.sample_rate(), log.info());
+  writer.begin(log, labels != nullptr);
   try {
     while (const experiments::LogStep* step = log.next()) {
       writer.add(reader, *step, *estimator, estimator->update(step->signals));
@@ -180,8 +186,8 @@ Evaluation evaluate(logs::LogReader& reader, const experiments::LogEstimator& ch
   const std::string summary = writer.finish(reader, findings.size());
   return {fmt::format("{}: {} steps, {:.3f} s at {:.6g} Hz, {}\n", reader.name(), writer.steps(),
                       writer.duration(), log.sample_rate(), chosen.entry.title) +
-              outcome_line(reader.info(), writer.duration()) + summary + gravity_line(log) +
-              model_line(chosen, log, reader),
+              outcome_line(log.info(), writer.duration()) + summary + gravity_line(log) +
+              model_line(chosen, log),
           std::move(findings)};
 }
 

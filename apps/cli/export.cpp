@@ -49,7 +49,7 @@ std::size_t report_findings(const ExportFlags& flags, const CliSession& session)
   logs::LogReader reader(flags.output, session.stop);
   std::vector<std::string> findings;
   try {
-    experiments::LogSteps log(reader, nullptr, experiments::checked_robot({}, reader.info()));
+    experiments::LogSteps log(reader);
     while (log.next() != nullptr) end_if(session.stop);
     findings = log.findings();
   } catch (const InputError& error) {

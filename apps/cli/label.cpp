@@ -55,9 +55,8 @@ void label(const LabelFlags& flags, const CliSession& session) {
   check_outputs(inputs, {flags.output});
   require_extension(flags.output, {".csv"}, "a file of labels");
   logs::LogReader reader = open_log(flags.log, flags.options, session);
-  experiments::LogSteps log(reader, nullptr,
-                            experiments::checked_robot(estimator.request.robot, reader.info()));
-  const logs::ContactIntervals labels = experiments::proposed_labels(log, estimator, reader.info());
+  experiments::LogSteps log(reader, nullptr, estimator.request.robot);
+  const logs::ContactIntervals labels = experiments::proposed_labels(log, estimator);
   end_if(session.stop);
   print_warnings(reader.warnings());
   print_findings(reader.name(), log.findings());

@@ -122,9 +122,7 @@ std::vector<std::string> check(const py::object& log, const std::string& robot,
     logs::LogReader reader =
         in_memory ? logs::LogReader(logs::records_of(recording, &stop), path.string())
                   : logs::open_log(path, mapping.value_or(fs::path()), &stop);
-    experiments::LogSteps steps(
-        reader, nullptr,
-        experiments::checked_robot(experiments::robot_of_file(robot), reader.info()));
+    experiments::LogSteps steps(reader, nullptr, experiments::robot_of_file(robot));
     while (steps.next() != nullptr) {
     }
     std::vector<std::string> lines = reader.warnings();

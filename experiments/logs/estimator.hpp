@@ -7,7 +7,6 @@
 #include "estimator/contact_estimator.hpp"
 #include "experiments/estimators/entry.hpp"
 #include "experiments/logs/log_steps.hpp"
-#include "experiments/logs/robot.hpp"
 #include "logs/log/contact_intervals.hpp"
 #include "logs/recording.hpp"
 
@@ -59,7 +58,6 @@ LogEstimator log_estimator(const EstimatorEntry& entry, Model model, const LogRo
 /// hand. An interval's `sure` is the lowest mean probability of a wheel's state over 20 ms in it.
 /// Where no step has usable signals for longer than a gap, no interval is. Errors: those of
 /// `LogEstimator::make`.
-logs::ContactIntervals proposed_labels(LogSteps& log, const LogEstimator& chosen,
-                                       const logs::RecordingInfo& info);
+logs::ContactIntervals proposed_labels(LogSteps& log, const LogEstimator& chosen);
 
 }  // namespace touchdown::experiments

@@ -1,17 +1,21 @@
 #include "experiments/logs/fit.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <deque>
 #include <limits>
 #include <utility>
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include "core/error.hpp"
 #include "core/stop.hpp"
 #include "estimator/bayes/measurement_fit.hpp"
 #include "estimator/signal_guard.hpp"
+#include "experiments/logs/estimator.hpp"
+#include "experiments/logs/summary.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
 #include "logs/log/recording_file.hpp"
 
@@ -24,7 +28,7 @@ logs::LogReader reader_of(const FitLog& log, const LogFitConfig& config) {
   return {logs::records_of(log.recording, config.stop), log.path.string()};
 }
 
-/// A declared class is a label of all times.
+/// A declared class is a label of all times. Null: the log's own truth counts.
 std::shared_ptr<const logs::ContactIntervals> labels_of(const FitLog& log) {
   if (!log.contact) return log.labels;
   constexpr double ever = std::numeric_limits<double>::infinity();
@@ -32,12 +36,94 @@ std::shared_ptr<const logs::ContactIntervals> labels_of(const FitLog& log) {
       logs::ContactIntervals{{}, {{-ever, ever, {*log.contact, *log.contact}}}});
 }
 
+/// A log of a fit, opened.
+struct OpenLog {
+  OpenLog(const FitLog& log, const LogFitConfig& config)
+      : labels(labels_of(log)),
+        reader(reader_of(log, config)),
+        steps(reader, labels.get(), config.robot) {}
+
+  std::shared_ptr<const logs::ContactIntervals> labels;
+  logs::LogReader reader;
+  LogSteps steps;
+};
+
+/// Whether the step is in the log's part, and in a labelled segment if it has labels.
+bool is_covered(const LogStep& step, const FitLog& log) {
+  const auto part = static_cast<std::int64_t>(std::floor(step.signals.time / part_length));
+  return step.normal_force && (!log.part || (part & 1) == *log.part);
+}
+
+/// Errors: `InputError` for a log of a reserved seed, or of another rate than the logs before it.
+void add_source(const FitLog& log, const LogSteps& steps, FittedTo& fitted_to) {
+  check_may_be_fitted(steps.info());
+  const double fitted = fitted_to.sample_rate;
+  if (fitted > 0.0 && !is_same_rate(steps.sample_rate(), fitted)) {
+    throw InputError(fmt::format(
+        "{}: {:.6g} steps per second, and the logs before it have {:.6g}: a model is fitted at one "
+        "rate; resample the log, or fit another model",
+        log.path.string(), steps.sample_rate(), fitted));
+  }
+  if (fitted == 0.0) fitted_to.sample_rate = steps.sample_rate();
+  fitted_to.add(steps.info());
+}
+
+/// How a log's own truth agrees with its declared class, in steps of a wheel.
+struct Agreement {
+  std::int64_t compared = 0;
+  std::int64_t contradicting = 0;
+  double first = 0.0;  ///< that contradicts (s)
+
+  /// `threshold`: of contact (N).
+  void add(const LogStep& step, bool declared, double threshold) {
+    if (!step.truth) return;
+    for (const double force : *step.truth) {
+      ++compared;
+      if ((force > threshold) == declared) continue;
+      if (contradicting++ == 0) first = step.signals.time;
+    }
+  }
+};
+
+/// Errors: `InputError` for a log with a ground truth that contradicts its declared class at more
+/// than 2 % of the steps.
+void require_agreement(const Agreement& agreement, const FitLog& log) {
+  constexpr double most_contradicting = 0.02;  // wheels that leave the ground for moments
+  const double share = scoring::ratio(agreement.contradicting, agreement.compared);
+  if (!(share > most_contradicting)) return;
+  const char* const declared = *log.contact ? "--contact" : "--no-contact";
+  throw InputError(fmt::format(
+      "{}: is declared {}, but its own ground truth contradicts this for {:.1f} % of the steps, "
+      "first at {:.3f} s: {}",
+      log.path.string(), declared, 100.0 * share, agreement.first,
+      share > 0.5 ? "are --contact and --no-contact swapped?"
+                  : fmt::format("name it without {}, so that this truth counts", declared)));
+}
+
+/// Errors: `InputError` for a copy of a log before it.
+void add_digest_and_warnings(const FitLog& log, const OpenLog& opened, LogFitReport& report) {
+  const auto [same, is_new] = report.digests.emplace(opened.steps.digest(), log.path.string());
+  if (!is_new) {
+    throw InputError(fmt::format("{} and {} are copies of one log, which would count twice",
+                                 same->second, log.path.string()));
+  }
+  for (std::string& warning : opened.reader.warnings()) {
+    report.warnings.push_back(std::move(warning));
+  }
+  for (const std::string& finding : opened.steps.findings()) {
+    report.warnings.push_back(fmt::format("{}: {}", log.path.string(), finding));
+  }
+}
+
 using Samples = std::array<std::vector<TorqueSample>, 2>;  ///< without contact, in contact
 
+/// Errors: `InputError` for a step without ground truth of contact, if there are no labels, and for
+/// labels of which no step is used; those of the functions above.
 void read_log(const FitLog& log, const TorqueConfig& torque, const LogFitConfig& config,
               Samples& samples, LogFitReport& report) {
-  FitLogSteps reader(log, config, report);
-  const LogSteps& steps = reader.steps();
+  OpenLog opened(log, config);
+  LogSteps& steps = opened.steps;
+  add_source(log, steps, report.fitted_to);
   /// Samples of a leg wait until later forces decide about their labels.
   std::array<std::deque<std::optional<TorqueSample>>, models::wheel_count> waiting;
   const auto label = [&](std::size_t side) {
@@ -47,21 +133,32 @@ void read_log(const FitLog& log, const TorqueConfig& torque, const LogFitConfig&
     };
   };
   const auto labels_of = [&](std::size_t side) {
-    return scoring::LabelStream(steps.period(), reader.robot_mass(), config.labels, label(side));
+    return scoring::LabelStream(steps.period(), steps.robot_mass(), config.labels, label(side));
   };
   std::array<scoring::LabelStream, models::wheel_count> labels = {labels_of(0), labels_of(1)};
   std::array<TorqueChannel, models::wheel_count> channels = {
       TorqueChannel(torque, Side::left, steps.sample_rate()),
       TorqueChannel(torque, Side::right, steps.sample_rate())};
   const auto skipped = std::llround(config.skip / steps.period());
-  double before = NAN;
-  std::int64_t k = 0;
+  const double threshold = scoring::force_threshold(config.labels, steps.robot_mass());
+  Agreement agreement;
+  double time = NAN;
   std::int64_t used = 0;
-  for (; const LogStep* step = reader.next(); ++k) {
-    const bool is_used = k >= skipped && reader.is_covered();
+  for (std::int64_t k = 0; const LogStep* step = steps.next(); ++k) {
+    const double elapsed = step->signals.time - time;
+    time = step->signals.time;
+    if (!opened.labels && !step->normal_force) {
+      throw InputError(fmt::format(
+          "{}: at {:.3f} s: no ground truth of contact: name the log after --contact or "
+          "--no-contact if all of it is one class, or give the intervals with --labels",
+          log.path.string(), time));
+    }
+    if (log.contact) {
+      report.declared_load.at(*log.contact ? 1 : 0).add(step->loads);
+      if (!(time < config.skip)) agreement.add(*step, *log.contact, threshold);
+    }
+    const bool is_used = k >= skipped && is_covered(*step, log);
     if (is_used) ++used;
-    const double elapsed = step->signals.time - before;
-    before = step->signals.time;
     const bool is_gap = !(elapsed >= 0.0 && elapsed <= SignalGuardConfig{}.maximum_gap);
     for (std::size_t side = 0; side < channels.size(); ++side) {
       if (k > 0 && is_gap) channels.at(side).reset();
@@ -73,14 +170,24 @@ void read_log(const FitLog& log, const TorqueConfig& torque, const LogFitConfig&
       }
       waiting.at(side).push_back(is_used ? sample : std::nullopt);
       const double force = step->normal_force ? (*step->normal_force)[side] : 0.0;
-      if (log.has_labels()) {
+      if (opened.labels) {
         label(side)(force > 0.0);
       } else {
         labels.at(side).add(force);
       }
     }
   }
-  reader.finish(used);
+  end_if(config.stop);
+  if (log.labels) steps.require_labels_within();
+  add_digest_and_warnings(log, opened, report);
+  require_agreement(agreement, log);
+  if (log.labels && used == 0) {
+    throw InputError(fmt::format(
+        "{}: none of its intervals, from {:.3f} to {:.3f} s, covers a step of {}, which ends at "
+        "{:.3f} s: expected times as `touchdown estimate` prints them",
+        log.labels->file, log.labels->intervals.front().start, log.labels->intervals.back().end,
+        log.path.string(), time));
+  }
   for (scoring::LabelStream& one : labels) one.finish();
   report.fitted_to.seconds += static_cast<double>(used) * steps.period();
 }
@@ -112,105 +219,94 @@ bool names(const std::string& provenance, std::string_view key, const std::strin
   return line.find(fmt::format(" {},", value)) != std::string::npos;
 }
 
+/// Adds the score of an estimator on the covered steps of a log with contact that is known by its
+/// truth, labels or class.
+void add_score(const LogEstimator& chosen, const FitLog& log, const LogFitConfig& config,
+               scoring::RobotScore& total) {
+  OpenLog opened(log, config);
+  LogSteps& steps = opened.steps;
+  const auto estimator = chosen.make(steps.sample_rate(), steps.info());
+  LogScore score(steps.period_us(), config.labels, steps.robot_mass(), {.skip = config.skip}, true);
+  while (const LogStep* step = steps.next()) {
+    const Belief& belief = estimator->update(step->signals);
+    score.add(is_covered(*step, log) ? step->normal_force : std::nullopt, belief);
+  }
+  end_if(config.stop);
+  if (const auto scored = score.finish()) total += *scored;
+}
+
+double balanced(const std::vector<scoring::RobotScore>& scores) {
+  scoring::RobotScore all;
+  for (const scoring::RobotScore& one : scores) all += one;
+  return all.wheels().points.balanced_accuracy();
+}
+
+/// What a model is fitted to, and what it is judged by.
+struct Fold {
+  std::vector<FitLog> fitted, tested;
+};
+
+std::vector<Fold> folds_of(std::span<const FitLog> logs, bool by_parts) {
+  constexpr std::size_t most_folds = 5;
+  std::vector<Fold> folds(by_parts ? 2 : std::min(logs.size(), most_folds));
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    FitLog log = logs[i];
+    for (std::size_t fold = 0; fold < folds.size(); ++fold) {
+      auto& [fitted, tested] = folds[fold];
+      if (!by_parts) {
+        (i % folds.size() == fold ? tested : fitted).push_back(log);
+        continue;
+      }
+      log.part = static_cast<int>(fold);
+      fitted.push_back(log);
+      log.part = 1 - *log.part;
+      tested.push_back(log);
+    }
+  }
+  return folds;
+}
+
+/// Nothing with one fold alone, or if a fold's logs lack a class or a takeoff.
+std::optional<double> held_out(const EstimatorEntry& entry, const std::vector<Fold>& folds,
+                               const LogFitConfig& config) {
+  if (folds.size() < 2) return {};
+  std::vector<scoring::RobotScore> scores(folds.size());
+  std::atomic<bool> is_judged = true;
+  tbb::parallel_for(std::size_t{0}, folds.size(), [&](std::size_t fold) {
+    LogFitReport unused;
+    Model other;
+    try {
+      other = fit_to_logs(entry, folds[fold].fitted, config, unused);
+    } catch (const InputError&) {
+      is_judged = false;
+      return;
+    }
+    const LogEstimator estimator = log_estimator(entry, std::move(other), config.robot);
+    for (const FitLog& log : folds[fold].tested) add_score(estimator, log, config, scores[fold]);
+  });
+  if (!is_judged) return {};
+  const double accuracy = balanced(scores);
+  return std::isnan(accuracy) ? std::nullopt : std::optional(accuracy);
+}
+
+std::vector<scoring::RobotScore> scores_on(std::span<const FitLog> logs,
+                                           const LogEstimator& estimator,
+                                           const LogFitConfig& config) {
+  std::vector<scoring::RobotScore> scores(logs.size());
+  tbb::parallel_for(std::size_t{0}, logs.size(),
+                    [&](std::size_t i) { add_score(estimator, logs[i], config, scores[i]); });
+  return scores;
+}
+
 }  // namespace
 
-bool was_fitted_to(const Model& model, const LogSteps& log, const logs::RecordingInfo& info) {
+bool was_fitted_to(const Model& model, const LogSteps& log) {
   const std::string provenance = provenance_text(model);
+  const logs::RecordingInfo& info = log.info();
   const bool is_run = names(provenance, "scenarios", info.scenario) &&
                       names(provenance, "simulators", info.simulator) &&
                       names(provenance, "seed:run", fmt::format("{}:{}", info.seed, info.run));
   return is_run || names(provenance, "logs", log.digest());
-}
-
-FitLogSteps::FitLogSteps(const FitLog& log, const LogFitConfig& config, LogFitReport& report)
-    : log_(log),
-      config_(config),
-      report_(report),
-      labels_(labels_of(log)),
-      reader_(reader_of(log, config)),
-      robot_(checked_robot(config.robot, reader_.info())),
-      steps_(reader_, labels_.get(), robot_),
-      info_(reader_.info()) {
-  check_may_be_fitted(info_);
-  info_.control_period_us = steps_.period_us();
-  const double fitted = report_.fitted_to.sample_rate;
-  if (fitted > 0.0 && !is_same_rate(steps_.sample_rate(), fitted)) {
-    throw InputError(fmt::format(
-        "{}: {:.6g} steps per second, and the logs before it have {:.6g}: a model is fitted at one "
-        "rate; resample the log, or fit another model",
-        log.path.string(), steps_.sample_rate(), fitted));
-  }
-  if (fitted == 0.0) report_.fitted_to.sample_rate = steps_.sample_rate();
-  report_.fitted_to.add(info_);
-}
-
-const LogStep* FitLogSteps::next() {
-  step_ = steps_.next();
-  if (step_ == nullptr) return nullptr;
-  last_time_ = step_->signals.time;
-  if (log_.contact) {
-    compare_with_declared_class();
-  } else if (!log_.labels && !step_->normal_force) {
-    throw InputError(
-        fmt::format("{}: at {:.3f} s: no ground truth of contact: name the log after --contact or "
-                    "--no-contact if all of it is one class, or give the intervals with --labels",
-                    log_.path.string(), last_time_));
-  }
-  return step_;
-}
-
-bool FitLogSteps::is_covered() const {
-  const auto part = static_cast<std::int64_t>(std::floor(last_time_ / part_length));
-  return step_->normal_force && (!log_.part || (part & 1) == *log_.part);
-}
-
-void FitLogSteps::compare_with_declared_class() {
-  LogFitReport::DeclaredLoad& load = report_.declared_load.at(*log_.contact ? 1 : 0);
-  for (const WheelLoad& measured : steps_.loads()) {
-    if (!std::isfinite(measured.force)) continue;
-    load.sum += measured.force;
-    load.count += 1.0;
-  }
-  if (!step_->truth || last_time_ < config_.skip) return;
-  for (const double force : *step_->truth) {
-    ++compared_;
-    const double threshold = scoring::force_threshold(config_.labels, robot_mass());
-    if ((force > threshold) == *log_.contact) continue;
-    if (contradicting_++ == 0) first_contradiction_ = last_time_;
-  }
-}
-
-void FitLogSteps::finish(std::int64_t used_steps) {
-  end_if(config_.stop);
-  if (log_.labels) steps_.require_labels_within();
-  const auto [same, is_new] = report_.digests.emplace(steps_.digest(), log_.path.string());
-  if (!is_new) {
-    throw InputError(fmt::format("{} and {} are copies of one log, which would count twice",
-                                 same->second, log_.path.string()));
-  }
-  for (std::string& warning : reader_.warnings()) report_.warnings.push_back(std::move(warning));
-  for (const std::string& finding : steps_.findings()) {
-    report_.warnings.push_back(fmt::format("{}: {}", log_.path.string(), finding));
-  }
-  constexpr double most_contradicting = 0.02;  // wheels that leave the ground for moments
-  const double share =
-      compared_ == 0 ? 0.0 : static_cast<double>(contradicting_) / static_cast<double>(compared_);
-  if (share > most_contradicting) {
-    const char* const declared = *log_.contact ? "--contact" : "--no-contact";
-    throw InputError(fmt::format(
-        "{}: is declared {}, but its own ground truth contradicts this for {:.1f} % of the steps, "
-        "first at {:.3f} s: {}",
-        log_.path.string(), declared, 100.0 * share, first_contradiction_,
-        share > 0.5 ? "are --contact and --no-contact swapped?"
-                    : fmt::format("name it without {}, so that this truth counts", declared)));
-  }
-  if (log_.labels && used_steps == 0) {
-    throw InputError(fmt::format(
-        "{}: none of its intervals, from {:.3f} to {:.3f} s, covers a step of {}, which ends at "
-        "{:.3f} s: expected times as `touchdown estimate` prints them",
-        log_.labels->file, log_.labels->intervals.front().start, log_.labels->intervals.back().end,
-        log_.path.string(), last_time_));
-  }
 }
 
 Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
@@ -242,6 +338,34 @@ Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
   if (!config.robot.name.empty()) fitted_to.robots = {config.robot.name};
   describe_fit(entry.name, fitted_to, config.hyperparameters, model);
   return model;
+}
+
+FitAccuracy accuracy_of_fit(const EstimatorEntry& entry, std::span<const FitLog> logs,
+                            const LogFitConfig& config, const Model& model) {
+  FitAccuracy accuracy;
+  accuracy.held_out = held_out(entry, folds_of(logs, false), config);
+  if (!accuracy.held_out) {
+    accuracy.held_out = held_out(entry, folds_of(logs, true), config);
+    accuracy.by_parts = accuracy.held_out.has_value();
+  }
+  accuracy.fitted = balanced(scores_on(logs, log_estimator(entry, model, config.robot), config));
+  const std::vector<scoring::RobotScore> scores =
+      scores_on(logs, log_estimator({.robot = config.robot}), config);
+  accuracy.load_filter = balanced(scores);
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const scoring::Score score = scores[i].wheels();
+    const double air =
+        1e-6 * static_cast<double>(score.scored_us) * (1.0 - score.points.contact_recall());
+    const auto takeoffs = static_cast<double>(score.takeoff.false_alarms);
+    const bool flies = takeoffs > 0.0 && air >= scoring::ScoringConfig{}.minimum_flight * takeoffs;
+    if (!flies || !logs[i].contact.value_or(false)) continue;
+    accuracy.flights.push_back(fmt::format(
+        "{0}: is declared --contact, and the loads of its wheels show {1} of a wheel, {2:.2f} s in "
+        "all: look at `touchdown estimate {0}`, or give its intervals with --labels",
+        logs[i].path.string(), takeoffs == 1.0 ? "a flight" : fmt::format("{:g} flights", takeoffs),
+        air));
+  }
+  return accuracy;
 }
 
 }  // namespace touchdown::experiments

@@ -2,7 +2,7 @@
 
 #include <array>
 #include <atomic>
-#include <cstdint>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -13,7 +13,6 @@
 
 #include "experiments/estimators/entry.hpp"
 #include "experiments/logs/log_steps.hpp"
-#include "experiments/logs/robot.hpp"
 #include "logs/log/contact_intervals.hpp"
 #include "scoring/labels.hpp"
 
@@ -30,8 +29,6 @@ struct FitLog {
   std::shared_ptr<const logs::ContactIntervals> labels = {};
   /// Every second part of the log alone, of `part_length`: the even (0) or the odd ones (1).
   std::optional<int> part = {};
-
-  bool has_labels() const { return contact || labels; }
 };
 inline constexpr double part_length = 10.0;  // s
 
@@ -57,52 +54,17 @@ struct LogFitReport {
   struct DeclaredLoad {
     double sum = 0.0;  ///< N
     double count = 0.0;
+
+    void add(const DynamicLoads::Loads& loads) {
+      for (const WheelLoad& wheel : loads) {
+        if (!std::isfinite(wheel.force)) continue;
+        sum += wheel.force;
+        count += 1.0;
+      }
+    }
   };
   std::array<DeclaredLoad, 2> declared_load = {};
   std::vector<std::string> warnings;
-};
-
-/// Reads a log that a model is fitted to, step by step, and adds its source and its warnings to the
-/// report.
-class FitLogSteps {
- public:
-  /// The arguments must outlive this. Errors: those of `LogSteps`; `InputError` for a log of a
-  /// reserved seed, or of another rate than the logs before it.
-  FitLogSteps(const FitLog& log, const LogFitConfig& config, LogFitReport& report);
-
-  /// The next step, valid until the next call; null at the end of the log.
-  /// Errors: also `InputError` for a step without ground truth of contact, if there are no labels.
-  const LogStep* next();
-  /// Whether the step is in the log's part, and in a labelled segment if it has labels.
-  bool is_covered() const;
-
-  /// After the last step. Errors: `InputError` for a log with a ground truth that contradicts its
-  /// declared class at more than 2 % of the steps, and for labels of which no step is used;
-  /// `Stopped`.
-  void finish(std::int64_t used_steps);
-
-  /// The log's description, with its period.
-  const logs::RecordingInfo& info() const { return info_; }
-  const LogSteps& steps() const { return steps_; }
-  /// For labels (kg).
-  double robot_mass() const { return experiments::robot_mass(config_.robot, info_); }
-
- private:
-  void compare_with_declared_class();
-
-  const FitLog& log_;
-  const LogFitConfig& config_;
-  LogFitReport& report_;
-  std::shared_ptr<const logs::ContactIntervals> labels_;  ///< null: the log's own truth counts
-  logs::LogReader reader_;
-  logs::CheckedRobot robot_;
-  LogSteps steps_;
-  logs::RecordingInfo info_;
-  const LogStep* step_ = nullptr;
-  double last_time_ = 0.0;
-  std::int64_t compared_ = 0;  ///< steps, both wheels added
-  std::int64_t contradicting_ = 0;
-  double first_contradiction_ = 0.0;  ///< s
 };
 
 /// Fits an estimator's measurement model to logs, as experiments do, and records their digests in
@@ -117,7 +79,7 @@ Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
 
 /// Whether a model was fitted to a log that was read to its end: to a copy of it, or to the same
 /// run of the same scene.
-bool was_fitted_to(const Model& model, const LogSteps& log, const logs::RecordingInfo& info);
+bool was_fitted_to(const Model& model, const LogSteps& log);
 
 /// Balanced accuracy of both wheels, as `touchdown estimate` prints it.
 struct FitAccuracy {

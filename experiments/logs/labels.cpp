@@ -75,9 +75,8 @@ class Intervals {
 
 }  // namespace
 
-logs::ContactIntervals proposed_labels(LogSteps& log, const LogEstimator& chosen,
-                                       const logs::RecordingInfo& info) {
-  const std::unique_ptr<ContactEstimator> estimator = chosen.make(log.sample_rate(), info);
+logs::ContactIntervals proposed_labels(LogSteps& log, const LogEstimator& chosen) {
+  const std::unique_ptr<ContactEstimator> estimator = chosen.make(log.sample_rate(), log.info());
   Intervals intervals(log.period());
   double last = -INFINITY;
   while (const LogStep* step = log.next()) {

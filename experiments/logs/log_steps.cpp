@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "logs/sample_times.hpp"
+#include "scoring/labels.hpp"
 
 namespace touchdown::experiments {
 
@@ -42,20 +43,22 @@ class LogSteps::LabelCheck {
   LabelCheck(const logs::ContactIntervals& labels, double sample_rate, const LegGeometry& legs)
       : labels_(labels), model_(legs, sample_rate) {}
 
-  void add(const Signals& signals) {
-    loads = model_.update(signals);
-    if (!std::isfinite(signals.time)) return;
+  /// Returns the loads.
+  DynamicLoads::Loads add(const Signals& signals) {
+    const DynamicLoads::Loads loads = model_.update(signals);
+    if (!std::isfinite(signals.time)) return loads;
     last_ = std::max(last_, signals.time);
-    if (!(signals.time >= next_) || !std::isfinite(loads[0].force + loads[1].force)) return;
+    if (!(signals.time >= next_) || !std::isfinite(loads[0].force + loads[1].force)) return loads;
     next_ = signals.time + interval_;
     for (std::size_t side = 0; side < models::wheel_count; ++side) {
       samples_.push_back({loads[side].force, signals.time, side});
     }
     constexpr std::size_t most = std::size_t{1} << 15U;
-    if (samples_.size() < most) return;
+    if (samples_.size() < most) return loads;
     interval_ *= 2.0;  // a long log needs fewer
     std::size_t i = 0;
     std::erase_if(samples_, [&](const Sample& /*of a pair*/) { return i++ % 4 >= 2; });
+    return loads;
   }
 
   std::optional<std::string> finding() const {
@@ -105,8 +108,6 @@ class LogSteps::LabelCheck {
                     labels_.file, end, log, last_));
   }
 
-  DynamicLoads::Loads loads;  ///< of the last step
-
  private:
   struct Sample {
     double load;  ///< N
@@ -145,18 +146,20 @@ class LogSteps::LabelCheck {
 };
 
 LogSteps::LogSteps(logs::LogReader& reader, const logs::ContactIntervals* labels,
-                   const logs::CheckedRobot& robot)
+                   const LogRobot& robot)
     : reader_(reader),
       labels_(labels),
+      robot_(checked_robot(robot, reader.info())),
       sample_rate_(usable_rate(reader)),
-      period_us_(std::llround(1e6 / sample_rate_)),
+      info_(reader.info()),
+      robot_mass_(robot.legs ? robot.legs->robot_mass : scoring::robot_mass(info_)),
       signals_(sample_rate_),
-      plausibility_(1.0 / sample_rate_, robot, reader.start_time()),
-      label_check_(labels == nullptr
-                       ? nullptr
-                       : std::make_unique<LabelCheck>(*labels, sample_rate_,
-                                                      robot.legs.value_or(LegGeometry{}))) {
-  if (!robot.doubt.empty()) reader.warn(fmt::format("{}: {}", reader.name(), robot.doubt));
+      plausibility_(1.0 / sample_rate_, robot_, reader.start_time()) {
+  info_.control_period_us = std::llround(1e6 / sample_rate_);
+  if (!robot_.doubt.empty()) reader.warn(fmt::format("{}: {}", reader.name(), robot_.doubt));
+  if (labels == nullptr) return;
+  const LegGeometry legs = robot_.legs.value_or(LegGeometry{});
+  label_check_ = std::make_unique<LabelCheck>(*labels, sample_rate_, legs);
 }
 
 LogSteps::~LogSteps() = default;
@@ -167,7 +170,7 @@ const LogStep* LogSteps::next() {
   step_.signals = signals_.next(row->observation, row->action);
   plausibility_.add(row->observation, step_.signals.target);
   add_to_digest(step_.signals);
-  if (label_check_) label_check_->add(step_.signals);
+  if (label_check_) step_.loads = label_check_->add(step_.signals);
   step_.truth.reset();
   if (row->truth) {
     const auto& force = row->truth->wheel_normal_force;
@@ -183,8 +186,6 @@ const LogStep* LogSteps::next() {
   }
   return &step_;
 }
-
-const DynamicLoads::Loads& LogSteps::loads() const { return label_check_->loads; }
 
 void LogSteps::add_to_digest(const Signals& signals) {
   const auto add = [this](double number) {

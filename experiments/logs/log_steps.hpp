@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "estimator/force/dynamic_loads.hpp"
+#include "experiments/logs/robot.hpp"
 #include "logs/log/contact_intervals.hpp"
 #include "logs/log/reader.hpp"
 #include "logs/plausibility/check.hpp"
@@ -24,27 +25,32 @@ struct LogStep {
   std::optional<std::array<double, models::wheel_count>> normal_force = {};
   /// By the log itself, whatever its labels say.
   std::optional<std::array<double, models::wheel_count>> truth = {};
+  DynamicLoads::Loads loads = {};  ///< that the torques give, for logs with labels
 };
 
 /// Reads a log step by step, as the inputs of an estimator.
 class LogSteps {
  public:
   /// `reader` and `labels` must outlive this. `labels`, if given, replace the log's own ground
-  /// truth. `robot` is for the findings; a doubt about it becomes a warning of the reader. Errors:
-  /// those of the reader; `InputError` for a log with fewer than 100 steps per second, where every
-  /// step would be a gap (`SignalGuardConfig`), or with more than 20,000.
+  /// truth. `robot` is the requested one, for the findings and `robot_mass`; a doubt about the
+  /// log's own becomes a warning of the reader. Errors: those of the reader; `InputError` for a log
+  /// with fewer than 100 steps per second, where every step would be a gap (`SignalGuardConfig`),
+  /// or with more than 20,000.
   explicit LogSteps(logs::LogReader& reader, const logs::ContactIntervals* labels = nullptr,
-                    const logs::CheckedRobot& robot = {});
+                    const LogRobot& robot = {});
   ~LogSteps();
 
   /// The next step, valid until the next call; null at the end of the log.
   const LogStep* next();
 
-  /// The log's period. For a robot's log it is that of `logs::nominal_rate`: clocks jitter,
-  /// and some estimators support only certain rates.
-  std::int64_t period_us() const { return period_us_; }
+  /// The log's description. The period of a robot's log is that of `logs::nominal_rate`: clocks
+  /// jitter, and some estimators support only certain rates.
+  const logs::RecordingInfo& info() const { return info_; }
+  std::int64_t period_us() const { return info_.control_period_us; }
   double period() const { return 1.0 / sample_rate_; }
   double sample_rate() const { return sample_rate_; }
+  /// For labels (kg): of the requested robot, else `scoring::robot_mass`.
+  double robot_mass() const { return robot_mass_; }
 
   /// Number of steps so far with an IMU orientation that contradicts gravity. Their vertical
   /// acceleration is NaN.
@@ -53,9 +59,6 @@ class LogSteps {
   /// What is implausible about the steps so far, and about labels that contradict the load that the
   /// torques give, one line each.
   std::vector<std::string> findings() const;
-
-  /// The loads on both wheels that the torques give at this step, for logs with labels.
-  const DynamicLoads::Loads& loads() const;
 
   /// Sixteen hexadecimal digits that identify the torques and accelerations so far: equal for
   /// copies of a log, whatever their format.
@@ -71,8 +74,10 @@ class LogSteps {
 
   logs::LogReader& reader_;
   const logs::ContactIntervals* labels_;
+  logs::CheckedRobot robot_;
   double sample_rate_;
-  std::int64_t period_us_;
+  logs::RecordingInfo info_;
+  double robot_mass_;
   logs::StepSignals signals_;
   logs::PlausibilityCheck plausibility_;
   std::unique_ptr<LabelCheck> label_check_;  ///< null without labels

@@ -11,7 +11,6 @@
 #include "models/robot_description.hpp"
 #include "models/robot_model.hpp"
 #include "scenarios/leg_geometry.hpp"
-#include "scoring/labels.hpp"
 
 namespace touchdown::experiments {
 
@@ -83,10 +82,6 @@ logs::CheckedRobot checked_robot(const LogRobot& requested, const logs::Recordin
                                  "read: {} ({})",
                                  error.what(), advice)};
   }
-}
-
-double robot_mass(const LogRobot& requested, const logs::RecordingInfo& log) {
-  return requested.legs ? requested.legs->robot_mass : scoring::robot_mass(log);
 }
 
 std::string robot_text(const std::string& name) {

@@ -30,10 +30,6 @@ LogRobot robot_of_file(const std::string& file);
 /// recording.
 logs::CheckedRobot checked_robot(const LogRobot& requested, const logs::RecordingInfo& log);
 
-/// The mass of a log's robot (kg), for its labels: of the requested robot, else
-/// `scoring::robot_mass`.
-double robot_mass(const LogRobot& requested, const logs::RecordingInfo& log);
-
 /// A model's robot for messages: its name in quotes, or "an unnamed robot".
 std::string robot_text(const std::string& name);
 

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/error.hpp"
 #include "estimator/signal_guard.hpp"
 #include "experiments/results/captions.hpp"
 #include "logs/bags/topic_rows.hpp"
@@ -112,30 +111,17 @@ void put(std::string& message, const std::array<double, 2>& numbers) {
 
 }  // namespace
 
-BeliefCsv::BeliefCsv(std::ostream& stream) : stream_(stream) {
-  fmt::format_to(std::back_inserter(buffer_),
-                 "time_s,p_contact_left,p_contact_right,contact_left,contact_right,p_any_wheel,"
-                 "p_both_wheels,p_takeoff,p_landing,status,load_left_n,load_right_n,"
-                 "load_deviation_left_n,load_deviation_right_n,stamp_ns\n");
-}
-
-void BeliefCsv::write(double time, double start, const Belief& belief, const Evidence& evidence) {
+void write_csv(std::ostream& stream, double time, double start, const Belief& belief,
+               const Evidence& evidence) {
   const auto& [left, right] = belief.wheel;
-  fmt::format_to(std::back_inserter(buffer_),
+  fmt::memory_buffer line;
+  fmt::format_to(std::back_inserter(line),
                  FMT_COMPILE("{},{},{},{:d},{:d},{},{},{},{},{},{},{},{},{},{}\n"), time,
                  left.p_contact, right.p_contact, left.contact, right.contact, belief.p_any_wheel,
                  belief.p_both_wheels, evidence.transition.p_takeoff, evidence.transition.p_landing,
                  to_text(belief.status), left.load.force, right.load.force, left.load.deviation,
                  right.load.deviation, stamp_of(time, start));
-  constexpr std::size_t large = std::size_t{1} << 16U;
-  if (buffer_.size() >= large) flush();
-}
-
-void BeliefCsv::flush() {
-  stream_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
-  stream_.flush();
-  buffer_.clear();
-  if (!stream_) throw Error("the beliefs cannot be written: is the disk full?");
+  stream.write(line.data(), static_cast<std::streamsize>(line.size()));
 }
 
 BeliefBag::BeliefBag(std::ostream& stream)
@@ -147,17 +133,17 @@ void BeliefBag::write(double time, double start, const Belief& belief) {
   constexpr std::int64_t second = 1'000'000'000;
   const std::int64_t stamp = stamp_of(time, start);
   const auto& [left, right] = belief.wheel;
-  message_.assign("\0\1\0\0", 4);  // CDR, little-endian
-  put(message_, static_cast<std::int32_t>(stamp / second));
-  put(message_, static_cast<std::uint32_t>(stamp % second));
-  put(message_, std::string_view());
-  put(message_, std::uint32_t{2});
-  put(message_, std::string_view("left_wheel"));
-  put(message_, std::string_view("right_wheel"));
-  put(message_, {left.p_contact, right.p_contact});
-  put(message_, {left.contact ? 1.0 : 0.0, right.contact ? 1.0 : 0.0});
-  put(message_, {left.load.force, right.load.force});
-  writer_.write(topic_, static_cast<std::uint64_t>(std::max<std::int64_t>(stamp, 0)), message_);
+  std::string message("\0\1\0\0", 4);  // CDR, little-endian
+  put(message, static_cast<std::int32_t>(stamp / second));
+  put(message, static_cast<std::uint32_t>(stamp % second));
+  put(message, std::string_view());
+  put(message, std::uint32_t{2});
+  put(message, std::string_view("left_wheel"));
+  put(message, std::string_view("right_wheel"));
+  put(message, {left.p_contact, right.p_contact});
+  put(message, {left.contact ? 1.0 : 0.0, right.contact ? 1.0 : 0.0});
+  put(message, {left.load.force, right.load.force});
+  writer_.write(topic_, static_cast<std::uint64_t>(std::max<std::int64_t>(stamp, 0)), message);
 }
 
 LogScore::LogScore(std::int64_t period_us, const scoring::LabelConfig& labels, double robot_mass,

@@ -6,9 +6,8 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "estimator/contact_estimator.hpp"
 #include "experiments/logs/log_steps.hpp"
@@ -19,27 +18,19 @@
 
 namespace touchdown::experiments {
 
-/// Writes beliefs as comma-separated values, one line per step: time (s), contact probability and
-/// decision (1 or 0) of each wheel, P(any wheel in contact), P(both wheels in contact), P(takeoff)
-/// and P(landing) of the transition model, status, normal force of each wheel and its standard
-/// deviation (N), the stamp of the log's own clock (ns, to 1 µs). Numbers are the shortest that
-/// read back to the same bits; `nan` stands for values that an estimator does not compute.
-class BeliefCsv {
- public:
-  /// Writes the header. `stream` must outlive this.
-  explicit BeliefCsv(std::ostream& stream);
+/// The header of beliefs as comma-separated values.
+inline constexpr std::string_view belief_columns =
+    "time_s,p_contact_left,p_contact_right,contact_left,contact_right,p_any_wheel,p_both_wheels,"
+    "p_takeoff,p_landing,status,load_left_n,load_right_n,load_deviation_left_n,"
+    "load_deviation_right_n,stamp_ns\n";
 
-  /// Buffers lines and writes them every 64 kB. Errors: `Error` when the stream fails.
-  /// `start`: the log's clock at time 0 (s).
-  void write(double time, double start, const Belief& belief, const Evidence& evidence);
-
-  /// Writes the buffered lines. Errors: as above.
-  void flush();
-
- private:
-  std::ostream& stream_;
-  fmt::memory_buffer buffer_;
-};
+/// Writes the line of a step: time (s), contact probability and decision (1 or 0) of each wheel,
+/// P(any wheel in contact), P(both wheels in contact), P(takeoff) and P(landing) of the transition
+/// model, status, normal force of each wheel and its standard deviation (N), the stamp of the log's
+/// own clock (ns, to 1 µs), which is `start` at time 0 (s). Numbers are the shortest that read back
+/// to the same bits; `nan` stands for values that an estimator does not compute.
+void write_csv(std::ostream& stream, double time, double start, const Belief& belief,
+               const Evidence& evidence);
 
 /// Writes beliefs as a ROS 2 bag (MCAP), to be played beside the log: sensor_msgs/msg/JointState,
 /// which every installation knows, on /touchdown/contact, stamped by the log's clock. Names are
@@ -58,7 +49,6 @@ class BeliefBag {
  private:
   logs::McapWriter writer_;
   std::uint16_t topic_;
-  std::string message_;
 };
 
 /// The score of beliefs about a log, against its ground truth or against labels of segments. Each

@@ -120,11 +120,10 @@ void evaluate(const WatchRequest& request, const logs::ContactIntervals* labels,
   const std::vector<experiments::LogEstimator> requested = estimators_of(request.estimators, robot);
   logs::LogReader reader = open_log(request);
   const bool has_labels = labels != nullptr && !labels->intervals.empty();
-  experiments::LogSteps log(reader, has_labels ? labels : nullptr,
-                            experiments::checked_robot(robot, reader.info()));
+  experiments::LogSteps log(reader, has_labels ? labels : nullptr, robot);
   std::vector<std::unique_ptr<ContactEstimator>> estimators;
   for (std::size_t i = 0; i < requested.size(); ++i) {
-    estimators.push_back(requested[i].make(log.sample_rate(), reader.info()));
+    estimators.push_back(requested[i].make(log.sample_rate(), log.info()));
     render::BeliefTrack& track = run.beliefs.emplace_back();
     track.name = requested[i].entry.title;
     track.colour = estimator_colour(i);
