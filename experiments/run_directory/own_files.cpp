@@ -23,9 +23,6 @@ constexpr std::array run_files = {"config.yaml", "manifest.json", "report.html"}
 constexpr std::array run_folders = {"state",   "recordings", "models",       "tables",
                                     "figures", "videos",     "trajectories", "checkpoints"};
 
-constexpr std::string_view before_request = "experiment ";
-constexpr std::string_view before_build = " build ";
-
 std::string name_in(const fs::path& config) {
   try {
     const auto name = YamlDocument::load(config).root()["name"].as<std::string>("");
@@ -35,32 +32,23 @@ std::string name_in(const fs::path& config) {
   }
 }
 
-/// The owner by the manifest, for a finished run after its `state` was removed.
-std::optional<RunDirectoryOwner> finished_in(const fs::path& directory) {
+/// The request by the manifest, for a finished run after its `state` was removed; empty if there is
+/// none.
+std::string finished_request_in(const fs::path& directory) {
   try {
     // JSON is a subset of YAML.
     const YAML::Node manifest = YamlDocument::load(directory / "manifest.json").root();
-    if (!manifest["versions"]["touchdown"]) return std::nullopt;
-    return RunDirectoryOwner{
-        {}, manifest["id"].as<std::string>(), name_in(directory / "config.yaml")};
+    return manifest["versions"]["touchdown"] ? manifest["id"].as<std::string>() : std::string();
   } catch (const std::exception&) {
-    return std::nullopt;
+    return {};
   }
-}
-
-/// An entry of a folder that neither a killed start nor a concurrent start leaves there.
-fs::path untracked_file_in(const fs::path& folder) {
-  for (const fs::path& entry : entries_in(folder)) {
-    const bool is_lock = entry == lock_file(folder.parent_path());
-    if (!is_lock && !is_part_file_name(entry.filename())) return entry;
-  }
-  return is_folder(folder) ? fs::path() : folder;
 }
 
 /// A run writes its key first. If there is a key by now, `file` may belong to a run that starts at
 /// the same time.
 void refuse_unless_owned(const fs::path& directory, const fs::path& file) {
-  if (owner_of(directory)) return;
+  std::error_code ignored;
+  if (!fs::exists(fs::symlink_status(file, ignored)) || owner_of(directory)) return;
   throw InputError(
       fmt::format("{}: {} is there already, and no run of touchdown made it: choose another --out",
                   directory.string(), file.lexically_relative(directory).string()));
@@ -140,18 +128,23 @@ void remove_empty_folders(const fs::path& directory) {
 fs::path key_file(const fs::path& directory) { return directory / "state" / "key"; }
 
 std::string key_of(const std::string& request, const std::string& build) {
-  return fmt::format("{}{}{}{}", before_request, request, before_build, build);
+  return fmt::format("experiment {} build {}", request, build);
 }
 
 std::optional<RunDirectoryOwner> owner_of(const fs::path& directory) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(key_file(directory), ignored)) return finished_in(directory);
   RunDirectoryOwner owner;
-  owner.key = read_file(key_file(directory));
-  owner.key = owner.key.substr(0, owner.key.find('\n'));
-  const std::size_t build = owner.key.find(before_build);
-  if (!owner.key.starts_with(before_request) || build == std::string::npos) return std::nullopt;
-  owner.request = owner.key.substr(before_request.size(), build - before_request.size());
+  std::error_code ignored;
+  if (fs::is_regular_file(key_file(directory), ignored)) {
+    std::istringstream file(read_file(key_file(directory)));
+    std::getline(file, owner.key);
+    std::string word;
+    std::string build;
+    std::istringstream(owner.key) >> word >> owner.request >> word >> build;
+    if (owner.key != key_of(owner.request, build)) return std::nullopt;
+  } else {
+    owner.request = finished_request_in(directory);
+    if (owner.request.empty()) return std::nullopt;
+  }
   owner.name = name_in(directory / "config.yaml");
   return owner;
 }
@@ -169,16 +162,15 @@ void require_place_beside(const fs::path& directory, const std::string& config,
 }
 
 void require_no_untracked_files(const fs::path& directory) {
-  std::error_code ignored;
-  for (const char* const name : run_files) {
-    const fs::path file = directory / name;
-    if (fs::exists(fs::symlink_status(file, ignored))) refuse_unless_owned(directory, file);
-  }
+  for (const char* const name : run_files) refuse_unless_owned(directory, directory / name);
   for (const char* const name : run_folders) {
     const fs::path folder = directory / name;
-    if (!fs::exists(fs::symlink_status(folder, ignored))) continue;
-    const fs::path untracked = untracked_file_in(folder);
-    if (!untracked.empty()) refuse_unless_owned(directory, untracked);
+    if (!is_folder(folder)) refuse_unless_owned(directory, folder);
+    for (const fs::path& entry : entries_in(folder)) {
+      // What a killed start or a concurrent one leaves there.
+      if (entry == lock_file(directory) || is_part_file_name(entry.filename())) continue;
+      refuse_unless_owned(directory, entry);
+    }
   }
 }
 
@@ -219,25 +211,22 @@ void remove_own_files(const fs::path& directory) {
 }
 
 void remove_partial_files(const fs::path& directory) {
-  std::vector<fs::path> folders = folders_of(directory);
-  folders.emplace_back();  // the run directory itself, where others may have such files, too
-  std::error_code ignored;
-  for (const fs::path& folder : folders) {
-    if (!link_above(directory, folder / "file").empty()) continue;
+  const auto remove_from = [&](const fs::path& folder, const std::string& shape) {
+    std::error_code ignored;
     for (const fs::path& entry : entries_in(directory / folder)) {
-      const std::string file = entry.filename();
-      const bool is_ours =
-          !folder.empty() || std::ranges::any_of(run_files, [&](const fs::path& whole) {
-            return file.starts_with(fmt::format(".{}.", whole.stem().string())) &&
-                   file.ends_with(fmt::format(".part{}", whole.extension().string()));
-          });
+      const fs::path name = entry.filename();
       const fs::file_type type = fs::symlink_status(entry, ignored).type();
-      if (is_ours && ((type == fs::file_type::regular && is_part_file_name(file)) ||
-                      (type == fs::file_type::directory && is_part_folder_name(file)))) {
-        fs::remove_all(entry, ignored);
-      }
+      const bool is_partial = type == fs::file_type::regular     ? is_part_file_name(name)
+                              : type == fs::file_type::directory ? is_part_folder_name(name)
+                                                                 : false;
+      if (is_partial && has_shape(name, shape)) fs::remove_all(entry, ignored);
     }
+  };
+  for (const fs::path& folder : folders_of(directory)) {
+    if (link_above(directory, folder / "file").empty()) remove_from(folder, ".*");
   }
+  // The run directory itself, where others may have such files, too.
+  remove_from({}, R"(\.(config\..*\.yaml|manifest\..*\.json|report\..*\.html))");
 }
 
 }  // namespace touchdown::experiments
