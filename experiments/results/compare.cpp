@@ -4,13 +4,13 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <tbb/parallel_for.h>
+#include <tbb/parallel_for_each.h>
 
 #include "core/columns.hpp"
 #include "core/error.hpp"
@@ -47,12 +47,6 @@ std::string name_of(const Condition& condition) {
              : fmt::format("{} fitted in {}", condition.estimator, condition.fit_simulator);
 }
 
-template <typename OneCell>
-std::string title_of_cell(const OneCell& cell) {
-  return fmt::format("{} {}, {}", cell.condition.test_simulator, name_of(cell.condition),
-                     levels_text(cell.noise));
-}
-
 std::string text_of(const SampleKey& key) {
   return fmt::format("{} run {}{}", key.scenario, key.run,
                      key.segment > 0 ? fmt::format(" segment {}", key.segment) : std::string());
@@ -73,59 +67,46 @@ std::string some_of(std::vector<std::string> names) {
 struct CommonCell {
   const SampledCell* before;
   const SampledCell* after;
+  ComparedCell compared = {};
+  std::vector<std::string> single = {};  ///< samples that one run alone has
+  std::string reason = {};               ///< why they are not comparable; empty: they are
 };
 
-/// The samples of a cell that both runs have.
-struct Pairs {
-  std::vector<Classification> before = {};
-  std::vector<Classification> after = {};
-  std::vector<SampleKey> single = {};  ///< samples that one run alone has
-  std::string reason = {};             ///< why they are not comparable; empty: they are
-};
-
-Pairs pairs_of(const CommonCell& cell) {
-  Pairs pairs;
+/// Pairs the samples of a cell that both runs have.
+void compare(CommonCell& cell, const scoring::BootstrapConfig& bootstrap) {
+  std::vector<Classification> first;
+  std::vector<Classification> second;
   for (const auto& [key, before] : cell.before->samples) {
     const auto found = cell.after->samples.find(key);
     if (found == cell.after->samples.end()) {
-      pairs.single.push_back(key);
+      cell.single.push_back(text_of(key));
       continue;
     }
     const Classification& after = found->second;
-    if (pairs.reason.empty() &&
+    if (cell.reason.empty() &&
         (before.contact() != after.contact() || before.flight() != after.flight())) {
-      pairs.reason = fmt::format(
+      cell.reason = fmt::format(
           "{} has {} steps in contact and {} in flight before, {} and {} after (another seed, "
           "scenario, robot, label or number of noise seeds?)",
           text_of(key), before.contact(), before.flight(), after.contact(), after.flight());
     }
-    pairs.before.push_back(before);
-    pairs.after.push_back(after);
+    first.push_back(before);
+    second.push_back(after);
   }
   for (const auto& [key, after] : cell.after->samples) {
-    if (!cell.before->samples.contains(key)) pairs.single.push_back(key);
+    if (!cell.before->samples.contains(key)) cell.single.push_back(text_of(key));
   }
-  if (pairs.before.empty()) pairs.reason = "they have no run in common";
-  return pairs;
-}
-
-ComparedCell compared(const SampledCell& cell, const Pairs& pairs,
-                      const scoring::BootstrapConfig& bootstrap) {
+  if (first.empty()) cell.reason = "they have no run in common";
+  if (!cell.reason.empty()) return;
   std::vector<std::function<double(const Classification&)>> statistics;
-  for (const ComparedMetric& metric : compared_metrics) statistics.emplace_back(metric.of);
+  for (const PointMetric& metric : compared_metrics) statistics.emplace_back(metric.of);
   const std::vector<Interval> differences =
-      scoring::bootstrap_differences(pairs.after, pairs.before, statistics, bootstrap);
-  ComparedCell result{cell.condition, cell.noise, pairs.before.size(), pairs.before == pairs.after};
-  const Classification before = scoring::sum(pairs.before);
-  const Classification after = scoring::sum(pairs.after);
+      scoring::bootstrap_differences(second, first, statistics, bootstrap);
+  cell.compared = {cell.after->condition, cell.after->noise, first.size(), first == second};
   for (std::size_t m = 0; m < differences.size(); ++m) {
-    result.metric[m] = {statistics[m](before), statistics[m](after), differences[m]};
+    cell.compared.metric[m] = {statistics[m](scoring::sum(first)),
+                               statistics[m](scoring::sum(second)), differences[m]};
   }
-  return result;
-}
-
-std::vector<std::string> estimators_of(const SampledRun& run) {
-  return unique(run.cells, [](const SampledCell& cell) { return cell.condition.estimator; });
 }
 
 /// The cells that one run alone has, in one line.
@@ -135,54 +116,43 @@ void note_single(const std::string& directory, const std::vector<const SampledCe
   std::vector<std::string> names;
   const auto condition_of = [](const SampledCell* cell) { return cell->condition; };
   for (const auto& [condition, own] : group_by(cells, condition_of)) {
-    names.push_back(title_of_cell(*own.front()));
+    names.push_back(fmt::format("{} {}, {}", condition.test_simulator, name_of(condition),
+                                levels_text(own.front()->noise)));
     if (own.size() > 1) names.back() += fmt::format(" and {} more", own.size() - 1);
   }
   notes.push_back(fmt::format("only in {}: {}: {}", directory, plural(cells.size(), "cell"),
                               some_of(std::move(names))));
 }
 
-/// Samples that one run alone has, because the robot fell in the other one for example.
-void note_single_samples(const std::vector<Pairs>& pairs, std::vector<std::string>& notes) {
-  const auto has_single = [](const Pairs& one) {
-    return one.reason.empty() && !one.single.empty();
-  };
-  const auto first = std::find_if(pairs.begin(), pairs.end(), has_single);
-  if (first == pairs.end()) return;
-  const auto cells = static_cast<std::size_t>(std::count_if(first, pairs.end(), has_single));
-  std::vector<std::string> names;
-  for (const SampleKey& key : first->single) names.push_back(text_of(key));
+/// What is not compared of the cells of both runs: those of each engine that are not of the same
+/// runs, with the first reason; samples that one run alone has, because the robot fell in the other
+/// one for example.
+std::vector<std::string> notes_about(const std::vector<CommonCell>& cells) {
+  std::vector<std::string> notes;
+  const auto refused = where(cells, [](const CommonCell& cell) { return !cell.reason.empty(); });
+  for (const auto& [engine, own] : group_by(
+           refused, [](const CommonCell& cell) { return cell.after->condition.test_simulator; })) {
+    notes.push_back(fmt::format("not the same runs: {} of {}: {}", plural(own.size(), "cell"),
+                                engine, own.front().reason));
+  }
+  const auto partly = where(
+      cells, [](const CommonCell& cell) { return cell.reason.empty() && !cell.single.empty(); });
+  if (partly.empty()) return notes;
   notes.push_back(fmt::format("in one of the runs only: {} of {}: {}",
-                              plural(first->single.size(), "sample"), plural(cells, "cell"),
-                              some_of(std::move(names))));
+                              plural(partly.front().single.size(), "sample"),
+                              plural(partly.size(), "cell"), some_of(partly.front().single)));
+  return notes;
 }
 
-/// The cells of each engine that are not of the same runs, in one line with the first reason.
-void note_refused(const std::vector<CommonCell>& cells, const std::vector<Pairs>& pairs,
-                  std::vector<std::string>& notes) {
-  std::vector<std::size_t> refused;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (!pairs[i].reason.empty()) refused.push_back(i);
-  }
-  for (const auto& [engine, places] :
-       group_by(refused, [&](std::size_t i) { return cells[i].after->condition.test_simulator; })) {
-    notes.push_back(fmt::format("not the same runs: {} of {}: {}", plural(places.size(), "cell"),
-                                engine, pairs[places.front()].reason));
-  }
-}
-
-/// Places of the cells with a difference of the metric, the largest first.
-std::vector<std::size_t> by_difference(const Comparison& comparison, std::size_t metric) {
-  const auto size = [&](std::size_t i) {
-    return std::abs(comparison.cells[i].metric[metric].difference.estimate);
+/// The cells with a difference of the metric, the largest first.
+std::vector<ComparedCell> by_difference(const Comparison& comparison, std::size_t metric) {
+  const auto size = [&](const ComparedCell& cell) {
+    return std::abs(cell.metric[metric].difference.estimate);
   };
-  std::vector<std::size_t> places;
-  for (std::size_t i = 0; i < comparison.cells.size(); ++i) {
-    if (!std::isnan(size(i))) places.push_back(i);
-  }
-  std::stable_sort(places.begin(), places.end(),
-                   [&](std::size_t a, std::size_t b) { return size(a) > size(b); });
-  return places;
+  std::vector<ComparedCell> cells =
+      where(comparison.cells, [&](const ComparedCell& cell) { return !std::isnan(size(cell)); });
+  std::ranges::stable_sort(cells, std::greater(), size);
+  return cells;
 }
 
 std::string level_text(const Comparison& comparison) {
@@ -206,49 +176,41 @@ std::string chance_text(const Comparison& comparison, std::size_t moved) {
 }  // namespace
 
 Comparison compare(const SampledRun& before, const SampledRun& after) {
-  std::map<decltype(identity_of(before.cells.front())), const SampledCell*> known;
-  for (const SampledCell& cell : before.cells) known.emplace(identity_of(cell), &cell);
+  std::map<decltype(identity_of(before.cells.front())), const SampledCell*> rest;
+  for (const SampledCell& cell : before.cells) rest.emplace(identity_of(cell), &cell);
   std::vector<CommonCell> common;
   std::vector<const SampledCell*> only_before;
   std::vector<const SampledCell*> only_after;
   for (const SampledCell& cell : after.cells) {
-    const auto found = known.find(identity_of(cell));
-    if (found == known.end()) {
-      only_after.push_back(&cell);
+    if (const auto same = rest.extract(identity_of(cell))) {
+      common.push_back({same.mapped(), &cell});
     } else {
-      common.push_back({found->second, &cell});
-      known.erase(found);
+      only_after.push_back(&cell);
     }
   }
   for (const SampledCell& cell : before.cells) {
-    if (known.contains(identity_of(cell))) only_before.push_back(&cell);
+    if (rest.contains(identity_of(cell))) only_before.push_back(&cell);
   }
   if (common.empty()) {
+    const auto estimators = [](const SampledRun& run) {
+      return unique(run.cells, [](const SampledCell& cell) { return cell.condition.estimator; });
+    };
     throw InputError(fmt::format(
         "{} and {} have no cell of engine, estimator and noise in common: estimators of the first: "
         "{}; of the second: {}",
-        before.directory, after.directory, fmt::join(estimators_of(before), ", "),
-        fmt::join(estimators_of(after), ", ")));
+        before.directory, after.directory, fmt::join(estimators(before), ", "),
+        fmt::join(estimators(after), ", ")));
   }
-
-  std::vector<Pairs> pairs(common.size());
-  std::vector<std::optional<ComparedCell>> cells(common.size());
-  tbb::parallel_for(std::size_t{0}, common.size(), [&](std::size_t i) {
-    pairs[i] = pairs_of(common[i]);
-    if (pairs[i].reason.empty()) {
-      cells[i] = compared(*common[i].after, pairs[i], after.bootstrap);
-    }
-  });
+  tbb::parallel_for_each(common, [&](CommonCell& cell) { compare(cell, after.bootstrap); });
   Comparison result{before.directory, after.directory, after.bootstrap.level};
-  for (std::optional<ComparedCell>& cell : cells) {
-    if (cell) result.cells.push_back(*std::move(cell));
+  for (const CommonCell& cell : common) {
+    if (cell.reason.empty()) result.cells.push_back(cell.compared);
   }
-  note_refused(common, pairs, result.left_out);
+  result.left_out = notes_about(common);
   if (result.cells.empty()) {
     throw InputError(
         fmt::format("{} and {}: {}", before.directory, after.directory, result.left_out.front()));
   }
-  note_single_samples(pairs, result.left_out);
   note_single(before.directory, only_before, result.left_out);
   note_single(after.directory, only_after, result.left_out);
   return result;
@@ -277,12 +239,11 @@ Table comparison_table(const Comparison& comparison) {
 
 std::string comparison_text(const Comparison& comparison, std::size_t metric) {
   constexpr std::size_t most = 20;
-  const std::vector<std::size_t> moved =
+  const std::vector<ComparedCell> moved =
       where(by_difference(comparison, metric),
-            [&](std::size_t i) { return comparison.cells[i].metric[metric].has_moved(); });
+            [&](const ComparedCell& cell) { return cell.metric[metric].has_moved(); });
   TextTable table{{"engine", "estimator", "noise", "before", "after", "difference"}, {}};
-  for (std::size_t i = 0; i < std::min(moved.size(), most); ++i) {
-    const ComparedCell& cell = comparison.cells[moved[i]];
+  for (const ComparedCell& cell : std::span(moved).first(std::min(moved.size(), most))) {
     const Movement& movement = cell.metric[metric];
     table.rows.push_back({cell.condition.test_simulator, name_of(cell.condition),
                           levels_text(cell.noise), fixed(movement.before, 3),
@@ -318,15 +279,10 @@ FigureSpec comparison_figure(const Comparison& comparison, std::size_t metric) {
     });
   });
   spec.rows.columns = {"knee_noise_nm", "wheel_noise_nm", "accelerometer_noise_mps2"};
-  const auto noise_of = [&](std::size_t i) { return comparison.cells[i].noise; };
-  const auto settings = group_by(by_difference(comparison, metric), noise_of);
-  for (const auto& [noise, cells] : settings) {
-    if (spec.rows.groups.size() == most) break;
-    FigureGroup& group = spec.rows.groups.emplace_back();
-    for (const std::string& column : spec.rows.columns) {
-      group.values.push_back(TableRow(table, cells.front()).text(column));
-    }
-    group.title = levels_text(noise);
+  const auto settings = unique(by_difference(comparison, metric), &ComparedCell::noise);
+  for (const noise::NoiseCell& noise : std::span(settings).first(std::min(settings.size(), most))) {
+    spec.rows.groups.push_back(
+        {{exact(noise.knee), exact(noise.wheel), exact(noise.accelerometer)}, levels_text(noise)});
   }
   spec.measures = {axis_with_interval(std::string(compared_metrics[metric].name) + "_difference",
                                       fmt::format("difference of {}", title))};

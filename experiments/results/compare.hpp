@@ -9,19 +9,14 @@
 #include "core/table.hpp"
 #include "experiments/figures/figure_spec.hpp"
 #include "experiments/results/samples.hpp"
+#include "experiments/results/scores.hpp"
 
 namespace touchdown::experiments {
 
-/// A compared metric, with the name of its columns.
-struct ComparedMetric {
-  const char* name;
-  const char* title;
-  double (scoring::Classification::*of)() const;
-};
 inline constexpr std::array compared_metrics = {
-    ComparedMetric{"accuracy", "success rate", &scoring::Classification::success},
-    ComparedMetric{"balanced_accuracy", "balanced accuracy",
-                   &scoring::Classification::balanced_accuracy}};
+    PointMetric{"accuracy", "success rate", &scoring::Classification::success},
+    PointMetric{"balanced_accuracy", "balanced accuracy",
+                &scoring::Classification::balanced_accuracy}};
 
 /// A metric in both runs, over the samples that they have in common.
 struct Movement {

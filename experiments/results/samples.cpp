@@ -50,30 +50,32 @@ Columns<SampleRow> sample_columns() {
   return columns;
 }
 
+/// Whether all of a text is a number of at least 0.
+template <typename Number>
+bool is_number(const std::string& text) {
+  Number number{};
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, number);
+  return error == std::errc() && end == last && number >= 0;
+}
+
 /// A table that an older or newer build wrote, or a user edited. Errors: `InputError` for a column
 /// that is missing, and for a cell that is no number of at least 0 of its column's type.
 Table read_table(const fs::path& file) {
   const TextTable texts = from_csv(read_file(file));
   const Columns<SampleRow> columns = sample_columns();
   for (const Column& column : columns.list()) {
-    const auto found = std::ranges::find(texts.header, column.name);
-    const bool is_needed = column.name != "torque_noise_nm";
-    if (found == texts.header.end() && is_needed) {
+    if (column.name == "torque_noise_nm") continue;  // NaN where those of knees and wheels differ
+    if (std::ranges::find(texts.header, column.name) == texts.header.end()) {
       throw InputError(fmt::format("{}:1: expected a column '{}'", file.string(), column.name));
     }
-    if (column.type == ColumnType::text || !is_needed) continue;
+    if (column.type == ColumnType::text) continue;
     for (std::size_t row = 0; row < texts.rows.size(); ++row) {
-      const std::string& cell =
-          texts.rows[row][static_cast<std::size_t>(found - texts.header.begin())];
+      const std::string text = cell(texts, texts.rows[row], column.name);
       const bool is_count = column.type == ColumnType::count;
-      const char* const last = cell.data() + cell.size();
-      double value = -1.0;
-      std::int64_t count = -1;
-      const auto [end, error] = is_count ? std::from_chars(cell.data(), last, count)
-                                         : std::from_chars(cell.data(), last, value);
-      if (error == std::errc() && end == last && (is_count ? count >= 0 : value >= 0.0)) continue;
+      if (is_count ? is_number<std::int64_t>(text) : is_number<double>(text)) continue;
       throw InputError(fmt::format("{}: row {}: {}: expected a number of at least 0, found '{}'",
-                                   file.string(), row + 1, column.name, cell));
+                                   file.string(), row + 1, column.name, text));
     }
   }
   return table_of(texts, columns.list());
@@ -83,14 +85,12 @@ Table read_table(const fs::path& file) {
 std::vector<SampledCell> cells_of(const Table& table) {
   std::vector<SampledCell> cells;
   std::map<std::vector<std::string>, std::size_t> places;
+  const Table keys = select(table, {"simulator", "fit_simulator", "estimator", "knee_noise_nm",
+                                    "wheel_noise_nm", "accelerometer_noise_mps2"});
   const auto whole = [](double number) { return static_cast<std::int64_t>(number); };
-  for (const TableRow& row : table.all()) {
-    std::vector<std::string> key;
-    for (const char* const column : {"simulator", "fit_simulator", "estimator", "knee_noise_nm",
-                                     "wheel_noise_nm", "accelerometer_noise_mps2"}) {
-      key.push_back(row.text(column));
-    }
-    const auto [place, is_new] = places.emplace(std::move(key), cells.size());
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const TableRow row(table, i);
+    const auto [place, is_new] = places.emplace(TableRow(keys, i).texts(), cells.size());
     if (is_new) {
       cells.push_back(
           {{.fit_simulator = row.text("fit_simulator"),
