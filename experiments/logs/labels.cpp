@@ -21,11 +21,9 @@ class Intervals {
   void add(double time, const Belief& belief) {
     const std::array<bool, 2> contact = {belief.wheel[0].contact, belief.wheel[1].contact};
     const bool is_gap = !(time - last_ <= SignalGuardConfig{}.maximum_gap);
-    if (is_gap || contact != contact_) {
+    if (is_gap || contact != all_.intervals.back().contact) {
       finish(is_gap ? last_ + period_ : time);
       all_.intervals.push_back({.start = time, .contact = contact, .sure = 1.0});
-      contact_ = contact;
-      is_open_ = true;
     }
     last_ = time;
     for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
@@ -54,21 +52,19 @@ class Intervals {
 
   /// Ends the last interval, which may be shorter than the window.
   void finish(double end) {
+    if (all_.intervals.empty()) return;
     for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-      if (is_open_ && probability_[wheel].size() < window_) keep_least(wheel);
+      if (probability_[wheel].size() < window_) keep_least(wheel);
       probability_[wheel].clear();
       sum_[wheel] = 0.0;
     }
-    if (is_open_) all_.intervals.back().end = end;
-    is_open_ = false;
+    all_.intervals.back().end = end;
   }
 
   logs::ContactIntervals all_;
   double period_;       ///< s
   std::size_t window_;  ///< steps
   double last_ = -INFINITY;
-  bool is_open_ = false;
-  std::array<bool, 2> contact_ = {};
   std::array<std::deque<double>, models::wheel_count> probability_;  ///< of the decision
   std::array<double, models::wheel_count> sum_ = {};
 };
