@@ -65,7 +65,14 @@ void label(const LabelFlags& flags, const CliSession& session) {
   }
   double seconds = 0.0;
   for (const logs::ContactInterval& one : labels.intervals) seconds += one.end - one.start;
-  write_atomically(flags.output, logs::to_csv(labels));
+  const std::string proposal = logs::to_csv(labels);
+  if (is_there(flags.output) && read_file(flags.output) != proposal) {
+    throw InputError(fmt::format(
+        "{}: is there already, and differs from this proposal: expected a new file, because a "
+        "person may have corrected that one",
+        flags.output));
+  }
+  write_atomically(flags.output, proposal);
   print("{}: {}, {:.3f} s\n{}", flags.output,
         experiments::plural(labels.intervals.size(), "interval"), seconds,
         least_sure(labels.intervals));

@@ -102,6 +102,20 @@ TEST_F(Label, NothingIsKnownWhereSignalsAreMissing) {
   EXPECT_NE(labels.at(1.6), nullptr);
 }
 
+TEST_F(Label, NeverReplacesWhatAPersonMayHaveCorrected) {
+  logs::write_recording(test::robot_log(2.0), folder_ / "robot.mpack");
+  folder_.output_of("label robot.mpack -o labels.csv");
+  folder_.output_of("label robot.mpack -o labels.csv");  // the same proposal
+  const std::string proposed = folder_.text("labels.csv");
+  const std::string first = proposed.substr(0, proposed.find('\n') + 1);
+  for (const std::string& corrected : {proposed + "# looked at\n", first, std::string()}) {
+    folder_.write("labels.csv", corrected);
+    folder_.expect_refusals(
+        {{"label robot.mpack -o labels.csv", {"labels.csv: is there already"}}});
+    EXPECT_EQ(folder_.text("labels.csv"), corrected);
+  }
+}
+
 TEST_F(Label, RefusesWhatItCannotLabel) {
   logs::write_recording(test::robot_log(2.0), folder_ / "robot.mpack");
   folder_.expect_refusals({{"label robot.mpack -o l.csv --estimator robust", {"--model"}},
