@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "models/contract.hpp"
+#include "models/robot_source.hpp"
 
 namespace touchdown::models {
 
@@ -19,8 +19,8 @@ constexpr std::array<const char*, wheel_count> sides = {"left", "right"};
 /// The hinges of all closed legs, as a graph: joints of one leg have one root.
 class Hinges {
  public:
-  Hinges(const RobotModel& robot, const Contract& contract)
-      : robot_(robot), contract_(contract), above_(static_cast<std::size_t>(robot.mj->njnt)) {
+  Hinges(const RobotModel& robot, const RobotSource& source)
+      : robot_(robot), source_(source), above_(static_cast<std::size_t>(robot.mj->njnt)) {
     std::iota(above_.begin(), above_.end(), 0);
     const mjModel& model = *robot.mj;
     for (int joint = 0; joint < model.njnt; ++joint) {
@@ -29,7 +29,7 @@ class Hinges {
     for (int i = 0; i < model.neq; ++i) {
       unite(end(i, model.eq_obj1id[i]), end(i, model.eq_obj2id[i]));
       if (root(robot.joint[0]) == root(robot.joint[3])) {
-        contract.fail_at_equality(i, "expected a loop in one leg, found one that closes over both");
+        source.fail_at_equality(i, "expected a loop in one leg, found one that closes over both");
       }
     }
   }
@@ -38,7 +38,7 @@ class Hinges {
   bool is_hinge(int joint) const {
     const auto& wheels = robot_.joint;
     return robot_.mj->jnt_type[joint] != mjJNT_FREE && joint != wheels[2] && joint != wheels[5] &&
-           !is_held_name(mj_id2name(robot_.mj.get(), mjOBJ_JOINT, joint));
+           !is_held(robot_, joint);
   }
 
   /// The hinge that moves a body in its leg, without the wheel; −1 for the base.
@@ -60,7 +60,7 @@ class Hinges {
  private:
   int end(int loop, int body) const {
     if (robot_.mj->body_rootid[body] == robot_.base_body) return mover(body);
-    contract_.fail_at_equality(loop, "expected two bodies of the robot, found the world");
+    source_.fail_at_equality(loop, "expected two bodies of the robot, found the world");
   }
 
   void unite(int a, int b) {
@@ -68,18 +68,18 @@ class Hinges {
   }
 
   const RobotModel& robot_;
-  const Contract& contract_;
+  const RobotSource& source_;
   std::vector<int> above_;
 };
 
 /// Turns the axis of a hinge to the base's y axis. Loops close in a plane: an axis that is .001 rad
 /// off would press 1,800 N into its loop.
-void straighten(mjModel& model, const mjData& data, const Contract& contract, int joint) {
+void straighten(mjModel& model, const mjData& data, const RobotSource& source, int joint) {
   const Vector3d axis = vector_at(data.xaxis, joint);
   constexpr double most = 1.0;  // degree
   const double off = std::asin(std::min(1.0, std::hypot(axis.x(), axis.z()))) * 180.0 / M_PI;
   if (off > most) {
-    contract.fail_at_hinge(
+    source.fail_at_hinge(
         joint, fmt::format("its axis is {:.1f}° off the base's y axis, expected at most {:g}°, as "
                            "its leg has a loop",
                            off, most));
@@ -100,44 +100,36 @@ std::vector<int> joints_of(const RobotModel& robot, const Hinges& hinges, std::s
   return joints;
 }
 
-int motor_of(const mjModel& model, int joint) {
-  for (int i = 0; i < model.nu; ++i) {
-    const bool drives_joint = model.actuator_trntype[i] == mjTRN_JOINT ||
-                              model.actuator_trntype[i] == mjTRN_JOINTINPARENT;
-    if (drives_joint && model.actuator_trnid[2 * i] == joint) return i;
-  }
-  return -1;
+/// Whether a joint has a motor, in the file or by the YAML file.
+bool has_motor(const RobotModel& robot, const RobotSource& source, std::size_t side, int joint) {
+  const std::vector<std::string>& named = source.parts().motors[side];
+  const std::string name = name_of(*robot.mj, mjOBJ_JOINT, joint);
+  return source.motor_of(joint) >= 0 || std::ranges::count(named, name) > 0;
 }
 
 /// The torque limit of the motor that is a closed leg's hip or knee.
-double limit_of_motor(const RobotModel& robot, std::size_t servo, const RobotDescription& given,
-                      const std::map<std::string, double>& efforts, const Contract& contract) {
+double limit_of_motor(const RobotModel& robot, std::size_t servo, const RobotSource& source) {
   const int joint = robot.motor_joint[servo];
-  const std::string name = contract.name_of(mjOBJ_JOINT, joint);
-  const auto& actuator = given.actuator(static_cast<Servo>(servo));
-  const double most = std::min(limit_of(efforts, name.substr(1, name.size() - 2)),
-                               actuator ? actuator->maximum_torque : HUGE_VAL);
+  const auto& actuator = source.description().actuator(static_cast<Servo>(servo));
   return torque_limit(
       *robot.mj,
-      {motor_of(*robot.mj, joint), fmt::format("motor of joint {}", name),
+      {joint, fmt::format("motor of joint {}", source.title_of({mjOBJ_JOINT, joint})),
        fmt::format("actuators: {{{}: {{maximum_torque: …}}}}", servo % 3 == 0 ? "hip" : "knee")},
-      most, contract);
+      actuator ? actuator->maximum_torque : HUGE_VAL, source);
 }
 
 /// Gives a leg its motors, the hip's own first and the knee's own last.
-void set_motors(RobotModel& robot, ClosedLeg& leg, std::size_t side,
-                const RobotDescription& description, const std::map<std::string, double>& efforts,
-                const Contract& contract) {
+void set_motors(RobotModel& robot, ClosedLeg& leg, std::size_t side, const RobotSource& source) {
   mjModel& model = *robot.mj;
   std::vector<int>& motors = leg.linkage.motors;
   const auto count = static_cast<int>(leg.joint.size());
   for (int place = 0; place < count; ++place) {
     // The knee comes after cranks.
     const int i = place == 0 ? 0 : (place == count - 1 ? 1 : place + 1);
-    if (motor_of(model, leg.joint[static_cast<std::size_t>(i)]) >= 0) motors.push_back(i);
+    if (has_motor(robot, source, side, leg.joint[static_cast<std::size_t>(i)])) motors.push_back(i);
   }
   if (motors.empty() || motors.size() > 2) {
-    contract.fail_at_hinge(
+    source.fail_at_hinge(
         leg.joint[0],
         fmt::format("expected one or two motors in the {} leg, as it has a loop, found {}",
                     sides[side], motors.size()));
@@ -149,7 +141,7 @@ void set_motors(RobotModel& robot, ClosedLeg& leg, std::size_t side,
     if (i >= motors.size()) continue;
     const int joint = leg.joint[static_cast<std::size_t>(motors[i])];
     robot.motor_joint[servo] = joint;
-    robot.effort[servo] = limit_of_motor(robot, servo, description, efforts, contract);
+    robot.effort[servo] = limit_of_motor(robot, servo, source);
     robot.actuator[servo] = actuator_at(model, model.jnt_dofadr[joint]);
   }
   // Friction is that of motors, in every engine.
@@ -188,7 +180,7 @@ class SideOfLeg {
 };
 
 void add_hinges(const RobotModel& robot, const SideOfLeg& side, ClosedLeg& leg,
-                const Contract& contract) {
+                const RobotSource& source) {
   const mjModel& model = *robot.mj;
   for (const int joint : leg.joint) {
     const int body = model.jnt_bodyid[joint];
@@ -196,7 +188,7 @@ void add_hinges(const RobotModel& robot, const SideOfLeg& side, ClosedLeg& leg,
     const int above = side.hinge_of(model.body_parentid[body]);
     if (above >= static_cast<int>(leg.linkage.hinges.size()) ||
         (leg.linkage.hinges.empty() && above >= 0)) {
-      contract.fail_at_hinge(joint, "expected hip and knee alone between base and wheel");
+      source.fail_at_hinge(joint, "expected hip and knee alone between base and wheel");
     }
     leg.linkage.hinges.push_back({above,
                                   {anchor.x(), anchor.z()},
@@ -212,33 +204,28 @@ void add_hinges(const RobotModel& robot, const SideOfLeg& side, ClosedLeg& leg,
 
 /// Adds a loop; in the engines' model, its ends get into one plane.
 void add_loop(RobotModel& robot, const SideOfLeg& side, ClosedLeg& leg, int loop,
-              const LoopSites& sites, const Contract& contract) {
+              const RobotSource& source) {
   mjModel& model = *robot.mj;
   const std::array<int, 2> body = {model.eq_obj1id[loop], model.eq_obj2id[loop]};
-  const std::array<const std::string*, 2> site = {&sites.first, &sites.second};
   std::array<Vector3d, 2> place;
   for (std::size_t i = 0; i < 2; ++i) {
     mjtNum* const anchor = &model.eq_data[mjNEQDATA * loop + 3 * static_cast<int>(i)];
-    if (!site[i]->empty()) {
-      const int id = mj_name2id(&model, mjOBJ_SITE, site[i]->c_str());
-      std::copy_n(&model.site_pos[3 * id], 3, anchor);
-    }
     place[i] = side.in_base(body[i], anchor);
     for (std::size_t wheel = 0; wheel < wheel_count; ++wheel) {
       const int axle = robot.joint[index(wheel_servos[wheel])];
       if (model.body_weldid[body[i]] != model.body_weldid[model.jnt_bodyid[axle]]) continue;
       Vector3d off = place[i] - vector_at(side.data().xanchor, axle);
       off.y() = 0.0;
-      if (off.norm() > 1e-3) contract.fail_at_equality(loop, "expected it on the wheel's axle");
+      if (off.norm() > 1e-3) source.fail_at_equality(loop, "expected it on the wheel's axle");
     }
   }
   const double sideways = place[1].y() - place[0].y();
   constexpr double most = 5e-3;  // m
   if (std::abs(sideways) > most) {
-    contract.fail_at_equality(
-        loop, fmt::format("its points are {:.1f} mm apart along the axles, expected "
-                          "at most {:g}",
-                          1e3 * std::abs(sideways), 1e3 * most));
+    source.fail_at_equality(loop,
+                            fmt::format("its points are {:.1f} mm apart along the axles, expected "
+                                        "at most {:g}",
+                                        1e3 * std::abs(sideways), 1e3 * most));
   }
   leg.linkage.loops.push_back({side.point(body[0], place[0]), side.point(body[1], place[1])});
   place[1].y() = place[0].y();
@@ -253,7 +240,7 @@ void add_loop(RobotModel& robot, const SideOfLeg& side, ClosedLeg& leg, int loop
 }
 
 /// Closes the loops near the pose of the file, where motors are.
-void set_start(ClosedLeg& leg, std::size_t side, const Contract& contract) {
+void set_start(ClosedLeg& leg, std::size_t side, const RobotSource& source) {
   Linkage& linkage = leg.linkage;
   linkage.start.resize(linkage.size());
   for (Eigen::Index i = 0; i < linkage.size(); ++i) {
@@ -263,7 +250,7 @@ void set_start(ClosedLeg& leg, std::size_t side, const Contract& contract) {
   std::vector<double> at;
   for (const int motor : linkage.motors) at.push_back(linkage.start[motor]);
   if (!move_linkage(linkage, linkage.motors, at, linkage.start)) {
-    contract.fail_at_equality(
+    source.fail_at_equality(
         leg.equality[0],
         fmt::format("the points of its leg's loops are {:.1f} mm apart in the pose "
                     "of the file, and no pose of the passive joints joins them",
@@ -271,7 +258,7 @@ void set_start(ClosedLeg& leg, std::size_t side, const Contract& contract) {
   }
   const int free = mobility(linkage, linkage.start);
   if (free != static_cast<int>(linkage.motors.size())) {
-    contract.fail_at_hinge(
+    source.fail_at_hinge(
         leg.joint[0],
         fmt::format("the loops of the {} leg leave {} of its joints free, but {} ha{} a "
                     "motor",
@@ -281,7 +268,7 @@ void set_start(ClosedLeg& leg, std::size_t side, const Contract& contract) {
 }
 
 /// Warns of loops that meet elsewhere in the left leg than in the right, with hinges in one place.
-void compare_loops(RobotModel& robot, const Contract& contract) {
+void compare_loops(RobotModel& robot, const RobotSource& source) {
   const ClosedLeg& left = *robot.closed_leg[0];
   const ClosedLeg& right = *robot.closed_leg[1];
   const auto is_apart = [](const auto& a, const auto& b) {
@@ -295,7 +282,7 @@ void compare_loops(RobotModel& robot, const Contract& contract) {
     robot.warnings.push_back(
         fmt::format("{}: the loop of the left leg meets {:.1f} mm from where that of the mirrored "
                     "leg does: is one anchor wrong?",
-                    contract.place_in_section("equality", left.equality[i]),
+                    source.place_of({mjOBJ_EQUALITY, left.equality[i]}),
                     1e3 * std::max((loop.first.place - other.first.place).norm(),
                                    (loop.second.place - other.second.place).norm())));
   }
@@ -303,25 +290,24 @@ void compare_loops(RobotModel& robot, const Contract& contract) {
 
 }  // namespace
 
-void find_closed_legs(RobotModel& robot, const RobotDescription& description,
-                      const std::map<std::string, double>& efforts, const Contract& contract) {
+void find_closed_legs(RobotModel& robot, const RobotSource& source) {
   mjModel& model = *robot.mj;
   if (model.neq == 0) return;
-  if (!robot.has(0)) contract.fail_at_equality(0, "expected a leg with a hip");
-  const Hinges hinges(robot, contract);
+  if (!robot.has(0)) source.fail_at_equality(0, "expected a leg with a hip");
+  const Hinges hinges(robot, source);
   const MjDataPtr data = at_reference(robot);
   for (std::size_t side = 0; side < wheel_count; ++side) {
     ClosedLeg leg;
     leg.joint = joints_of(robot, hinges, side);
     if (leg.joint.size() > most_hinges) {
-      contract.fail_at_hinge(leg.joint.back(),
-                             fmt::format("expected at most {} hinges in a leg", most_hinges));
+      source.fail_at_hinge(leg.joint.back(),
+                           fmt::format("expected at most {} hinges in a leg", most_hinges));
     }
     for (const int joint : leg.joint) {
-      contract.check_hinge(joint, "as it is in a loop");
-      straighten(model, *data, contract, joint);
+      source.check_hinge(joint, "as it is in a loop");
+      straighten(model, *data, source, joint);
     }
-    set_motors(robot, leg, side, description, efforts, contract);
+    set_motors(robot, leg, side, source);
     robot.linked.insert(robot.linked.end(), leg.joint.begin() + 2, leg.joint.end());
     robot.closed_leg[side] = std::move(leg);
   }
@@ -330,36 +316,36 @@ void find_closed_legs(RobotModel& robot, const RobotDescription& description,
         std::find(robot.linked.begin(), robot.linked.end(), joint) != robot.linked.end() ||
         std::find(robot.joint.begin(), robot.joint.end(), joint) != robot.joint.end();
     if (!hinges.is_hinge(joint) || is_known) continue;
-    contract.fail_at_hinge(
+    source.fail_at_hinge(
         joint, "expected it in a loop of one leg (`loops`), or, if it is no rod, under `held`");
   }
 }
 
-void measure_closed_legs(RobotModel& robot, std::span<const LoopSites> sites,
-                         const Contract& contract) {
+void measure_closed_legs(RobotModel& robot, const RobotSource& source) {
   if (robot.mj->neq == 0) return;
-  const Hinges hinges(robot, contract);
+  const Hinges hinges(robot, source);
   for (std::size_t i = 0; i < wheel_count; ++i) {
     ClosedLeg& leg = *robot.closed_leg[i];
     const SideOfLeg side(robot, hinges, leg);
-    add_hinges(robot, side, leg, contract);
+    add_hinges(robot, side, leg, source);
     for (int loop = 0; loop < robot.mj->neq; ++loop) {
       const int first = side.hinge_of(robot.mj->eq_obj1id[loop]);
       const int second = side.hinge_of(robot.mj->eq_obj2id[loop]);
       if (first < 0 && second < 0) continue;
       if (leg.equality.size() == most_loops) {
-        contract.fail_at_equality(loop, fmt::format("expected at most {} in a leg", most_loops));
+        source.fail_at_equality(loop, fmt::format("expected at most {} in a leg", most_loops));
       }
-      add_loop(robot, side, leg, loop, sites[static_cast<std::size_t>(loop)], contract);
+      add_loop(robot, side, leg, loop, source);
     }
     const Vector3d axle = vector_at(side.data().xanchor, robot.joint[index(wheel_servos[i])]);
     leg.linkage.axle = {1, {axle.x(), axle.z()}};
     if (leg.equality.empty()) {
-      contract.fail_at_servo(3 * i, "expected loops in both legs, found none in this one");
+      source.fail_at_hinge(robot.joint[3 * i],
+                           "expected loops in both legs, found none in this one");
     }
-    set_start(leg, i, contract);
+    set_start(leg, i, source);
   }
-  compare_loops(robot, contract);
+  compare_loops(robot, source);
 }
 
 }  // namespace touchdown::models

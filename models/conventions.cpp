@@ -5,9 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "models/contract.hpp"
-#include "models/mjcf/robot_file.hpp"
 #include "models/resizing.hpp"
+#include "models/robot_source.hpp"
 
 namespace touchdown::models {
 
@@ -24,27 +23,28 @@ double expected_sign(std::size_t servo) {
 /// The sign that makes a hip's or knee's angle positive forward.
 double forward_sign(std::size_t servo) { return servo < 3 ? 1.0 : -1.0; }
 
-void check_axis(const Vector3d& axis, std::size_t servo, const Contract& contract) {
+void check_axis(const RobotModel& robot, const Vector3d& axis, std::size_t servo,
+                const RobotSource& source) {
   constexpr double least = 0.97;  // cosine of 14°
   if (std::abs(axis.y()) >= least) return;
   const auto rounded = [](double x) { return std::round(1e3 * x) / 1e3 + 0.0; };
-  contract.fail_at_servo(
-      servo,
+  source.fail_at_hinge(
+      robot.joint[servo],
       fmt::format("its axis in the base is ({:g} {:g} {:g}), expected (0 {:g} 0) or its "
                   "opposite: x is forward, y left, z up",
                   rounded(axis.x()), rounded(axis.y()), rounded(axis.z()), expected_sign(servo)));
 }
 
-void check_chain(const RobotModel& robot, const Contract& contract) {
+void check_chain(const RobotModel& robot, const RobotSource& source) {
   const mjModel& model = *robot.mj;
   for (std::size_t i = 0; i < servo_count; ++i) {
     if (i % 3 == 2 || !robot.has(i)) continue;
     const int above = model.jnt_bodyid[robot.joint[i]];
     const int below = model.jnt_bodyid[robot.joint[i + 1]];
     if (above != below && is_below(model, below, above)) continue;
-    contract.fail_at_servo(i + 1, fmt::format("expected it below joint '{}': each leg is one open "
-                                              "chain",
-                                              servo_names[i]));
+    source.fail_at_hinge(
+        robot.joint[i + 1],
+        fmt::format("expected it below joint '{}': each leg is one open chain", servo_names[i]));
   }
 }
 
@@ -89,7 +89,7 @@ void set_reference(RobotModel& robot, std::size_t servo, double angle) {
 }
 
 /// Moves the zeros of hips and knees to straight legs, and those of the wheels to no `ref`.
-void set_zeros(RobotModel& robot, const Contract& contract) {
+void set_zeros(RobotModel& robot, const RobotSource& source) {
   const MjDataPtr data = at_reference(robot);
   for (std::size_t leg = 0; leg < wheel_count; ++leg) {
     const std::size_t hip = 3 * leg;
@@ -101,9 +101,8 @@ void set_zeros(RobotModel& robot, const Contract& contract) {
       const Vector3d link = anchor(servo + 1) - anchor(servo);
       constexpr double shortest = 1e-3;  // m
       if (std::hypot(link.x(), link.z()) < shortest) {
-        contract.fail_at_servo(servo + 1,
-                               "expected it away from the joint above it, seen from the "
-                               "side");
+        source.fail_at_hinge(robot.joint[servo + 1],
+                             "expected it away from the joint above it, seen from the side");
       }
       const double angle = angle_of(link);
       set_reference(robot, servo, forward_sign(servo) * (angle - above));
@@ -113,21 +112,7 @@ void set_zeros(RobotModel& robot, const Contract& contract) {
   }
 }
 
-void set_imu(RobotModel& robot, const Contract& contract) {
-  mjModel& model = *robot.mj;
-  robot.imu_site = contract.find(mjOBJ_SITE, "site", "imu");
-  const int body = model.site_bodyid[robot.imu_site];
-  if (model.body_weldid[body] != model.body_weldid[robot.base_body]) {
-    contract.fail_at_site(robot.imu_site, "site 'imu': expected it on the base body");
-  }
-  robot.imu_position = vector_at(at_reference(robot)->site_xpos, robot.imu_site);
-  const Eigen::Quaterniond own = quaternion_at(model.site_quat, robot.imu_site);
-  if (body != robot.base_body || own.coeffs() == imu_convention().coeffs()) return;
-  set_quaternion(model.site_quat, robot.imu_site, imu_convention());
-  model.site_sameframe[robot.imu_site] = 0;
-}
-
-void set_contacts(RobotModel& robot, const Contract& contract) {
+void set_contacts(RobotModel& robot, const RobotSource& source) {
   mjModel& model = *robot.mj;
   for (int geom = 0; geom < model.ngeom; ++geom) {
     if (model.body_rootid[model.geom_bodyid[geom]] != robot.base_body) continue;
@@ -138,10 +123,10 @@ void set_contacts(RobotModel& robot, const Contract& contract) {
     if (!is_tyre && model.geom_contype[geom] == 0 && model.geom_conaffinity[geom] == 0) continue;
     const int type = model.geom_type[geom];
     if (type == mjGEOM_ELLIPSOID || type == mjGEOM_HFIELD || type == mjGEOM_PLANE) {
-      contract.fail_at_geom(
-          geom, fmt::format("geom {}: expected a sphere, capsule, cylinder, box or mesh: "
-                            "Bullet has no counterpart of this shape",
-                            contract.name_of(mjOBJ_GEOM, geom)));
+      const Part part = {mjOBJ_GEOM, geom};
+      source.fail_at(part, fmt::format("geom {}: expected a sphere, capsule, cylinder, box or "
+                                       "mesh: Bullet has no counterpart of this shape",
+                                       source.title_of(part)));
     }
     model.geom_contype[geom] = robot_contype;
     model.geom_conaffinity[geom] = robot_conaffinity;
@@ -220,34 +205,62 @@ std::string turn_base(RobotModel& robot, std::string_view given) {
   return forward;
 }
 
-bool sides_are_swapped(const RobotModel& robot, const Contract& contract) {
+void order_sides(RobotModel& robot, const RobotSource& source) {
   const MjDataPtr data = at_reference(robot);
   const double left = vector_at(data->geom_xpos, robot.tyre_geom[0]).y();
   const double right = vector_at(data->geom_xpos, robot.tyre_geom[1]).y();
   if (std::abs(left - right) < 0.5 * robot.wheel_radius) {
-    contract.fail_at_geom(robot.tyre_geom[1],
-                          "expected the tyres side by side, the left one at larger y");
+    source.fail_at({mjOBJ_GEOM, robot.tyre_geom[1]},
+                   "expected the tyres side by side, the left one at larger y");
   }
-  return left < right;
+  if (left > right) return;
+  const auto swap = [](auto& of_servos) {
+    std::swap_ranges(of_servos.begin(), of_servos.begin() + 3, of_servos.begin() + 3);
+  };
+  swap(robot.joint);
+  swap(robot.joint_name);
+  swap(robot.qpos_address);
+  swap(robot.dof_address);
+  swap(robot.motor_joint);
+  swap(robot.effort);
+  swap(robot.actuator);
+  std::swap(robot.tyre_geom[0], robot.tyre_geom[1]);
+  std::swap(robot.tyre_strips[0], robot.tyre_strips[1]);
 }
 
-void apply_conventions(RobotModel& robot, const Contract& contract) {
-  mjModel& model = *robot.mj;
-  check_chain(robot, contract);
+void find_imu(RobotModel& robot, const RobotSource& source) {
+  const mjModel& model = *robot.mj;
+  const std::string& given = source.parts().imu;
+  const std::string name = given.empty() ? "imu" : given;
+  Part imu = {mjOBJ_SITE, mj_name2id(&model, mjOBJ_SITE, name.c_str())};
+  if (imu.id < 0) imu = {mjOBJ_BODY, mj_name2id(&model, mjOBJ_BODY, name.c_str())};
+  if (imu.id < 0 && given.empty()) {
+    source.fail(fmt::format("expected a site named 'imu'{}",
+                            found_text(name, names_of(model, mjOBJ_SITE))));
+  }
+  if (imu.id < 0) imu = source.named({mjOBJ_SITE, mjOBJ_BODY}, name, "imu");
+  const int body = imu.type == mjOBJ_SITE ? model.site_bodyid[imu.id] : imu.id;
+  if (model.body_weldid[body] != model.body_weldid[robot.base_body]) {
+    source.fail_at(imu, "site 'imu': expected it on the base body");
+  }
   const MjDataPtr data = at_reference(robot);
-  std::vector<std::string> complaints;
+  robot.imu_position = vector_at(imu.type == mjOBJ_SITE ? data->site_xpos : data->xpos, imu.id);
+}
+
+void apply_conventions(RobotModel& robot, const RobotSource& source) {
+  mjModel& model = *robot.mj;
+  check_chain(robot, source);
+  const MjDataPtr data = at_reference(robot);
   for (std::size_t i = 0; i < servo_count; ++i) {
     if (!robot.has(i)) continue;
     const Vector3d axis = vector_at(data->xaxis, robot.joint[i]);
-    collect(complaints, [&] { check_axis(axis, i, contract); });
+    check_axis(robot, axis, i, source);
     if (axis.y() * expected_sign(i) > 0.0) continue;
     reverse(model, robot.joint[i]);
     robot.is_reversed[i] = true;
   }
-  require_none(complaints);
-  set_zeros(robot, contract);
-  set_imu(robot, contract);
-  set_contacts(robot, contract);
+  set_zeros(robot, source);
+  set_contacts(robot, source);
   set_limits(model);
 }
 

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "models/contract.hpp"
 #include "models/robot_draft.hpp"
+#include "models/robot_source.hpp"
 
 namespace touchdown::models {
 
@@ -276,11 +276,6 @@ bool is_rod(const mjModel& model, const mjData& data, const JointsOfLegs& legs, 
 
 bool has_part(std::string_view text, std::string_view part) {
   return lower_case(std::string(text)).find(part) != std::string::npos;
-}
-
-std::string name_of(const mjModel& model, mjtObj type, int id) {
-  const char* const text = mj_id2name(&model, type, id);
-  return text == nullptr ? "" : text;
 }
 
 FoundLegs find_legs(const mjModel& model, const mjData& data, int base) {

@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <string>
 
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "models/mjcf/types.hpp"
-#include "models/robot.hpp"
 
 namespace touchdown::models {
 
@@ -111,14 +108,11 @@ void stretch_body(mjModel& mj, int body, const Stretch& stretch) {
   }
 }
 
-int joint_of(const mjModel& mj, std::size_t servo) {
-  return mj_name2id(&mj, mjOBJ_JOINT, std::string(servo_names[servo]).c_str());
-}
-
 /// Scales a link between the joint that moves it and the next joint.
-void scale_link(mjModel& mj, std::size_t servo, double factor) {
-  const int joint = joint_of(mj, servo);
-  const int next = joint_of(mj, servo + 1);
+void scale_link(RobotModel& robot, std::size_t servo, double factor) {
+  mjModel& mj = *robot.mj;
+  const int joint = robot.joint[servo];
+  const int next = robot.joint[servo + 1];
   const int body = mj.jnt_bodyid[joint];
   const int child = mj.jnt_bodyid[next];
   if (mj.body_parentid[child] != body) {
@@ -145,18 +139,20 @@ void scale_mass(mjModel& mj, double factor) {
   }
 }
 
-void scale_wheels(mjModel& mj, double factor) {
+void scale_wheels(RobotModel& robot, double factor) {
+  mjModel& mj = *robot.mj;
   for (const Servo wheel : wheel_servos) {
-    const int joint = joint_of(mj, index(wheel));
+    const int joint = robot.joint[index(wheel)];
     stretch_body(mj, mj.jnt_bodyid[joint],
                  across(row(mj.jnt_axis, joint), factor, row(mj.jnt_pos, joint)));
   }
+  robot.wheel_radius *= factor;
 }
 
-void scale_leg(mjModel& mj, std::size_t leg, double factor) {
+void scale_leg(RobotModel& robot, std::size_t leg, double factor) {
   const std::size_t hip = index(leg == 0 ? Servo::left_hip : Servo::right_hip);
-  if (joint_of(mj, hip) >= 0) scale_link(mj, hip, factor);
-  scale_link(mj, hip + 1, factor);
+  if (robot.has(hip)) scale_link(robot, hip, factor);
+  scale_link(robot, hip + 1, factor);
 }
 
 void shift_mass(mjModel& mj, int body, const Eigen::Vector3d& offset) {

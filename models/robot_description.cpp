@@ -5,6 +5,8 @@
 #include <system_error>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "core/fields.hpp"
 #include "core/files.hpp"
 #include "core/fingerprint.hpp"
@@ -16,6 +18,10 @@ namespace touchdown::models {
 namespace {
 /// Joints may turn once from any zero. The robot's own ranges are checked with its model.
 constexpr double largest_angle = 6.2832;  // rad
+
+bool is_index(std::string_view part) {
+  return part.find_first_not_of("0123456789") == std::string_view::npos;
+}
 }  // namespace
 
 static void describe(Fields& fields, LegActuators& actuators) {
@@ -221,6 +227,22 @@ RobotDescription robot_description(const std::filesystem::path& file) {
                                did_you_mean(robot.mjcf.filename().string(), neighbours));
   }
   return robot;
+}
+
+void RobotKeys::fail(std::string_view key, const std::string& message) const {
+  const YamlDocument document = YamlDocument::load(file_);
+  YAML::Node node = document.root();
+  std::string shown;
+  for (std::string_view rest = key; !rest.empty();) {
+    const std::string part(rest.substr(0, rest.find('.')));
+    rest.remove_prefix(std::min(rest.size(), part.size() + 1));
+    const YAML::Node inner = is_index(part) ? node[std::stoul(part)] : node[part];
+    if (!inner.IsDefined()) break;
+    node.reset(inner);
+    if (!is_index(part)) shown += (shown.empty() ? "" : ".") + part;
+  }
+  throw InputError(fmt::format("{}: {}: {}", document.place_of(node, key),
+                               shown.empty() ? key : shown, message));
 }
 
 std::vector<std::filesystem::path> robot_files(const std::filesystem::path& file) {

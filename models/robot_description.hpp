@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "models/actuator.hpp"
@@ -115,6 +117,18 @@ bool is_about_an_mjcf(const std::filesystem::path& file);
 
 /// Errors: `InputError` with file:line:column.
 RobotDescription robot_description(const std::filesystem::path& file);
+
+/// The keys of a robot's YAML file, for errors at their values.
+class RobotKeys {
+ public:
+  explicit RobotKeys(std::filesystem::path file) : file_(std::move(file)) {}
+
+  /// Throws an `InputError` at a dotted key, such as `joints.left_hip` or `held.0`.
+  [[noreturn]] void fail(std::string_view key, const std::string& message) const;
+
+ private:
+  std::filesystem::path file_;
+};
 
 /// All files that the robot depends on: this one, the MJCF or URDF that it names, what that
 /// includes, and its meshes and textures; and one digest of their contents, wherever they are.

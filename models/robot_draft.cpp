@@ -10,7 +10,6 @@
 #include <yaml-cpp/yaml.h>
 
 #include "core/error.hpp"
-#include "models/contract.hpp"
 #include "models/robot_source.hpp"
 
 namespace touchdown::models {
@@ -23,7 +22,6 @@ class Draft {
  public:
   explicit Draft(const std::filesystem::path& file)
       : source_(robot_file(robot_description(file), RobotKeys(file))) {
-    require_none(source_.findings.complaints);
     model_ = compile(source_, Terrain{});
     data_ = make_data(*model_);
     mj_kinematics(model_.get(), data_.get());
@@ -39,7 +37,7 @@ class Draft {
   }
 
   std::vector<DraftLine> lines() {
-    for (const std::string& warning : source_.findings.warnings) add("", "", warning);
+    for (const std::string& warning : source_.warnings) add("", "", warning);
     add_base();
     add_joints();
     add_held();
@@ -194,8 +192,8 @@ class Draft {
   }
 
   bool has_limit(int joint) const {
-    const auto effort = source_.findings.effort.find(joint_name(joint));
-    if (effort != source_.findings.effort.end() && std::isfinite(effort->second)) return true;
+    const auto effort = source_.effort.find(joint_name(joint));
+    if (effort != source_.effort.end() && std::isfinite(effort->second)) return true;
     for (int i = 0; i < model_->nu; ++i) {
       if (model_->actuator_trnid[2 * i] != joint) continue;
       if (model_->actuator_ctrllimited[i] != 0 || model_->actuator_forcelimited[i] != 0)

@@ -52,9 +52,6 @@ using JointsOfLegs = std::array<std::vector<int>, wheel_count>;
 /// axis parallel to the axles. It is on a leg, or its chain on the base ends beside a link of one.
 bool is_rod(const mjModel& model, const mjData& data, const JointsOfLegs& legs, int joint);
 
-/// The name of an element; empty without one.
-std::string name_of(const mjModel& model, mjtObj type, int id);
-
 /// Whether a text has a part, in capitals or not. The part is in small letters.
 bool has_part(std::string_view text, std::string_view part);
 
@@ -65,7 +62,7 @@ std::string as_yaml(const std::string& name);
 
 /// Drafts the YAML file about a robot from its MJCF or URDF, whatever its parts are called:
 /// `joints`, `held`, `tyres`, `imu`, `actuators`, `balancer`. Joints that are no servo's are held,
-/// but for those in loops and for rods of a cut loop. Errors: `RobotRefusal` for a file that no
+/// but for those in loops and for rods of a cut loop. Errors: `InputError` for a file that no
 /// YAML file can help; those of `find_legs`.
 std::vector<DraftLine> drafted_robot(const std::filesystem::path& robot);
 

@@ -47,12 +47,11 @@ struct ClosedLeg {
 ///
 /// Any robot works if its file keeps the contract of docs/guides/robots.md, or if a YAML file names
 /// its parts. The model follows touchdown's conventions for axes, signs and zeros, whatever those
-/// of the file (models/contract.hpp).
+/// of the file (models/robot_source.hpp).
 struct RobotModel {
   MjModelPtr mj;
   std::string name;  ///< the MJCF's model name
   int base_body = -1;
-  int imu_site = -1;
   Eigen::Vector3d imu_position = Eigen::Vector3d::Zero();  ///< in the base frame (m)
   /// Of each servo's joint: its number, and its places in mjData::qpos and mjData::qvel. −1 for the
   /// hips of legs that have none.

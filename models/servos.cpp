@@ -1,20 +1,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "models/contract.hpp"
-#include "models/mjcf/parts.hpp"
-#include "models/mjcf/robot_file.hpp"
 #include "models/robot_draft.hpp"
+#include "models/robot_source.hpp"
 
 namespace touchdown::models {
 
 namespace {
-
-using Efforts = std::map<std::string, double>;
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
@@ -30,35 +27,31 @@ double symmetric(const mjtNum* range, const char* what, const Fail& fail) {
 
 }  // namespace
 
-double limit_of(const Efforts& efforts, const std::string& joint) {
-  const auto found = efforts.find(joint);
-  return found == efforts.end() ? no_limit : found->second;
-}
-
 Actuator actuator_at(const mjModel& model, int dof) {
   return {.friction = model.dof_frictionloss[dof],
           .viscous = model.dof_damping[dof],
           .armature = model.dof_armature[dof]};
 }
 
-double torque_limit(const mjModel& model, const MotorOfJoint& of, double most,
-                    const Contract& contract) {
-  const int motor = of.motor;
+double torque_limit(const mjModel& model, const LimitedJoint& of, double most,
+                    const RobotSource& source) {
+  const int motor = source.motor_of(of.joint);
+  most = std::min(most, source.limit_of(of.joint));
   const auto fail = [&](const std::string& message) {
-    contract.fail_at_actuator(
-        motor, fmt::format("{}: {}, or '{}' in the YAML file", of.title, message, of.remedy));
+    source.fail_at(motor < 0 ? Part{mjOBJ_JOINT, of.joint} : Part{mjOBJ_ACTUATOR, motor},
+                   fmt::format("{}: {}, or '{}' in the YAML file", of.title, message, of.remedy));
   };
-  if (model.actuator_dyntype[motor] != mjDYN_NONE) {
+  if (motor >= 0 && model.actuator_dyntype[motor] != mjDYN_NONE) {
     fail("expected a motor, found an activation (dyntype)");
   }
-  if (model.actuator_gaintype[motor] != mjGAIN_FIXED ||
-      (model.actuator_biastype[motor] != mjBIAS_NONE &&
-       model.actuator_biastype[motor] != mjBIAS_AFFINE)) {
+  if (motor >= 0 && (model.actuator_gaintype[motor] != mjGAIN_FIXED ||
+                     (model.actuator_biastype[motor] != mjBIAS_NONE &&
+                      model.actuator_biastype[motor] != mjBIAS_AFFINE))) {
     fail("expected a motor");
   }
-  const bool is_motor = model.actuator_biastype[motor] == mjBIAS_NONE;
-  const bool has_force = model.actuator_forcelimited[motor] != 0;
-  const bool has_control = is_motor && model.actuator_ctrllimited[motor] != 0;
+  const bool is_motor = motor < 0 || model.actuator_biastype[motor] == mjBIAS_NONE;
+  const bool has_force = motor >= 0 && model.actuator_forcelimited[motor] != 0;
+  const bool has_control = motor >= 0 && is_motor && model.actuator_ctrllimited[motor] != 0;
   if (!has_force && !has_control) {
     if (std::isfinite(most)) return most;
     fail(fmt::format("expected a {}, its torque limit (N·m), an effort limit in a URDF",
@@ -79,59 +72,53 @@ double torque_limit(const mjModel& model, const MotorOfJoint& of, double most,
 
 namespace {
 
-/// Removes the law of a position or velocity servo: MuJoCo must not add it to touchdown's. Returns
-/// whether there was one.
-bool remove_law(mjModel& model, int motor) {
-  if (model.actuator_biastype[motor] == mjBIAS_NONE) return false;
-  std::fill_n(&model.actuator_gainprm[mjNGAIN * motor], mjNGAIN, 0.0);
-  std::fill_n(&model.actuator_biasprm[mjNBIAS * motor], mjNBIAS, 0.0);
-  return true;
-}
-
 /// Finds the floating base body, the root of the robot.
-int find_base(const mjModel& model, const Contract& contract) {
+int find_base(const mjModel& model, const RobotSource& source) {
   int base = -1;
   for (int joint = 0; joint < model.njnt; ++joint) {
     if (model.jnt_type[joint] != mjJNT_FREE) continue;
-    if (base >= 0) contract.fail_at_joint(joint, "expected one free joint, found several");
+    if (base >= 0) source.fail_at({mjOBJ_JOINT, joint}, "expected one free joint, found several");
     base = model.jnt_bodyid[joint];
   }
-  if (base < 0) contract.fail("expected a base body with a <freejoint/>");
+  if (base < 0) source.fail("expected a base body with a <freejoint/>");
   const int dof = model.jnt_dofadr[model.body_jntadr[base]];
   for (int i = dof; i < dof + 6; ++i) {
     if (model.dof_damping[i] != 0.0 || model.dof_armature[i] != 0.0 ||
         model.dof_frictionloss[i] != 0.0) {
-      contract.fail_at_joint(model.body_jntadr[base],
-                             "free joint: expected no damping, armature or frictionloss on it");
+      source.fail_at({mjOBJ_JOINT, model.body_jntadr[base]},
+                     "free joint: expected no damping, armature or frictionloss on it");
     }
   }
   return base;
 }
 
-/// The names of all hinges, for a message.
-std::string found_joints(const mjModel& model) {
+/// The names of all hinges but those that are held, for a message.
+std::string found_joints(const mjModel& model, const RobotSource& source) {
   std::vector<std::string> names;
   for (int joint = 0; joint < model.njnt; ++joint) {
-    const char* const name = mj_id2name(&model, mjOBJ_JOINT, joint);
-    if (model.jnt_type[joint] == mjJNT_FREE || name == nullptr || is_held_name(name)) continue;
-    names.emplace_back(name);
+    const std::string name = name_of(model, mjOBJ_JOINT, joint);
+    const bool is_held = std::ranges::count(source.parts().held, name) > 0;
+    if (model.jnt_type[joint] != mjJNT_FREE && !name.empty() && !is_held) names.push_back(name);
   }
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-int find_joint(const mjModel& model, const Contract& contract, std::size_t servo) {
+std::string key_of(std::size_t servo) { return fmt::format("joints.{}", servo_names[servo]); }
+
+int find_joint(const mjModel& model, const RobotSource& source, std::size_t servo) {
+  const std::string& own = source.parts().joint[servo];
   const std::string name(servo_names[servo]);
-  const int joint = mj_name2id(&model, mjOBJ_JOINT, name.c_str());
+  const int joint = own.empty() ? mj_name2id(&model, mjOBJ_JOINT, name.c_str())
+                                : source.joint(own, key_of(servo));
   if (joint < 0) {
-    contract.fail(
+    source.fail(
         fmt::format("expected a hinge joint named '{}', found {} (a YAML file about this "
                     "robot may name others: joints, hip: none, held)",
-                    name, found_joints(model)));
+                    name, found_joints(model, source)));
   }
-  if (model.jnt_type[joint] != mjJNT_HINGE) contract.fail_at_servo(servo, "expected a hinge");
-  if (model.jnt_stiffness[joint] != 0.0) {
-    contract.fail_at_servo(
-        servo, fmt::format("expected no spring, found stiffness {:g}", model.jnt_stiffness[joint]));
+  if (model.jnt_type[joint] != mjJNT_HINGE) source.fail_at_hinge(joint, "expected a hinge");
+  if (const double stiffness = model.jnt_stiffness[joint]; stiffness != 0.0) {
+    source.fail_at_hinge(joint, fmt::format("expected no spring, found stiffness {:g}", stiffness));
   }
   return joint;
 }
@@ -151,19 +138,17 @@ bool is_rod_of(const RobotModel& robot, int joint) {
   return is_rod(*robot.mj, *data, legs, joint);
 }
 
-void refuse_other_joints(const RobotModel& robot, const Contract& contract) {
+void refuse_other_joints(const RobotModel& robot, const RobotSource& source) {
   const mjModel& model = *robot.mj;
   std::vector<std::string> rods;
   std::vector<std::string> others;
   int first = -1;
   for (int joint = 0; joint < model.njnt; ++joint) {
-    const char* const name = mj_id2name(&model, mjOBJ_JOINT, joint);
-    const bool is_known =
-        model.jnt_type[joint] == mjJNT_FREE || is_held_name(name) ||
-        std::find(robot.joint.begin(), robot.joint.end(), joint) != robot.joint.end();
+    const bool is_known = model.jnt_type[joint] == mjJNT_FREE || is_held(robot, joint) ||
+                          std::ranges::count(robot.joint, joint) > 0;
     if (is_known) continue;
     if (first < 0) first = joint;
-    (is_rod_of(robot, joint) ? rods : others).push_back(contract.name_of(mjOBJ_JOINT, joint));
+    (is_rod_of(robot, joint) ? rods : others).push_back(source.title_of({mjOBJ_JOINT, joint}));
   }
   if (first < 0) return;
   std::string message;
@@ -176,7 +161,28 @@ void refuse_other_joints(const RobotModel& robot, const Contract& contract) {
         "under `held`)",
         message.empty() ? "" : "; ", fmt::join(others, ", "));
   }
-  contract.fail_at_joint(first, message);
+  source.fail_at({mjOBJ_JOINT, first}, message);
+}
+
+/// Refuses a second motor on a joint, and in robots without loops those of no servo.
+void check_motors(const RobotModel& robot, const RobotSource& source) {
+  const mjModel& model = *robot.mj;
+  for (int i = 0; i < model.nu; ++i) {
+    const int joint = source.joint_of(i);
+    const auto fail = [&](const std::string& message) {
+      const tinyxml2::XMLElement* const element = source.element_of({mjOBJ_ACTUATOR, i});
+      source.fail_at(
+          {mjOBJ_ACTUATOR, i},
+          fmt::format("{}: {}", element == nullptr ? "motor" : title_of(*element), message));
+    };
+    if (joint >= 0 && source.motor_of(joint) != i) {
+      fail(fmt::format("expected one motor for joint '{}', found several",
+                       name_of(model, mjOBJ_JOINT, joint)));
+    }
+    const bool is_servos = joint >= 0 && std::ranges::count(robot.joint, joint) > 0;
+    if (is_servos || is_held(robot, joint) || model.neq > 0) continue;
+    fail("expected one motor for each servo, and no other");
+  }
 }
 
 /// Gains of a servo on its joint; zero where a motor has none.
@@ -191,7 +197,9 @@ Gains own_gains(const mjModel& model, int motor) {
   if (model.actuator_biastype[motor] != mjBIAS_AFFINE) return {};
   const double gear = model.actuator_gear[6 * motor];
   const mjtNum* const bias = &model.actuator_biasprm[mjNBIAS * motor];
-  return {-bias[1] * gear * gear, -bias[2] * gear * gear};
+  const int columns = model.nuser_actuator;  // damping, as MuJoCo 3 has it (later_versions.cpp)
+  const double damping = columns > 0 ? model.actuator_user[columns * motor] : 0.0;
+  return {-bias[1] * gear * gear, (damping - bias[2]) * gear * gear};
 }
 
 /// Length of the left leg seen from the side, from its first joint over the knee to the axle (m).
@@ -215,136 +223,122 @@ Gains gains_for(const RobotModel& robot) {
   return {3.0 * toppling, 0.73 * toppling * std::sqrt(length / gravity)};
 }
 
-class Held {
- public:
-  Held(RobotModel& robot, const Contract& contract, std::size_t number)
-      : model_(*robot.mj), contract_(contract), name_(held_name(number)) {
-    held_.name = contract.parts().held[number];
-    held_.joint = contract.find(mjOBJ_JOINT, "joint", name_);
-    motor_ = contract.find(mjOBJ_ACTUATOR, "motor", name_);
-  }
+/// A held joint with its place, and the gains of its motor.
+HeldJoint held_joint(const mjModel& model, const RobotSource& source, const std::string& name,
+                     const std::string& key) {
+  HeldJoint held;
+  held.name = name;
+  held.joint = source.joint(name, key);
+  held.qpos_address = model.jnt_qposadr[held.joint];
+  held.dof_address = model.jnt_dofadr[held.joint];
+  held.reference = model.qpos0[held.qpos_address];
+  const int motor = source.motor_of(held.joint);
+  const Gains own = motor < 0 ? Gains{} : own_gains(model, motor);
+  held.kp = own.kp;
+  held.kd = own.kd;
+  return held;
+}
 
-  HeldJoint held(const HeldServo& given, const Gains& robots, const Efforts& efforts) {
-    contract_.check_hinge(held_.joint, "as it is held");
-    held_.qpos_address = model_.jnt_qposadr[held_.joint];
-    held_.dof_address = model_.jnt_dofadr[held_.joint];
-    held_.reference = model_.qpos0[held_.qpos_address];
-    set_gains(given, robots);
-    set_limit(given, limit_of(efforts, held_.name));
-    set_actuator();
-    (void)remove_law(model_, motor_);
-    return held_;
-  }
+/// Completes the gains of a held joint by those that the robot needs.
+void set_gains(HeldJoint& held, const HeldServo& given, const Gains& robots) {
+  const double own_kd = held.kd;
+  held.kp_source = given.kp        ? "held_servo"
+                   : held.kp > 0.0 ? "the file's position servo"
+                                   : "weight and leg length";
+  if (given.kp || held.kp <= 0.0) held.kp = given.kp.value_or(robots.kp);
+  held.kd = given.kd.value_or(own_kd > 0.0 ? own_kd : robots.kd * held.kp / robots.kp);
+}
 
- private:
-  void set_gains(const HeldServo& given, const Gains& robots) {
-    const Gains own = own_gains(model_, motor_);
-    if (given.kp) {
-      held_.kp = *given.kp;
-      held_.kp_source = "held_servo";
-    } else if (own.kp > 0.0) {
-      held_.kp = own.kp;
-      held_.kp_source = "the file's position servo";
-    } else {
-      held_.kp = robots.kp;
-      held_.kp_source = "weight and leg length";
-    }
-    held_.kd = given.kd.value_or(own.kd > 0.0 ? own.kd : robots.kd * held_.kp / robots.kp);
+/// Removes the laws of position and velocity servos: MuJoCo must not add them to touchdown's.
+void remove_laws(RobotModel& robot, const RobotSource& source) {
+  mjModel& model = *robot.mj;
+  for (int i = 0; i < model.nu; ++i) {
+    if (model.actuator_biastype[i] == mjBIAS_NONE) continue;
+    std::fill_n(&model.actuator_gainprm[mjNGAIN * i], mjNGAIN, 0.0);
+    std::fill_n(&model.actuator_biasprm[mjNBIAS * i], mjNBIAS, 0.0);
+    if (is_held(robot, source.joint_of(i))) continue;
+    robot.ignored.push_back(fmt::format("{}: actuator '{}': its own law; its forcerange counts",
+                                        source.place_of({mjOBJ_ACTUATOR, i}),
+                                        name_of(model, mjOBJ_ACTUATOR, i)));
   }
-
-  void set_limit(const HeldServo& given, double most) {
-    if (given.maximum_torque) {
-      held_.effort = *given.maximum_torque;
-      return;
-    }
-    held_.effort = torque_limit(
-        model_,
-        {motor_, fmt::format("motor of joint '{}'", held_.name), "held_servo: {maximum_torque: …}"},
-        most, contract_);
-  }
-
-  void set_actuator() {
-    const int dof = held_.dof_address;
-    held_.actuator = actuator_at(model_, dof);
-    model_.dof_frictionloss[dof] = model_.dof_damping[dof] = 0.0;
-  }
-
-  mjModel& model_;
-  const Contract& contract_;
-  std::string name_;
-  HeldJoint held_;
-  int motor_ = -1;
-};
+}
 
 }  // namespace
 
-void find_servos(RobotModel& robot, const RobotDescription& description, const Efforts& efforts,
-                 const Contract& contract) {
-  mjModel& model = *robot.mj;
-  robot.base_body = find_base(model, contract);
-  std::array<int, servo_count> motor = {-1, -1, -1, -1, -1, -1};
-  robot.joint.fill(-1);
-  std::vector<std::string> complaints;
+void find_joints(RobotModel& robot, const RobotSource& source) {
+  const mjModel& model = *robot.mj;
+  const PartNames& parts = source.parts();
+  std::map<int, std::string> keys;
+  const auto add = [&](int joint, const std::string& key) {
+    const auto [other, is_new] = keys.emplace(joint, key);
+    if (is_new) return;
+    source.keys().fail(key, fmt::format("'{}' is the joint of {}, too",
+                                        name_of(model, mjOBJ_JOINT, joint), other->second));
+  };
+  robot.base_body = find_base(model, source);
   for (std::size_t i = 0; i < servo_count; ++i) {
-    if (i % 3 == 0 && !contract.parts().has_hips) continue;
-    collect(complaints, [&] {
-      robot.joint[i] = find_joint(model, contract, i);
-      if (i % 3 == 2 || model.neq == 0) {
-        motor[i] = contract.find(mjOBJ_ACTUATOR, "motor", servo_names[i]);
-      }
-    });
-  }
-  require_none(complaints);
-  // Rods of closed legs are found with their loops.
-  if (model.neq == 0) collect(complaints, [&] { refuse_other_joints(robot, contract); });
-  for (std::size_t i = 0; i < servo_count; ++i) {
-    robot.qpos_address[i] = robot.dof_address[i] = -1;
-    if (!robot.has(i)) continue;
-    const int joint = robot.joint[i];
+    robot.joint[i] = robot.qpos_address[i] = robot.dof_address[i] = -1;
+    robot.joint_name[i] = servo_names[i];
+    if (i % 3 == 0 && !parts.has_hips) continue;
+    const int joint = robot.joint[i] = find_joint(model, source, i);
+    add(joint, key_of(i));
+    robot.joint_name[i] = name_of(model, mjOBJ_JOINT, joint);
     robot.qpos_address[i] = model.jnt_qposadr[joint];
     robot.dof_address[i] = model.jnt_dofadr[joint];
-    if (motor[i] < 0) continue;
-    const auto& given = description.actuator(static_cast<Servo>(i));
-    const double most = std::min(given ? given->maximum_torque : no_limit,
-                                 limit_of(efforts, own_name(contract.parts(), i)));
-    const MotorOfJoint of = {motor[i], fmt::format("motor '{}'", own_name(contract.parts(), i)),
-                             fmt::format("actuators: {{{}: {{maximum_torque: …}}}}",
-                                         std::array{"hip", "knee", "wheel"}[i % 3])};
-    collect(complaints, [&] { robot.effort[i] = torque_limit(model, of, most, contract); });
-    robot.actuator[i] = actuator_at(model, robot.dof_address[i]);
   }
-  require_none(complaints);
-  for (int i = 0; i < model.nu; ++i) {
-    const char* const name = mj_id2name(&model, mjOBJ_ACTUATOR, i);
-    if (is_held_name(name)) continue;
-    if (model.neq == 0 && std::find(motor.begin(), motor.end(), i) == motor.end()) {
-      contract.fail_at_actuator(
-          i, fmt::format("actuator {}: expected one motor for each servo, and no other",
-                         name == nullptr ? "without a name" : fmt::format("'{}'", name)));
-    }
-    // The servos' law is touchdown's: MuJoCo must not add that of the file.
-    if (remove_law(model, i)) {
-      robot.ignored.push_back(fmt::format("{}: actuator '{}': its own law; its forcerange counts",
-                                          contract.place_in_section("actuator", i),
-                                          name ? name : ""));
+  for (std::size_t i = 0; i < parts.held.size(); ++i) {
+    const std::string key = fmt::format("held.{}", i);
+    robot.held.push_back(held_joint(model, source, parts.held[i], key));
+    add(robot.held.back().joint, key);
+  }
+  for (std::size_t leg = 0; leg < wheel_count; ++leg) {
+    for (std::size_t i = 0; i < parts.motors[leg].size(); ++i) {
+      const char* const side = leg == 0 ? "left" : "right";
+      (void)source.joint(parts.motors[leg][i], fmt::format("motors.{}.{}", side, i));
     }
   }
-  robot.motor_joint = robot.joint;
+  // Rods of closed legs are found with their loops.
+  if (model.neq == 0) refuse_other_joints(robot, source);
+  check_motors(robot, source);
 }
 
-void find_held(RobotModel& robot, const RobotDescription& description, const Efforts& efforts,
-               const Contract& contract) {
-  robot.held.clear();
-  if (contract.parts().held.empty()) return;
-  const Gains robots = gains_for(robot);
-  std::vector<HeldJoint> held;
-  for (std::size_t i = 0; i < contract.parts().held.size(); ++i) {
-    held.push_back(Held(robot, contract, i).held(description.held_servo, robots, efforts));
-    if (!is_rod_of(robot, held.back().joint)) continue;
-    robot.warnings.push_back(
-        fmt::format("{}: joint '{}': {}", description.mjcf.string(), held.back().name, rod_text));
+void find_limits(RobotModel& robot, const RobotSource& source) {
+  const mjModel& model = *robot.mj;
+  for (std::size_t i = 0; i < servo_count; ++i) {
+    const int joint = robot.joint[i];
+    if (joint < 0 || (i % 3 != 2 && model.neq > 0)) continue;  // closed legs have their own motors
+    const auto& given = source.description().actuator(static_cast<Servo>(i));
+    robot.effort[i] = torque_limit(model,
+                                   {joint, fmt::format("motor '{}'", robot.joint_name[i]),
+                                    fmt::format("actuators: {{{}: {{maximum_torque: …}}}}",
+                                                std::array{"hip", "knee", "wheel"}[i % 3])},
+                                   given ? given->maximum_torque : no_limit, source);
+    robot.actuator[i] = actuator_at(model, robot.dof_address[i]);
   }
-  robot.held = std::move(held);
+  robot.motor_joint = robot.joint;
+  remove_laws(robot, source);
+}
+
+void complete_held(RobotModel& robot, const RobotSource& source) {
+  if (robot.held.empty()) return;
+  mjModel& model = *robot.mj;
+  const HeldServo& given = source.description().held_servo;
+  const Gains robots = gains_for(robot);
+  for (HeldJoint& held : robot.held) {
+    source.check_hinge(held.joint, "as it is held");
+    set_gains(held, given, robots);
+    held.effort = given.maximum_torque
+                      ? *given.maximum_torque
+                      : torque_limit(model,
+                                     {held.joint, fmt::format("motor of joint '{}'", held.name),
+                                      "held_servo: {maximum_torque: …}"},
+                                     no_limit, source);
+    held.actuator = actuator_at(model, held.dof_address);
+    model.dof_frictionloss[held.dof_address] = model.dof_damping[held.dof_address] = 0.0;
+    if (!is_rod_of(robot, held.joint)) continue;
+    robot.warnings.push_back(
+        fmt::format("{}: joint '{}': {}", source.description().mjcf.string(), held.name, rod_text));
+  }
 }
 
 }  // namespace touchdown::models

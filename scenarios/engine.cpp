@@ -17,8 +17,7 @@ namespace {
 void deviate(models::RobotModel& model, const Deviations& deviations) {
   models::shift_mass(*model.mj, model.base_body, {deviations.com_x, 0.0, deviations.com_z});
   model.mj->body_mass[model.base_body] += deviations.payload;
-  models::scale_wheels(*model.mj, deviations.wheel_radius_scale);
-  model.wheel_radius *= deviations.wheel_radius_scale;
+  models::scale_wheels(model, deviations.wheel_radius_scale);
   for (std::size_t i = 0; i < models::servo_count; ++i) {
     models::Actuator& actuator = model.actuator[i];
     actuator.friction *= deviations.actuator_friction_scale;

@@ -12,7 +12,6 @@
 #include "core/resources.hpp"
 #include "estimator/force/leg_geometry.hpp"
 #include "logs/plausibility/rules.hpp"
-#include "models/mjcf/robot_file.hpp"
 #include "models/robot_description.hpp"
 #include "models/robot_draft.hpp"
 #include "models/robot_model.hpp"
@@ -373,8 +372,6 @@ RobotCheck check_robot(const std::filesystem::path& file,
       }
       last.drop = drop(scenario, last, should_continue, check);
     }
-  } catch (const models::RobotRefusal& refused) {
-    check.complaints = refused.complaints;
   } catch (const InputError& error) {
     check.complaints.emplace_back(error.what());
   }

@@ -95,9 +95,10 @@ MujocoTyres::MujocoTyres(const models::RobotModel& robot, const mjModel& engine_
       wheel_of_geom_(static_cast<std::size_t>(engine_model.ngeom)) {
   for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
     for (const int strip : robot.tyre_strips[wheel]) {
-      const char* name = mj_id2name(robot.mj.get(), mjOBJ_GEOM, strip);
-      const int geom = mj_name2id(&engine_model, mjOBJ_GEOM, name);
-      wheel_of_geom_.at(static_cast<std::size_t>(geom)) = wheel;
+      // The engine's model has the geoms that collide, in their order.
+      std::size_t number = 0;
+      for (int geom = 0; geom < strip; ++geom) number += collides(*robot.mj, geom) ? 1 : 0;
+      wheel_of_geom_.at(number) = wheel;
     }
   }
 }

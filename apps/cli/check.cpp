@@ -25,7 +25,6 @@
 #include "experiments/logs/robot.hpp"
 #include "experiments/results/captions.hpp"
 #include "logs/log/reader.hpp"
-#include "models/mjcf/robot_file.hpp"
 #include "models/robot_description.hpp"
 #include "models/robot_model.hpp"
 #include "render/film/video.hpp"
@@ -198,17 +197,12 @@ void write_legs(const models::RobotModel& robot, const std::string& path) {
 std::size_t check_robot(const std::string& path, const CheckFlags& flags,
                         const CliSession& session) {
   std::filesystem::path robot = find_resource(path);
-  RobotCheck check;
-  try {
-    if (!flags.draft.empty()) {
-      print_warnings(scenarios::draft_robot(robot, flags.draft));
-      robot = flags.draft;
-    }
-    if (!flags.legs.empty()) write_legs(models::compile_robot_model(robot, {}), flags.legs);
-    check = scenarios::check_robot(robot, [&] { return !*session.stop; });
-  } catch (const models::RobotRefusal& refused) {
-    check.complaints = refused.complaints;
+  if (!flags.draft.empty()) {
+    print_warnings(scenarios::draft_robot(robot, flags.draft));
+    robot = flags.draft;
   }
+  const RobotCheck check = scenarios::check_robot(robot, [&] { return !*session.stop; });
+  if (!flags.legs.empty()) write_legs(models::compile_robot_model(robot, {}), flags.legs);
   print(flags.json ? json_of(path, check).dump(1, ' ', false, Json::error_handler_t::replace) + "\n"
                    : text_of(path, check));
   if (!flags.figure.empty() && check.standing.steps() > 0) {

@@ -57,9 +57,9 @@ std::string name_of(const XMLElement& asset) {
 /// Elements by the asset that they use.
 using Users = std::multimap<std::string, XMLElement*>;
 
-Users users_of(MjcfDocument& document, const char* tag, const char* name) {
+Users users_of(const MjcfDocument& document, const char* tag, const char* name) {
   Users users;
-  for_each_element(document.root(), [&](XMLElement& e) {
+  document.visit([&](XMLElement& e) {
     const XMLElement* const parent = e.Parent()->ToElement();
     const bool is_default = parent != nullptr && std::string_view(parent->Name()) == "default";
     if (std::string_view(e.Name()) != tag || is_default) return;
@@ -75,32 +75,32 @@ bool has_own_mass(const MjcfDocument& document, const XMLElement& geom) {
   return numbers(attribute_or_default(document, geom, "mass")) == std::vector<double>{0.0};
 }
 
-void drop_mesh(MjcfDocument& document, XMLElement& mesh, const std::string& file, Users& users,
-               FileFindings& findings) {
+void drop_mesh(RobotFile& robot, XMLElement& mesh, const std::string& file, Users& users) {
+  MjcfDocument& document = robot.document;
   const std::string name = name_of(mesh);
-  const std::string about =
-      fmt::format("{}: mesh '{}': {}: no such file", document.place_of(mesh), name, file);
+  const std::string about = fmt::format("mesh '{}': {}: no such file", name, file);
   std::string untouched;
   const auto [begin, end] = users.equal_range(name);
   for (auto user = begin; user != end; ++user) {
     XMLElement* const geom = user->second;
     const std::string body = title_of(*geom->Parent()->ToElement());
     if (!has_own_mass(document, *geom)) {
-      findings.complaints.push_back(
-          fmt::format("{}, and {} has its mass from it: expected an <inertial>", about, body));
+      document.fail(mesh, fmt::format("{}, and {} has its mass from it: expected an <inertial>",
+                                      about, body));
     }
     if (!is_visual(document, *geom)) untouched = ", and " + body + " does not touch with it";
     document.remove(*geom);
   }
   users.erase(begin, end);
-  findings.ignored.push_back(about + ": not drawn" + untouched);
+  robot.ignore(mesh, about + ": not drawn" + untouched);
 }
 
-std::string drop_texture(const XMLElement& texture, const std::string& file, const Users& users) {
+void drop_texture(RobotFile& robot, const XMLElement& texture, const std::string& file,
+                  const Users& users) {
   const std::string name = name_of(texture);
   const auto [begin, end] = users.equal_range(name);
-  for (auto user = begin; user != end; ++user) user->second->DeleteAttribute("texture");
-  return fmt::format("texture '{}': {}: no such file: not drawn", name, file);
+  for (auto user = begin; user != end; ++user) robot.document.replace(*user->second, "texture");
+  robot.ignore(texture, fmt::format("texture '{}': {}: no such file: not drawn", name, file));
 }
 
 /// Vertices, texture points and normals of an OBJ.
@@ -223,7 +223,8 @@ void draw_as_rods(MjcfDocument& document, XMLElement& body) {
 
 }  // namespace
 
-void drop_missing_assets(MjcfDocument& document, FileFindings& findings) {
+void drop_missing_assets(RobotFile& robot) {
+  MjcfDocument& document = robot.document;
   Compiler compiler = compiler_of(document);
   Users geoms = users_of(document, "geom", "mesh");
   const Users materials = users_of(document, "material", "texture");
@@ -233,16 +234,13 @@ void drop_missing_assets(MjcfDocument& document, FileFindings& findings) {
     if ((!is_mesh && tag != "texture") || asset->Attribute("file") == nullptr) continue;
     const std::filesystem::path file =
         file_of(document, compiler, *asset, is_mesh ? "meshdir" : "texturedir");
-    const std::string place = document.place_of(*asset) + ": ";
     if (!is_missing(file)) {
       const std::string fault = is_mesh ? fault_of_mesh(file) : "";
       if (fault.empty()) continue;
-      findings.complaints.push_back(place + fmt::format("mesh '{}': {}", name_of(*asset), fault));
-    } else if (is_mesh) {
-      drop_mesh(document, *asset, file.string(), geoms, findings);
-    } else {
-      findings.ignored.push_back(place + drop_texture(*asset, file.string(), materials));
+      document.fail(*asset, fmt::format("mesh '{}': {}", name_of(*asset), fault));
     }
+    is_mesh ? drop_mesh(robot, *asset, file.string(), geoms)
+            : drop_texture(robot, *asset, file.string(), materials);
     document.remove(*asset);
   }
   for (XMLElement* const body : in_sections(document.root(), "worldbody", "body")) {

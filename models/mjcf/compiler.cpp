@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
@@ -46,24 +45,21 @@ std::mutex& last_model() {
 }
 
 /// Formats an error message of MuJoCo as one line that begins with a place.
-std::string located(const std::filesystem::path& file, const MjcfDocument::Text& xml,
-                    std::string message) {
+std::string located(const MjcfDocument& document, std::string message) {
   std::smatch match;
   std::string name;
   if (std::regex_search(message, match, std::regex("[Nn]ame = ([^,\\n]+)"))) name = match[1].str();
-  std::string where = xml.place_of_name(name);
-  if (where.empty()) where = file.string();
-  if (std::regex_search(message, match, std::regex("line[ =]+(\\d+)"))) {
-    const std::string digits = match[1].str();
-    std::size_t line = 0;
-    std::from_chars(digits.data(), digits.data() + digits.size(), line);
-    if (line >= 1 && line <= xml.place_of_line.size() && !xml.place_of_line[line - 1].empty()) {
-      where = xml.place_of_line[line - 1];
-    }
-    // The message's own line is that of the composed text.
+  const bool is_named = !name.empty();
+  if (!is_named && std::regex_search(message, match, std::regex("[Ee]lement '(\\w+)'"))) {
+    name = match[1].str();
+  }
+  int line = 0;
+  if (std::regex_search(message, match, std::regex("line[ =]+(\\d{1,8})"))) {
+    line = std::stoi(match[1].str());
     message = std::regex_replace(message, std::regex(",? *line[ =]+\\d+(, *column +-?\\d+)?"), "");
   }
-  if (!name.empty()) {
+  const std::string where = document.place_in(line, name);
+  if (is_named) {
     message = std::regex_replace(message, std::regex("^Error: *|\\s*Object name = [\\s\\S]*"), "");
     if (message.find("larger than mjMINVAL") != std::string::npos) {
       message = "expected a mass and an inertia above 0, of an <inertial> or a shape";
@@ -72,12 +68,17 @@ std::string located(const std::filesystem::path& file, const MjcfDocument::Text&
     }
     message = fmt::format("'{}': {}", name, message);
   }
+  if (message.find("Schema violation") != std::string::npos) {
+    message +=
+        fmt::format(" (this is MuJoCo {}: may it be of a later version?)", mj_versionString());
+  }
   std::replace(message.begin(), message.end(), '\n', ' ');
   while (!message.empty() && message.back() == ' ') message.pop_back();
   return where + ": " + message;
 }
 
-MjModelPtr load(const MjcfDocument::Text& xml, const std::filesystem::path& file) {
+MjModelPtr load(const MjcfDocument& document, const std::string& more) {
+  const std::string text = document.edited(more);
   install_mujoco_handlers();
   // The name is in the folder of the robot's file, so that meshes are found there.
   const char* const file_name = "touchdown_composed.xml";
@@ -87,18 +88,18 @@ MjModelPtr load(const MjcfDocument::Text& xml, const std::filesystem::path& file
   };
   std::unique_ptr<mjVFS, decltype(release)> vfs(new mjVFS, release);
   mj_defaultVFS(vfs.get());
-  if (mj_makeEmptyFileVFS(vfs.get(), file_name, static_cast<int>(xml.text.size())) != 0) {
+  if (mj_makeEmptyFileVFS(vfs.get(), file_name, static_cast<int>(text.size())) != 0) {
     throw Error("MuJoCo has no room for the composed model");
   }
   const int slot = mj_findFileVFS(vfs.get(), file_name);
-  std::memcpy(vfs->filedata[slot], xml.text.data(), xml.text.size());
+  std::memcpy(vfs->filedata[slot], text.data(), text.size());
 
   std::array<char, 1000> message = {};
-  const std::string beside = (file.parent_path() / file_name).string();
+  const std::string beside = (document.file().parent_path() / file_name).string();
   MjModelPtr model(
       mj_loadXML(beside.c_str(), vfs.get(), message.data(), static_cast<int>(message.size())));
   if (!model && is_about_memory(message.data())) throw std::bad_alloc();
-  if (!model) throw InputError(located(file, xml, message.data()));
+  if (!model) throw InputError(located(document, message.data()));
   return model;
 }
 
@@ -110,14 +111,14 @@ MjDataPtr make_data(const mjModel& model) {
   return data;
 }
 
-MjModelPtr compile_xml(const MjcfDocument::Text& xml, const std::filesystem::path& file) {
+MjModelPtr compile_xml(const MjcfDocument& document, const std::string& more) {
   const std::scoped_lock lock(last_model());
-  return load(xml, file);
+  return load(document, more);
 }
 
-std::string converted_to_mjcf(const MjcfDocument::Text& urdf, const std::filesystem::path& file) {
+std::string converted_to_mjcf(const MjcfDocument& urdf) {
   const std::scoped_lock lock(last_model());
-  const MjModelPtr model = load(urdf, file);
+  const MjModelPtr model = load(urdf, {});
   // MuJoCo writes to files only.
   std::string folder = (temporary_folder() / "touchdown_XXXXXX").string();
   if (mkdtemp(folder.data()) == nullptr) {
@@ -130,7 +131,7 @@ std::string converted_to_mjcf(const MjcfDocument::Text& urdf, const std::filesys
   std::string text = is_saved ? read_file(saved) : std::string();
   std::error_code ignored;
   std::filesystem::remove_all(folder, ignored);
-  if (!is_saved) throw Error(fmt::format("{}: MuJoCo: {}", file.string(), message.data()));
+  if (!is_saved) throw Error(fmt::format("{}: MuJoCo: {}", urdf.file().string(), message.data()));
   // MuJoCo does not report what could not be written.
   if (text.find("</mujoco>") == std::string::npos) {
     throw Error(fmt::format("{}: cannot be written in full: is the disk full?", saved.string()));

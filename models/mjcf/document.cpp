@@ -1,6 +1,7 @@
 #include "models/mjcf/document.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
@@ -18,6 +19,8 @@ namespace touchdown::models {
 namespace {
 
 using tinyxml2::XMLElement;
+
+constexpr std::string_view spaces = " \t\r\n";
 
 const XMLElement* parent_of(const XMLElement& element) {
   return element.Parent() == nullptr ? nullptr : element.Parent()->ToElement();
@@ -47,28 +50,62 @@ const XMLElement* default_of(const MjcfDocument& document, std::string_view name
   return found;
 }
 
-/// The columns of a file's elements, in its order: the parser counts lines alone.
-class Columns {
- public:
-  explicit Columns(std::string text) : text_(std::move(text)) {}
-
-  const std::string& text() const { return text_; }
-  int of(const XMLElement& element) {
-    for (; line_ < element.GetLineNum(); ++line_) {
-      at_ = begin_ = std::min(text_.find('\n', begin_), text_.size() - 1) + 1;
+/// Where the elements of a text begin, where their start tags end and where they end, in the order
+/// of the text. The text is well-formed: the parser, which counts lines alone, has read it.
+std::vector<std::array<std::size_t, 3>> spans_of(const std::string& text) {
+  std::vector<std::array<std::size_t, 3>> spans;
+  std::vector<std::size_t> open;
+  const auto behind = [&](std::string_view end, std::size_t from) {
+    return std::min(text.find(end, from), text.size() - end.size()) + end.size();
+  };
+  for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
+    const std::string_view rest = std::string_view(text).substr(at);
+    if (rest.starts_with("<!--")) {
+      at = behind("-->", at);
+    } else if (rest.starts_with("<![CDATA[")) {
+      at = behind("]]>", at);
+    } else if (rest.starts_with("<!") || rest.starts_with("<?")) {
+      at = behind(">", at);
+    } else if (rest.starts_with("</")) {
+      at = behind(">", at);
+      if (open.empty()) continue;
+      spans[open.back()][2] = at;
+      open.pop_back();
+    } else {
+      std::size_t end = at;
+      for (char quote = 0; end + 1 < text.size() && (text[end] != '>' || quote != 0); ++end) {
+        if (quote != 0 ? text[end] == quote : text[end] == '"' || text[end] == '\'') {
+          quote = quote != 0 ? '\0' : text[end];
+        }
+      }
+      if (text[end - 1] != '/') open.push_back(spans.size());
+      spans.push_back({at, end + 1, end + 1});
+      at = end + 1;
     }
-    const std::size_t found = text_.find(std::string("<") + element.Name(), at_);
-    if (found >= std::min(text_.find('\n', at_), text_.size())) return 1;
-    at_ = found + 1;
-    return static_cast<int>(at_ - begin_);
   }
+  return spans;
+}
 
- private:
-  std::string text_;
-  int line_ = 1;
-  std::size_t begin_ = 0;  ///< of the line
-  std::size_t at_ = 0;     ///< behind the last element's
-};
+/// Line and column of a place in a text that begins at `line` and `column`.
+std::pair<int, int> place_in_text(std::string_view text, int line, int column) {
+  const auto breaks = static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+  const std::size_t last = text.rfind('\n');
+  if (last == std::string_view::npos) return {line, column + static_cast<int>(text.size())};
+  return {line + breaks, static_cast<int>(text.size() - last)};
+}
+
+/// An attribute as XML text.
+std::string assignment(std::string_view attribute, const std::string& value) {
+  tinyxml2::XMLPrinter escaped;
+  escaped.PushText(value.c_str());
+  return fmt::format("{}=\"{}\"", attribute, escaped.CStr());
+}
+
+void for_each_in(tinyxml2::XMLDocument& tree, const std::function<void(XMLElement&)>& visit) {
+  for (auto* e = tree.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+    for_each_element(*e, visit);
+  }
+}
 
 std::unique_ptr<tinyxml2::XMLDocument> parsed(const std::string& text,
                                               const std::filesystem::path& file) {
@@ -82,39 +119,6 @@ std::unique_ptr<tinyxml2::XMLDocument> parsed(const std::string& text,
         fmt::format("{}:1:1: expected a robot in <mujoco>...</mujoco>", file.string()));
   }
   return document;
-}
-
-/// An attribute's value as XML text on one line.
-std::string escaped(std::string_view value) {
-  std::string text;
-  for (const char c : value) {
-    switch (c) {
-      case '&':
-        text += "&amp;";
-        break;
-      case '<':
-        text += "&lt;";
-        break;
-      case '"':
-        text += "&quot;";
-        break;
-      case '\n':
-      case '\r':
-        text += ' ';
-        break;
-      default:
-        text += c;
-    }
-  }
-  return text;
-}
-
-std::string start_of(const XMLElement& element, const char* end) {
-  std::string text = fmt::format("<{}", element.Name());
-  for (const auto* a = element.FirstAttribute(); a != nullptr; a = a->Next()) {
-    text += fmt::format(" {}=\"{}\"", a->Name(), escaped(a->Value()));
-  }
-  return text + end + "\n";
 }
 
 }  // namespace
@@ -152,111 +156,77 @@ bool is_visual(const MjcfDocument& document, const XMLElement& geom) {
 
 MjcfDocument MjcfDocument::load(const std::filesystem::path& file) {
   MjcfDocument document;
-  document.file_ = file;
-  Columns columns(read_file(file));
-  document.document_ = parsed(columns.text(), file);
-  for_each_element(document.root(), [&](XMLElement& element) {
-    document.place_[&element] = {file, element.GetLineNum(), columns.of(element)};
-  });
-  document.files_ = {file.lexically_normal()};
-  document.expand(document.root(), file.parent_path());
+  document.add_file(file, file.parent_path());
+  document.files_.front() = file;
+  document.parse();
   return document;
 }
 
-MjcfDocument MjcfDocument::converted(const std::string& text, const MjcfDocument& urdf) {
+MjcfDocument MjcfDocument::converted(std::string text, std::shared_ptr<const MjcfDocument> urdf) {
   MjcfDocument document;
-  document.file_ = urdf.file_;
-  document.document_ = parsed(text, urdf.file_);
-  document.inherit_places(document.root(), urdf, urdf.place_.at(&urdf.root()));
+  document.files_ = {urdf->file()};
+  document.text_ = std::move(text);
+  document.urdf_ = std::move(urdf);
+  document.parse();
   return document;
 }
 
-void MjcfDocument::inherit_places(const XMLElement& element, const MjcfDocument& urdf,
-                                  Place place) {
-  const std::string_view tag = element.Name();
-  const char* const counterpart = tag == "body" ? "link" : tag == "joint" ? "joint" : nullptr;
-  if (counterpart != nullptr) {
-    const XMLElement* const origin = urdf.find(counterpart, attribute(element, "name"));
-    if (origin != nullptr) place = urdf.place_.at(origin);
-  }
-  place_[&element] = place;
-  for (auto* child : children(element)) {
-    inherit_places(*child, urdf, place);
-  }
+void MjcfDocument::parse() {
+  tree_ = parsed(text_, file());
+  const auto spans = spans_of(text_);
+  std::size_t number = 0;
+  for_each_in(*tree_, [&](XMLElement& element) {
+    const auto [begin, head, end] = spans.at(number++);
+    span_[&element] = {begin, head, end};
+  });
 }
 
-void MjcfDocument::expand(XMLElement& element, const std::filesystem::path& folder) {
-  for (XMLElement* child = element.FirstChildElement(); child != nullptr;) {
-    XMLElement* const next = child->NextSiblingElement();
-    if (std::string_view(child->Name()) != "include") {
-      expand(*child, folder);
-      child = next;
-      continue;
-    }
-    const std::filesystem::path file =
-        (folder / std::string(attribute(*child, "file"))).lexically_normal();
+void MjcfDocument::add_file(const std::filesystem::path& file,
+                            const std::filesystem::path& folder) {
+  const bool is_first = files_.empty();
+  const std::size_t number = files_.size();
+  files_.push_back(file.lexically_normal());
+  const std::string text = read_file(file);
+  const auto tree = parsed(text, file);
+  const auto spans = spans_of(text);
+  const auto add = [&](std::size_t begin, std::size_t end) {
+    const auto [line, column] = place_in_text(std::string_view(text).substr(0, begin), 1, 1);
+    pieces_[text_.size()] = {number, line, column};
+    text_.append(text, begin, end - begin);
+  };
+  std::size_t from = is_first ? 0 : spans.at(0)[1];
+  std::size_t index = 0;
+  for_each_in(*tree, [&](XMLElement& element) {
+    const auto [begin, head, end] = spans.at(index++);
+    if (std::string_view(element.Name()) != "include") return;
+    add(from, begin);
+    from = end;
+    const std::filesystem::path other =
+        (folder / std::string(attribute(element, "file"))).lexically_normal();
+    const auto fail = [&](const std::string& message) {
+      const auto [line, column] = place_in_text(std::string_view(text).substr(0, begin), 1, 1);
+      throw InputError(fmt::format("{}:{}:{}: include: {}", file.string(), line, column, message));
+    };
     std::error_code ignored;
-    if (!std::filesystem::is_regular_file(file, ignored)) {
-      fail(*child, fmt::format("include: {}: no such file", file.string()));
+    if (!std::filesystem::is_regular_file(other, ignored)) {
+      fail(fmt::format("{}: no such file", other.string()));
     }
-    if (std::find(files_.begin(), files_.end(), file) != files_.end()) {
-      fail(*child, fmt::format("include: {} is included already", file.string()));
+    if (std::ranges::count(files_, other) > 0) {
+      fail(fmt::format("{} is included already", other.string()));
     }
-    files_.push_back(file);
-    Columns columns(read_file(file));
-    const auto other = parsed(columns.text(), file);
-    // Clones have no line numbers, so those of the original are kept for them.
-    const std::function<void(const XMLElement&, const XMLElement&)> keep_places =
-        [&](const XMLElement& clone, const XMLElement& original) {
-          place_[&clone] = {file, original.GetLineNum(), columns.of(original)};
-          const XMLElement* from = original.FirstChildElement();
-          for (const auto* to = clone.FirstChildElement(); to != nullptr;
-               to = to->NextSiblingElement(), from = from->NextSiblingElement()) {
-            keep_places(*to, *from);
-          }
-        };
-    tinyxml2::XMLNode* last = child;
-    XMLElement* first = nullptr;
-    for (auto* from : children(*other->RootElement())) {
-      XMLElement* const clone = from->DeepClone(document_.get())->ToElement();
-      keep_places(*clone, *from);
-      last = element.InsertAfterChild(last, clone);
-      if (first == nullptr) first = clone;
-    }
-    remove(*child);
-    child = first != nullptr ? first : next;  // the included elements may include others
-  }
+    add_file(other, folder);
+  });
+  const std::size_t end = is_first ? text.size() : text.rfind("</", spans.at(0)[2]);
+  if (from < end) add(from, std::min(end, text.size()));
 }
 
-std::string MjcfDocument::place_of(const XMLElement& element) const {
-  const auto place = place_.find(&element);
-  if (place == place_.end()) return file_.string();
-  const auto& [file, line, column] = place->second;
-  return fmt::format("{}:{}:{}", file.string(), line, column);
-}
-
-void MjcfDocument::visit(const std::function<void(const XMLElement&)>& visit) const {
-  for_each_element(*document_->RootElement(), [&](XMLElement& element) { visit(element); });
-}
-
-std::string MjcfDocument::Text::place_of_name(const std::string& name) const {
-  std::string root;
-  const std::string quoted = fmt::format("name=\"{}\"", escaped(name));
-  std::size_t begin = 0;
-  for (const std::string& place : place_of_line) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string_view line(text.data() + begin, end - begin);
-    if (root.empty()) root = place;
-    if (!name.empty() && !place.empty() && line.find(quoted) != std::string_view::npos)
-      return place;
-    begin = std::min(end + 1, text.size());
-  }
-  return root;
+void MjcfDocument::visit(const std::function<void(XMLElement&)>& visit) const {
+  for_each_in(*tree_, visit);
 }
 
 XMLElement* MjcfDocument::find(std::string_view tag, std::string_view name) const {
   XMLElement* found = nullptr;
-  for_each_element(*document_->RootElement(), [&](XMLElement& element) {
+  visit([&](XMLElement& element) {
     if (found == nullptr && tag == element.Name() && attribute(element, "name") == name) {
       found = &element;
     }
@@ -264,67 +234,127 @@ XMLElement* MjcfDocument::find(std::string_view tag, std::string_view name) cons
   return found;
 }
 
+std::string MjcfDocument::place_of(const XMLElement& element) const {
+  if (urdf_ == nullptr) {
+    const std::size_t at = span(element).begin;
+    const auto& [begin, piece] = *std::prev(pieces_.upper_bound(at));
+    const auto [line, column] =
+        place_in_text(std::string_view(text_).substr(begin, at - begin), piece.line, piece.column);
+    return fmt::format("{}:{}:{}", files_[piece.file].string(), line, column);
+  }
+  for (const XMLElement* e = &element; e != nullptr; e = parent_of(*e)) {
+    const std::string_view tag = std::string_view(e->Name()) == "body" ? "link" : e->Name();
+    const XMLElement* const origin = urdf_->find(tag, attribute(*e, "name"));
+    if (origin != nullptr && tag != "geom") return urdf_->place_of(*origin);
+  }
+  return urdf_->place_of(urdf_->root());
+}
+
+std::string MjcfDocument::place_in(int line, std::string_view name) const {
+  const XMLElement* found = nullptr;
+  bool has_name = false;
+  visit([&](XMLElement& element) {
+    const std::string_view before = std::string_view(text_).substr(0, span(element).begin);
+    const bool is_named = name == attribute(element, "name") || name == element.Name();
+    if (has_name || (line > 0 ? 1 + std::ranges::count(before, '\n') != line : !is_named)) return;
+    if (found == nullptr || is_named) found = &element;
+    has_name = is_named;
+  });
+  return place_of(found == nullptr ? root() : *found);
+}
+
 void MjcfDocument::fail(const XMLElement& element, const std::string& message) const {
   throw InputError(place_of(element) + ": " + message);
 }
 
+std::string MjcfDocument::text_of(const XMLElement& element) const {
+  return text_.substr(span(element).begin, span(element).end - span(element).begin);
+}
+
+std::size_t MjcfDocument::end_tag(const XMLElement& element) const {
+  return span(element).end == span(element).head ? span(element).head
+                                                 : text_.rfind("</", span(element).end - 1);
+}
+
 void MjcfDocument::remove(XMLElement& element) {
+  edits_.push_back({span(element).begin, span(element).end - span(element).begin, ""});
   // Elements that are added later may have the same addresses.
-  for_each_element(element, [this](XMLElement& one) { place_.erase(&one); });
+  for_each_element(element, [this](XMLElement& one) { span_.erase(&one); });
   element.Parent()->DeleteChild(&element);
 }
 
-XMLElement& MjcfDocument::add(XMLElement& parent, const char* tag, const XMLElement& like) {
-  XMLElement* const added = parent.InsertNewChildElement(tag);
-  if (const auto place = place_.find(&like); place != place_.end()) place_[added] = place->second;
-  return *added;
+void MjcfDocument::unwrap(XMLElement& element) {
+  const auto [begin, head, end] = span(element);
+  edits_.push_back({begin, head - begin, ""});
+  edits_.push_back({end_tag(element), end - end_tag(element), ""});
+  tinyxml2::XMLNode* last = &element;
+  for (XMLElement* const child : children(element)) {
+    last = element.Parent()->InsertAfterChild(last, child);
+  }
+  span_.erase(&element);
+  element.Parent()->DeleteChild(&element);
 }
 
-XMLElement& MjcfDocument::add_to_section(const char* section, const char* tag,
-                                         const XMLElement& like) {
-  XMLElement* const found = root().FirstChildElement(section);
-  return add(found != nullptr ? *found : add(root(), section, like), tag, like);
+void MjcfDocument::set(XMLElement& element, const char* attribute, const std::string& value) {
+  edits_.push_back({span(element).begin + 1 + std::string_view(element.Name()).size(), 0,
+                    fmt::format(" {}", assignment(attribute, value))});
+  element.SetAttribute(attribute, value.c_str());
 }
 
-void MjcfDocument::insert_before(XMLElement& next, const std::string& elements) {
-  const auto added = parsed("<added>" + elements + "</added>", file_);
-  for (auto* from : children(*added->RootElement())) {
-    move_before(next, *from->DeepClone(document_.get())->ToElement());
+void MjcfDocument::replace(XMLElement& element, const char* attribute, const std::string& name,
+                           const std::string& value) {
+  std::size_t begin = text_.find_first_of(spaces, span(element).begin);
+  while (begin < span(element).head) {
+    begin = text_.find_first_not_of(spaces, begin);
+    const std::size_t quote = text_.find_first_of("\"'", begin);
+    const std::size_t end = text_.find(text_[quote], quote + 1) + 1;
+    const std::string_view own(text_.data() + begin, quote - begin);
+    if (own.substr(0, own.find_first_of(" \t\r\n=")) == attribute) {
+      edits_.push_back({begin, end - begin, name.empty() ? "" : assignment(name, value)});
+      break;
+    }
+    begin = end;
+  }
+  element.DeleteAttribute(attribute);
+  if (!name.empty()) element.SetAttribute(name.c_str(), value.c_str());
+}
+
+void MjcfDocument::insert_before(const XMLElement& element, const std::string& text) {
+  edits_.push_back({span(element).begin, 0, text});
+}
+
+void MjcfDocument::insert_first(const XMLElement& element, const std::string& text) {
+  edits_.push_back({span(element).head, 0, text});
+}
+
+void MjcfDocument::insert_last(const XMLElement& element, const std::string& text) {
+  const auto [begin, head, end] = span(element);
+  if (head < end) {
+    edits_.push_back({end_tag(element), 0, text});
+  } else {
+    edits_.push_back({head - 2, 2, fmt::format(">{}</{}>", text, element.Name())});
   }
 }
 
-void MjcfDocument::move_before(XMLElement& next, XMLElement& element) {
-  tinyxml2::XMLNode* const parent = next.Parent();
-  tinyxml2::XMLNode* const before = next.PreviousSibling();
-  before == nullptr ? parent->InsertFirstChild(&element)
-                    : parent->InsertAfterChild(before, &element);
-}
-
-MjcfDocument::Text MjcfDocument::text(const std::string& more) const {
-  Text written;
-  const std::function<void(const XMLElement&)> write = [&](const XMLElement& element) {
-    const auto add = [&](const std::string& line) {
-      written.text += line;
-      written.place_of_line.push_back(place_.contains(&element) ? place_of(element) : "");
-    };
-    const bool is_root = &element == &root();
-    const XMLElement* child = element.FirstChildElement();
-    if (child == nullptr && !is_root) {
-      add(start_of(element, "/>"));
-      return;
-    }
-    add(start_of(element, ">"));
-    for (; child != nullptr; child = child->NextSiblingElement()) write(*child);
-    if (is_root) {
-      written.text += more;
-      written.place_of_line.resize(
-          written.place_of_line.size() +
-          static_cast<std::size_t>(std::count(more.begin(), more.end(), '\n')));
-    }
-    add(fmt::format("</{}>\n", element.Name()));
-  };
-  write(root());
-  return written;
+std::string MjcfDocument::edited(const std::string& more) const {
+  std::vector<Edit> edits = edits_;
+  edits.push_back({end_tag(root()), 0, more});
+  std::ranges::stable_sort(edits, {}, [](const Edit& edit) {
+    return std::pair(edit.at, edit.length > 0);  // what is inserted before a removed element stays
+  });
+  std::string text;
+  std::size_t from = 0;
+  for (const Edit& edit : edits) {
+    if (edit.at < from) continue;  // in text that is gone
+    text.append(text_, from, edit.at - from);
+    from = edit.at + edit.length;
+    text += edit.text;
+    text.append(static_cast<std::size_t>(
+                    std::count(text_.begin() + static_cast<std::ptrdiff_t>(edit.at),
+                               text_.begin() + static_cast<std::ptrdiff_t>(from), '\n')),
+                '\n');
+  }
+  return text.append(text_, from);
 }
 
 void for_each_element(XMLElement& element, const std::function<void(XMLElement&)>& visit) {

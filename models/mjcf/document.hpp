@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -11,75 +12,84 @@
 
 namespace touchdown::models {
 
-/// A robot's XML file as a tree of elements, included files spliced in. Every element knows the
-/// file and the line that it comes from.
+/// A robot's XML file as its author wrote it, with the files that it includes in their places. Its
+/// elements are read from a tree; edits change the text, and keep its lines.
 class MjcfDocument {
  public:
   /// Reads a file and the files that it includes. As in MuJoCo, these are relative to the folder of
   /// the first one. Errors: `InputError` with file:line:column for anything that is not XML, a
   /// missing file or one that is included twice.
   static MjcfDocument load(const std::filesystem::path& file);
-  /// Reads the MJCF that a URDF was converted to. Bodies, joints and geoms have the places of the
-  /// links and joints of their names.
-  static MjcfDocument converted(const std::string& text, const MjcfDocument& urdf);
+  /// The MJCF that a URDF was converted to. Bodies and joints have the places of the links and
+  /// joints of their names.
+  static MjcfDocument converted(std::string text, std::shared_ptr<const MjcfDocument> urdf);
 
-  tinyxml2::XMLElement& root() { return *document_->RootElement(); }
-  const tinyxml2::XMLElement& root() const { return *document_->RootElement(); }
-  const std::filesystem::path& file() const { return file_; }
+  tinyxml2::XMLElement& root() const { return *tree_->RootElement(); }
+  const std::filesystem::path& file() const { return files_.front(); }
   /// This file, then those that it includes, in the order of reading.
   const std::vector<std::filesystem::path>& files() const { return files_; }
 
-  /// "file:line:column" of an element.
-  std::string place_of(const tinyxml2::XMLElement& element) const;
-
   /// Calls `visit` for every element, in the order of the file.
-  void visit(const std::function<void(const tinyxml2::XMLElement&)>& visit) const;
-
+  void visit(const std::function<void(tinyxml2::XMLElement&)>& visit) const;
   /// The first element with this tag and name, in the order of the file; null if there is none.
   tinyxml2::XMLElement* find(std::string_view tag, std::string_view name) const;
 
+  /// "file:line:column" of an element.
+  std::string place_of(const tinyxml2::XMLElement& element) const;
+  /// The place of an element that begins in a line of `edited`, the one with a name if there are
+  /// several; 0 stands for any line. That of the root if there is none.
+  std::string place_in(int line, std::string_view name) const;
   /// Throws an `InputError` about an element.
   [[noreturn]] void fail(const tinyxml2::XMLElement& element, const std::string& message) const;
 
+  /// The text of an element.
+  std::string text_of(const tinyxml2::XMLElement& element) const;
   /// Removes an element with all below it.
   void remove(tinyxml2::XMLElement& element);
+  /// Removes an element, whose children take its place.
+  void unwrap(tinyxml2::XMLElement& element);
+  /// Adds an attribute that an element does not have.
+  void set(tinyxml2::XMLElement& element, const char* attribute, const std::string& value);
+  /// Gives an attribute another name and value; without a name it is removed.
+  void replace(tinyxml2::XMLElement& element, const char* attribute, const std::string& name = {},
+               const std::string& value = {});
+  /// Inserts text, on its line, before an element, behind its start tag, or before its end tag. The
+  /// tree does not have it.
+  void insert_before(const tinyxml2::XMLElement& element, const std::string& text);
+  void insert_first(const tinyxml2::XMLElement& element, const std::string& text);
+  void insert_last(const tinyxml2::XMLElement& element, const std::string& text);
 
-  /// Adds an empty element to the end of another one. It has the place of `like`.
-  tinyxml2::XMLElement& add(tinyxml2::XMLElement& parent, const char* tag,
-                            const tinyxml2::XMLElement& like);
-  /// The same to a section of the root, which is added if there is none.
-  tinyxml2::XMLElement& add_to_section(const char* section, const char* tag,
-                                       const tinyxml2::XMLElement& like);
-
-  /// Parses elements and inserts them before `next`.
-  void insert_before(tinyxml2::XMLElement& next, const std::string& elements);
-
-  /// Moves an element, with all below it, before `next`.
-  void move_before(tinyxml2::XMLElement& next, tinyxml2::XMLElement& element);
-
-  /// The tree as text, one element per line. `more` is inserted before the end of the root.
-  struct Text {
-    std::string text;
-    std::vector<std::string> place_of_line;  ///< file:line:column by line; empty where unknown
-    /// The place of the line with a name in quotes, else of the robot's root.
-    std::string place_of_name(const std::string& name) const;
-  };
-  Text text(const std::string& more) const;
+  /// The text with all edits, and `more` before the end of the root.
+  std::string edited(const std::string& more = {}) const;
 
  private:
-  struct Place {
-    std::filesystem::path file;
-    int line = 0;
-    int column = 0;
+  /// Where an element's start tag begins, and where it and the element end.
+  struct Span {
+    std::size_t begin = 0, head = 0, end = 0;
+  };
+  /// Text of one file, from a place in it.
+  struct Piece {
+    std::size_t file = 0;  ///< of `files_`
+    int line = 1, column = 1;
+  };
+  /// Text in place of other text, whose line breaks stay.
+  struct Edit {
+    std::size_t at = 0, length = 0;
+    std::string text;
   };
 
-  void inherit_places(const tinyxml2::XMLElement& element, const MjcfDocument& urdf, Place place);
-  void expand(tinyxml2::XMLElement& element, const std::filesystem::path& folder);
+  void add_file(const std::filesystem::path& file, const std::filesystem::path& folder);
+  void parse();
+  const Span& span(const tinyxml2::XMLElement& element) const { return span_.at(&element); }
+  std::size_t end_tag(const tinyxml2::XMLElement& element) const;
 
-  std::filesystem::path file_;
   std::vector<std::filesystem::path> files_;
-  std::unique_ptr<tinyxml2::XMLDocument> document_;
-  std::unordered_map<const tinyxml2::XMLElement*, Place> place_;
+  std::string text_;
+  std::map<std::size_t, Piece> pieces_;  ///< by where they begin in `text_`
+  std::unique_ptr<tinyxml2::XMLDocument> tree_;
+  std::unordered_map<const tinyxml2::XMLElement*, Span> span_;
+  std::shared_ptr<const MjcfDocument> urdf_;
+  std::vector<Edit> edits_;
 };
 
 /// Calls `visit` for an element and all elements below it, in the order of the file.

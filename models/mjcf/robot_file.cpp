@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "models/mjcf/document.hpp"
+#include "core/error.hpp"
 
 namespace touchdown::models {
 
@@ -16,86 +16,77 @@ using tinyxml2::XMLElement;
 
 constexpr int most_geoms = 5000;  // compiled in about a second
 
+/// A top-level section that is not simulated: ignored, or refused with "expected none: …".
+struct Section {
+  std::string_view tag;
+  std::string_view reason;  ///< empty: without a word
+  bool is_refused = false;
+};
+constexpr std::array sections = {
+    Section{"option",
+            "time step, solver, flags and gravity are the scenario's; air is not simulated"},
+    Section{"contact", "parts of the robot do not collide with each other"},
+    Section{"keyframe", "the start is the scenario's"},
+    Section{"sensor", "joints and the IMU are measured, nothing else"},
+    Section{"visual", "ignored"},
+    Section{"statistic", "ignored"},
+    Section{"custom", "ignored"},
+    Section{"size", ""},
+    Section{"tendon", "tendons are not supported", true},
+    Section{"extension", "plugins are not run", true}};
+
 bool is_any_of(std::string_view word, std::initializer_list<std::string_view> words) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// Writes a sentence about an element, with its place.
-void note(std::vector<std::string>& notes, const MjcfDocument& document, const XMLElement& element,
-          const std::string& text) {
-  notes.push_back(document.place_of(element) + ": " + text);
+/// Removes a section that is not simulated.
+void reduce(RobotFile& robot, XMLElement& section) {
+  const auto found = std::ranges::find(sections, std::string_view(section.Name()), &Section::tag);
+  if (found == sections.end()) return;
+  if (found->is_refused) {
+    const XMLElement* const first = section.FirstChildElement();
+    robot.document.fail(first != nullptr ? *first : section,
+                        fmt::format("{}{}: expected none: {}", found->tag,
+                                    first != nullptr ? " " + title_of(*first) : "", found->reason));
+  }
+  if (!found->reason.empty()) {
+    robot.ignore(section, fmt::format("{}: {}", found->tag, found->reason));
+  }
+  robot.document.remove(section);
 }
 
-/// Keeps the connections that close legs. Returns whether there are none.
-bool has_no_loops(MjcfDocument& document, XMLElement& section, FileFindings& findings) {
-  for (XMLElement* const e : children(section)) {
-    const std::string_view tag = e->Name();
-    if (attribute(*e, "active") == "false") {
-      note(findings.ignored, document, *e, fmt::format("equality {}: inactive", title_of(*e)));
-    } else if (tag != "connect") {
-      note(findings.complaints, document, *e,
-           fmt::format(
-               "equality {}: expected none: {}", title_of(*e),
-               tag == "weld" ? "a <connect> closes a leg" : "coupled joints are not supported"));
-    } else {
-      continue;
-    }
-    document.remove(*e);
+/// Keeps the connections that close legs.
+void reduce_equality(RobotFile& robot, XMLElement& equality) {
+  const std::string title = fmt::format("equality {}", title_of(equality));
+  const std::string_view tag = equality.Name();
+  if (attribute(equality, "active") == "false") {
+    robot.ignore(equality, title + ": inactive");
+    robot.document.remove(equality);
+  } else if (tag != "connect") {
+    robot.document.fail(equality, fmt::format("{}: expected none: {}", title,
+                                              tag == "weld" ? "a <connect> closes a leg"
+                                                            : "coupled joints are not supported"));
   }
-  return section.FirstChildElement() == nullptr;
-}
-
-/// Complains of a top-level section that not every engine simulates. Returns whether it is one.
-bool is_refused(const MjcfDocument& document, const XMLElement& section,
-                std::vector<std::string>& complaints) {
-  const std::string_view tag = section.Name();
-  const XMLElement* const first = section.FirstChildElement();
-  if (tag == "tendon") {
-    note(complaints, document, first != nullptr ? *first : section,
-         fmt::format("tendon{}: expected none: tendons are not supported",
-                     first != nullptr ? " " + title_of(*first) : ""));
-  } else if (tag == "extension") {
-    note(complaints, document, section, "extension: expected none: plugins are not run");
-  } else {
-    return false;
-  }
-  return true;
-}
-
-/// Why a top-level section does not count; empty if it does.
-std::string_view reason_to_ignore(std::string_view tag) {
-  if (tag == "option") {
-    return "time step, solver, flags and gravity are the scenario's; air is not simulated";
-  }
-  if (tag == "contact") return "parts of the robot do not collide with each other";
-  if (tag == "keyframe") return "the start is the scenario's";
-  if (tag == "sensor") return "joints and the IMU are measured, nothing else";
-  return is_any_of(tag, {"visual", "statistic", "custom"}) ? "ignored" : "";
 }
 
 /// Refuses actuators with a state of their own. (MuJoCo's complaint would be about their order.)
-void check_actuators(const MjcfDocument& document, const XMLElement& section,
-                     std::vector<std::string>& complaints) {
-  for (auto* e : children(section)) {
-    const std::string_view dynamics = attribute(*e, "dyntype");
-    if (!dynamics.empty() && dynamics != "none") {
-      note(complaints, document, *e,
-           fmt::format("{}: expected a motor, found an activation (dyntype; a lag of the torque is "
-                       "'actuators: {{hip: {{torque_lag: …}}}}' in the YAML file)",
-                       title_of(*e)));
-    }
-    if (is_any_of(e->Name(), {"intvelocity", "damper", "cylinder", "muscle", "adhesion"})) {
-      note(complaints, document, *e, fmt::format("{}: expected a motor", title_of(*e)));
-    }
+void check_actuator(const MjcfDocument& document, const XMLElement& actuator) {
+  const std::string_view dynamics = attribute(actuator, "dyntype");
+  if (is_any_of(actuator.Name(), {"intvelocity", "damper", "cylinder", "muscle", "adhesion"})) {
+    document.fail(actuator, fmt::format("{}: expected a motor", title_of(actuator)));
   }
+  if (dynamics.empty() || dynamics == "none") return;
+  document.fail(
+      actuator,
+      fmt::format("{}: expected a motor, found an activation (dyntype; a lag of the torque is "
+                  "'actuators: {{hip: {{torque_lag: …}}}}' in the YAML file)",
+                  title_of(actuator)));
 }
 
 bool has_free_joint(const XMLElement& body) {
-  for (auto* e : children(body)) {
-    if (std::string_view(e->Name()) == "freejoint") return true;
-    if (std::string_view(e->Name()) == "joint" && attribute(*e, "type") == "free") return true;
-  }
-  return false;
+  return std::ranges::any_of(children(body), [](const XMLElement* e) {
+    return std::string_view(e->Name()) == "freejoint" || attribute(*e, "type") == "free";
+  });
 }
 
 /// Whether a body has a joint, or one below it has.
@@ -107,103 +98,142 @@ bool moves(XMLElement& body) {
   return found;
 }
 
-/// Checks an element of the world. Returns the note on it if it is removed.
-std::string removed_from_world(const MjcfDocument& document, XMLElement& element, bool has_robot,
-                               std::vector<std::string>& complaints) {
+/// Removes an element of the world unless it is the robot.
+void reduce_world(RobotFile& robot, XMLElement& element, bool has_robot) {
   const std::string_view tag = element.Name();
   if (is_any_of(tag, {"light", "camera", "site"})) {
-    return fmt::format("{} of the world: ignored", tag);
+    robot.ignore(element, fmt::format("{} of the world: ignored", tag));
+  } else if (tag == "geom" || (tag == "body" && !moves(element))) {
+    robot.ignore(element,
+                 title_of(element) + " of the world: the ground is the scenario's terrain");
+  } else {
+    if (tag != "body" || !has_robot || has_free_joint(element)) return;
+    robot.document.fail(element,
+                        fmt::format("{}: expected the robot alone, the body with the <freejoint/>",
+                                    title_of(element)));
   }
-  if (tag == "geom" || (tag == "body" && !moves(element))) {
-    return title_of(element) + " of the world: the ground is the scenario's terrain";
-  }
-  if (tag == "body" && has_robot && !has_free_joint(element)) {
-    note(complaints, document, element,
-         fmt::format("{}: expected the robot alone, the body with the <freejoint/>",
-                     title_of(element)));
-  }
-  return {};
+  robot.document.remove(element);
 }
 
 /// Lets a robot float that is fixed to the world in its file.
-void let_float(MjcfDocument& document, FileFindings& findings) {
-  const std::vector<XMLElement*> bodies = in_sections(document.root(), "worldbody", "body");
+void let_float(RobotFile& robot) {
+  const std::vector<XMLElement*> bodies = in_sections(robot.document.root(), "worldbody", "body");
+  if (bodies.empty()) return;
+  if (bodies.size() == 1) {
+    robot.document.insert_last(*bodies[0], "<freejoint/>");
+    robot.ignore(*bodies[0], title_of(*bodies[0]) + ": fixed to the world: it floats here");
+    return;
+  }
   std::vector<std::string> titles;
   for (const XMLElement* const body : bodies) titles.push_back(title_of(*body));
-  if (bodies.size() == 1) {
-    document.add(*bodies[0], "freejoint", *bodies[0]);
-    note(findings.ignored, document, *bodies[0],
-         titles[0] + ": fixed to the world: it floats here");
-  } else if (!bodies.empty()) {
-    note(findings.complaints, document, *bodies[0],
-         fmt::format("{}: expected one body with a <freejoint/>: the world is their base; put what "
-                     "moves into <body name=\"base\"><freejoint/><inertial …/> … </body>",
-                     fmt::join(titles, ", ")));
-  }
+  robot.document.fail(
+      *bodies[0],
+      fmt::format("{}: expected one body with a <freejoint/>: the world is their base; put what "
+                  "moves into <body name=\"base\"><freejoint/><inertial …/> … </body>",
+                  fmt::join(titles, ", ")));
 }
 
-void reduce_world(MjcfDocument& document, XMLElement& world, bool has_robot,
-                  FileFindings& findings) {
-  for (XMLElement* const e : children(world)) {
-    const std::string removed = removed_from_world(document, *e, has_robot, findings.complaints);
-    if (removed.empty()) continue;
-    note(findings.ignored, document, *e, removed);
-    document.remove(*e);
-  }
+/// Refuses what takes too long to compile, and bodies that make joints.
+void check_elements(const MjcfDocument& document) {
   int geoms = 0;
-  for_each_element(world, [&](XMLElement& e) {
-    const std::string_view tag = e.Name();
+  document.visit([&](const XMLElement& element) {
+    const std::string_view tag = element.Name();
     if (tag == "geom" && ++geoms > most_geoms) {
-      document.fail(e, fmt::format("geom: expected at most {} geoms", most_geoms));
-    }
-    if (tag == "geom" && attribute(e, "type") == "hfield") {
-      note(findings.complaints, document, e,
-           fmt::format("{}: expected no height field: Bullet has no counterpart", title_of(e)));
+      document.fail(element, fmt::format("geom: expected at most {} geoms", most_geoms));
     }
     if (tag == "composite") {
-      note(findings.complaints, document, e,
-           "composite: expected none: its joints would be no servos");
+      document.fail(element, "composite: expected none: its joints would be no servos");
     }
   });
 }
 
-/// Of the sizes, those of user data belong to the robot's elements.
-void reduce_sizes(XMLElement& size) {
-  for (const auto* a = size.FirstAttribute(); a != nullptr;) {
-    const auto* const next = a->Next();
-    if (!std::string_view(a->Name()).starts_with("nuser")) size.DeleteAttribute(a->Name());
-    a = next;
+void require_mjcf(const MjcfDocument& document) {
+  const XMLElement& root = document.root();
+  const std::string_view tag = root.Name();
+  if (tag == "mujoco" && root.FirstChildElement() != nullptr) return;
+  document.fail(root, fmt::format("{}: expected a robot in <mujoco>...</mujoco>, or the <robot> of "
+                                  "a URDF{}",
+                                  tag, tag == "sdf" ? ": SDF is not read, convert it first" : ""));
+}
+
+/// "expected a body named 'x' in robot.xml (did you mean 'y'?)", or with the names that there are.
+std::string missing(const MjcfDocument& document, const char* tag, const std::string& name) {
+  std::vector<std::string> names;
+  document.visit([&](const XMLElement& element) {
+    if (std::string_view(element.Name()) == tag) names.emplace_back(attribute(element, "name"));
+  });
+  return fmt::format("expected a {} named '{}' in {}{}", tag, name,
+                     document.file().filename().string(), found_text(name, names));
+}
+
+/// Checks that the bodies of a loop of the YAML file are there.
+void check_bodies(const MjcfDocument& document, const LoopKeys& loop, const std::string& key,
+                  const RobotKeys& keys) {
+  for (const std::string& body : loop.bodies) {
+    if (document.find("body", body) != nullptr) continue;
+    keys.fail(key, missing(document, "body", body));
   }
 }
 
-/// Ranges count as limits without `limited`, as in MuJoCo from version 2.3 on.
-void limit_by_ranges(MjcfDocument& document) {
-  XMLElement* compiler = nullptr;
-  for (auto* e : children(document.root(), "compiler")) {
-    if (e->Attribute("autolimits") != nullptr) return;
-    if (compiler == nullptr) compiler = e;
+/// Lets a connection of sites be one of their bodies. The anchors follow after compiling.
+LoopEnds connect_bodies(MjcfDocument& document, XMLElement& connect) {
+  LoopEnds ends;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string key = fmt::format("site{}", i + 1);
+    const std::string name = ends.sites[i] = attribute(connect, key.c_str());
+    if (name.empty()) continue;
+    XMLElement* const site = document.find("site", name);
+    if (site == nullptr) {
+      document.fail(connect, fmt::format("{}: {}: {}", title_of(connect), key,
+                                         missing(document, "site", name)));
+    }
+    XMLElement& body = *site->Parent()->ToElement();
+    if (body.Attribute("name") == nullptr) {
+      document.set(body, "name", fmt::format("{}body_of_{}", own_prefix, name));
+    }
+    document.replace(connect, key.c_str(), fmt::format("body{}", i + 1),
+                     std::string(attribute(body, "name")));
+    if (i == 0) document.set(connect, "anchor", "0 0 0");
   }
-  if (compiler != nullptr) {
-    compiler->SetAttribute("autolimits", "true");
-  } else if (XMLElement* const first = document.root().FirstChildElement()) {
-    document.insert_before(*first, "<compiler autolimits=\"true\"/>");
-  }
+  return ends;
 }
 
 }  // namespace
 
-RobotRefusal::RobotRefusal(const std::vector<std::string>& all)
-    : InputError(all.size() == 1 ? all[0]
-                                 : fmt::format("{} (the first of {} reasons; `touchdown check` of "
-                                               "this robot prints all)",
-                                               all[0], all.size())),
-      complaints(all) {}
-
-void require_none(const std::vector<std::string>& complaints) {
-  if (!complaints.empty()) throw RobotRefusal(complaints);
+void keep_robot_only(RobotFile& robot) {
+  MjcfDocument& document = robot.document;
+  XMLElement& root = document.root();
+  const bool has_robot =
+      std::ranges::any_of(in_sections(root, "worldbody", "body"),
+                          [](const XMLElement* body) { return has_free_joint(*body); });
+  for (XMLElement* const section : children(root)) reduce(robot, *section);
+  for (XMLElement* const e : in_sections(root, "equality")) reduce_equality(robot, *e);
+  for (XMLElement* const e : in_sections(root, "worldbody")) reduce_world(robot, *e, has_robot);
+  for (XMLElement* const e : in_sections(root, "actuator")) check_actuator(document, *e);
+  check_elements(document);
+  if (!has_robot) let_float(robot);
+  // Ranges count as limits without `limited`, as in MuJoCo from version 2.3 on. The file's own
+  // <compiler> comes later and counts more.
+  document.insert_first(root, "<compiler autolimits=\"true\"/>");
 }
 
-void note_computed_masses(const MjcfDocument& document, FileFindings& findings) {
+void complete_loops(RobotFile& robot, const PartNames& parts, const RobotKeys& keys) {
+  for (XMLElement* const connect : in_sections(robot.document.root(), "equality")) {
+    robot.ends.push_back(connect_bodies(robot.document, *connect));
+  }
+  for (std::size_t i = 0; i < parts.loops.size(); ++i) {
+    const LoopKeys& loop = parts.loops[i];
+    const std::string key = fmt::format("loops.{}", i);
+    check_bodies(robot.document, loop, key, keys);
+    robot.loops += fmt::format(
+        "<equality><connect name=\"{}\" body1=\"{}\" body2=\"{}\" anchor=\"{}\"/></equality>", key,
+        loop.bodies[0], loop.bodies[1], fmt::join(loop.anchor, " "));
+    robot.ends.push_back({{}, loop.second_anchor});
+  }
+}
+
+void note_computed_masses(RobotFile& robot) {
+  const MjcfDocument& document = robot.document;
   std::vector<std::string> names;
   const XMLElement* first = nullptr;
   document.visit([&](const XMLElement& body) {
@@ -219,36 +249,25 @@ void note_computed_masses(const MjcfDocument& document, FileFindings& findings) 
     names.push_back(fmt::format("'{}'", attribute(body, "name")));
   });
   if (names.empty()) return;
-  note(findings.warnings, document, *first,
-       fmt::format("mass of {} link{} computed from colliders, as if of water: {} (expected "
-                   "<inertial>, or a mass or density of the shapes)",
-                   names.size(), names.size() == 1 ? "" : "s", fmt::join(names, ", ")));
+  robot.warnings.push_back(
+      fmt::format("{}: mass of {} link{} computed from colliders, as if of water: {} (expected "
+                  "<inertial>, or a mass or density of the shapes)",
+                  document.place_of(*first), names.size(), names.size() == 1 ? "" : "s",
+                  fmt::join(names, ", ")));
 }
 
-void keep_robot_only(MjcfDocument& document, FileFindings& findings) {
-  limit_by_ranges(document);
-  XMLElement& root = document.root();
-  const bool has_robot =
-      std::ranges::any_of(in_sections(root, "worldbody", "body"),
-                          [](const XMLElement* body) { return has_free_joint(*body); });
-  for (XMLElement* const section : children(root)) {
-    const std::string_view tag = section->Name();
-    const std::string_view reason = reason_to_ignore(tag);
-    if (is_refused(document, *section, findings.complaints) ||
-        (tag == "equality" && has_no_loops(document, *section, findings))) {
-      document.remove(*section);
-    } else if (!reason.empty()) {
-      note(findings.ignored, document, *section, fmt::format("{}: {}", tag, reason));
-      document.remove(*section);
-    } else if (tag == "worldbody") {
-      reduce_world(document, *section, has_robot, findings);
-    } else if (tag == "actuator") {
-      check_actuators(document, *section, findings.complaints);
-    } else if (tag == "size") {
-      reduce_sizes(*section);
-    }
-  }
-  if (!has_robot) let_float(document, findings);
+RobotFile robot_file(const RobotDescription& description, const RobotKeys& keys) {
+  MjcfDocument document = MjcfDocument::load(description.mjcf);
+  const bool is_urdf = std::string_view(document.root().Name()) == "robot";
+  RobotFile robot = is_urdf ? converted_urdf(std::move(document), description.parts.base)
+                            : RobotFile{std::move(document)};
+  require_mjcf(robot.document);
+  keep_robot_only(robot);
+  complete_loops(robot, description.parts, keys);
+  translate_later_versions(robot);
+  note_computed_masses(robot);
+  drop_missing_assets(robot);
+  return robot;
 }
 
 }  // namespace touchdown::models

@@ -7,63 +7,62 @@
 #include <string_view>
 #include <vector>
 
-#include "core/error.hpp"
 #include "models/mjcf/document.hpp"
+#include "models/robot_description.hpp"
 
 namespace touchdown::models {
 
-/// Runs a step and keeps its complaint, so that those of other steps come with it.
-template <typename Step>
-void collect(std::vector<std::string>& complaints, const Step& step) {
-  try {
-    step();
-  } catch (const InputError& error) {
-    complaints.emplace_back(error.what());
+/// The ends of a loop as far as MuJoCo 2 does not compile them: sites, or the second anchor.
+struct LoopEnds {
+  std::array<std::string, 2> sites;
+  std::vector<double> second_anchor;
+};
+
+/// A robot's file with nothing but the robot in it, and what is found in it.
+struct RobotFile {
+  MjcfDocument document;
+  std::vector<std::string> ignored = {};   ///< what is not simulated, one sentence each, with place
+  std::vector<std::string> warnings = {};  ///< what may be a mistake, likewise
+  std::vector<std::string> fixed = {};     ///< fixed joints of a URDF, which are none here
+  std::map<std::string, double> effort = {};  ///< torque limits of a URDF by joint (N·m)
+  std::string loops = {};                     ///< <connect>s of the YAML file, as MJCF
+  std::vector<LoopEnds> ends = {};            ///< of all loops, in the order of the compiled model
+
+  /// Writes a sentence about an element, with its place.
+  void ignore(const tinyxml2::XMLElement& element, const std::string& text) {
+    ignored.push_back(document.place_of(element) + ": " + text);
   }
-}
-
-/// A robot that cannot be simulated, with all reasons. The message is the first one, and how many
-/// there are.
-class RobotRefusal : public InputError {
- public:
-  explicit RobotRefusal(const std::vector<std::string>& complaints);
-  std::vector<std::string> complaints;
 };
 
-/// Throws a `RobotRefusal` if there are complaints.
-void require_none(const std::vector<std::string>& complaints);
-
-/// What is found in a robot's file.
-struct FileFindings {
-  std::vector<std::string> ignored;   ///< what is not simulated, one sentence each, with its place
-  std::vector<std::string> warnings;  ///< what may be a mistake, likewise
-  std::vector<std::string> complaints;   ///< what cannot be simulated, likewise
-  std::vector<std::string> fixed;        ///< fixed joints of a URDF, which are none here
-  std::map<std::string, double> effort;  ///< torque limits by joint (N·m), beside those of motors
-};
+/// Reads the file of a description. Errors: `InputError` for what is no robot, or cannot be
+/// simulated.
+RobotFile robot_file(const RobotDescription& description, const RobotKeys& keys);
 
 /// Reduces an MJCF to its robot. Solver options, flags, gravity, sizes, sensors, keyframes, contact
 /// pairs and what stands still beside the robot are removed: the scene has its own, or does
-/// without. A robot that is fixed to the world gets a free joint. Complaints are about
+/// without. A robot that is fixed to the world gets a free joint. Errors: `InputError` for
 /// everything that changes the physics and that not every engine is given: tendons, welds, coupled
-/// joints, moving bodies beside the robot, composite bodies, height fields, or more than 5,000
-/// geoms.
-void keep_robot_only(MjcfDocument& document, FileFindings& findings);
+/// joints, moving bodies beside the robot, or more than 5,000 geoms.
+void keep_robot_only(RobotFile& robot);
+
+/// Completes the loops of closed legs: those of the YAML file become <connect>s. Connections of
+/// sites, as MuJoCo 3 has them, become ones of their bodies. Errors: `InputError` for names that
+/// the MJCF does not have.
+void complete_loops(RobotFile& robot, const PartNames& parts, const RobotKeys& keys);
 
 /// Warns of bodies with masses that MuJoCo computes from their shapes at its own density.
-void note_computed_masses(const MjcfDocument& document, FileFindings& findings);
+void note_computed_masses(RobotFile& robot);
 
-/// Writes what later versions of MuJoCo added in the words of this one: the torque limits of
-/// joints (in the findings), the damping of position servos, frames without a pose. What touchdown
-/// overrides or only draws is removed. There is a complaint for each other element and attribute
-/// that this version lacks.
-void translate_later_versions(MjcfDocument& document, FileFindings& findings);
+/// Drops what later versions of MuJoCo added where touchdown overrides or only draws it. Limits of
+/// joints' torques and the damping of position servos become `user` data, with their default
+/// classes. Errors: `InputError` for each other element and attribute that this version lacks.
+void translate_later_versions(RobotFile& robot);
 
 /// Removes meshes and textures without their files, and the geoms that need them. Files are
-/// searched as MuJoCo does: in `meshdir` or `texturedir`, beside the robot's file. There is a
-/// complaint for a missing mesh that a body has its mass from, and for a faulty one. Bodies that
-/// have no shape are drawn as rods.
-void drop_missing_assets(MjcfDocument& document, FileFindings& findings);
+/// searched as MuJoCo does: in `meshdir` or `texturedir`, beside the robot's file. Bodies that have
+/// no shape are drawn as rods. Errors: `InputError` for a missing mesh that a body has its mass
+/// from, and for a faulty one.
+void drop_missing_assets(RobotFile& robot);
 
 /// What is wrong with a mesh that MuJoCo would read beyond its end: a face of an OBJ that counts
 /// more vertices, normals or texture points than there are. With the file's line; empty if all is
@@ -72,6 +71,9 @@ std::string fault_of_mesh(const std::filesystem::path& file);
 
 /// What the address of a file in a package begins with.
 inline constexpr std::string_view package_address = "package://";
+
+/// What the names of touchdown's own elements begin with.
+inline constexpr std::string_view own_prefix = "touchdown_";
 
 /// `meshdir` of an MJCF's compiler, or of MuJoCo's section of a URDF.
 std::string mesh_folder(const MjcfDocument& document);
@@ -92,7 +94,6 @@ std::vector<std::filesystem::path> opened_files(const std::filesystem::path& fil
 /// <mujoco>, the compiler's masses count. `package://` is searched in the folders above the URDF. A
 /// missing mesh leaves its link without this collider. Errors: `InputError` for an unknown base,
 /// mimic joints, a missing mesh of a link without <inertial>, and xacro; and those of MuJoCo.
-MjcfDocument converted_urdf(const std::filesystem::path& file, const std::string& base,
-                            FileFindings& findings);
+RobotFile converted_urdf(MjcfDocument urdf, const std::string& base);
 
 }  // namespace touchdown::models

@@ -1,3 +1,4 @@
+#include <memory>
 #include <set>
 #include <system_error>
 
@@ -55,20 +56,22 @@ std::string remedy_for(std::string_view address) {
 
 /// Removes a collider without its file. Errors: `InputError` if its link has its mass from it.
 void drop_collider(MjcfDocument& urdf, XMLElement& collider, std::string_view address,
-                   FileFindings& findings) {
+                   std::vector<std::string>& ignored) {
   const XMLElement& link = *collider.Parent()->ToElement();
   const std::string missing =
       fmt::format("mesh '{}': no such file{}", address, remedy_for(address));
   if (link.FirstChildElement("inertial") == nullptr) {
     urdf.fail(collider, missing + ", and its link has no <inertial>");
   }
-  findings.ignored.push_back(fmt::format("{}: {}: {} does not touch with it",
-                                         urdf.place_of(collider), missing, title_of(link)));
+  ignored.push_back(fmt::format("{}: {}: {} does not touch with it", urdf.place_of(collider),
+                                missing, title_of(link)));
   urdf.remove(collider);
 }
 
-/// Removes what is only drawn, and writes the addresses of meshes as files.
-void prepare(MjcfDocument& urdf, FileFindings& findings) {
+/// Removes what is only drawn, and writes the addresses of meshes as files. Returns what is
+/// ignored.
+std::vector<std::string> prepare(MjcfDocument& urdf) {
+  std::vector<std::string> ignored;
   urdf.visit([&](const XMLElement& element) {
     if (!std::string_view(element.Name()).starts_with("xacro:")) return;
     const std::string file = urdf.file().filename().string();
@@ -88,18 +91,19 @@ void prepare(MjcfDocument& urdf, FileFindings& findings) {
       if (!file.empty()) {
         const std::string fault = fault_of_mesh(file);
         if (!fault.empty()) urdf.fail(*mesh, fmt::format("mesh '{}': {}", address, fault));
-        mesh->SetAttribute("filename", file.c_str());
+        urdf.replace(*mesh, "filename", "filename", file.string());
       } else if (geometry->FirstChildElement() != geometry->LastChildElement()) {
         urdf.remove(*mesh);  // another shape stands beside it
       } else {
-        drop_collider(urdf, *collider, address, findings);
+        drop_collider(urdf, *collider, address, ignored);
       }
     }
   }
+  return ignored;
 }
 
 /// Reduces MuJoCo's own section of a URDF to what sets masses.
-void reduce_mujoco_section(MjcfDocument& urdf, FileFindings& findings) {
+void reduce_mujoco_section(MjcfDocument& urdf, std::vector<std::string>& ignored) {
   std::string kept;
   for (XMLElement* const compiler : in_sections(urdf.root(), "mujoco", "compiler")) {
     for (const char* name : {"balanceinertia", "boundmass", "boundinertia", "settotalmass",
@@ -109,12 +113,12 @@ void reduce_mujoco_section(MjcfDocument& urdf, FileFindings& findings) {
     }
   }
   for (auto* section : children(urdf.root(), "mujoco")) {
-    findings.ignored.push_back(urdf.place_of(*section) +
-                               ": mujoco: what sets masses counts; the scene has its own options");
+    ignored.push_back(urdf.place_of(*section) +
+                      ": mujoco: what sets masses counts; the scene has its own options");
     urdf.remove(*section);
   }
-  urdf.insert_before(
-      *urdf.root().FirstChildElement(),
+  urdf.insert_first(
+      urdf.root(),
       fmt::format("<mujoco><compiler fusestatic=\"false\" strippath=\"false\"{}/></mujoco>", kept));
 }
 
@@ -141,55 +145,61 @@ std::string floating_link(const MjcfDocument& urdf) {
   return link;
 }
 
-bool is_free(const XMLElement& joint) {
-  return std::string_view(joint.Name()) == "freejoint" || attribute(joint, "type") == "free";
-}
-
 /// Lets a body float: it becomes the child of the world, with a free joint.
-void let_float(MjcfDocument& mjcf, const std::string& base) {
-  XMLElement* const body = mjcf.find("body", base);
-  XMLElement* const world = mjcf.root().FirstChildElement("worldbody");
-  if (body == nullptr || world == nullptr) {
+void let_float(MjcfDocument& mjcf, const std::string& base,
+               const std::shared_ptr<const MjcfDocument>& urdf) {
+  XMLElement* body = mjcf.find("body", base);
+  if (body == nullptr) {
     mjcf.fail(mjcf.root(), fmt::format("base: expected a body of the link '{}'", base));
   }
-  XMLElement* const joint = body->FirstChildElement("joint");
-  if (joint != nullptr && !is_free(*joint)) {
+  const XMLElement* const joint = body->FirstChildElement("joint");
+  const bool is_free = body->FirstChildElement("freejoint") != nullptr ||
+                       (joint != nullptr && attribute(*joint, "type") == "free");
+  if (joint != nullptr && !is_free) {
     mjcf.fail(*body, fmt::format("base: link '{}': expected fixed joints alone above it", base));
   }
-  if (body->Parent() != world) world->InsertEndChild(body);
-  if (joint != nullptr || body->FirstChildElement("freejoint") != nullptr) return;
-  mjcf.add(*body, "freejoint", *body);
+  if (!is_free) {
+    mjcf.insert_last(*body, "<freejoint/>");
+    mjcf = MjcfDocument::converted(mjcf.edited(), urdf);
+    body = mjcf.find("body", base);
+  }
+  XMLElement* const world = mjcf.root().FirstChildElement("worldbody");
+  if (body->Parent() == world) return;
+  mjcf.insert_last(*world, mjcf.text_of(*body));
+  mjcf.remove(*body);
+  mjcf = MjcfDocument::converted(mjcf.edited(), urdf);
 }
 
 }  // namespace
 
-MjcfDocument converted_urdf(const std::filesystem::path& file, const std::string& base,
-                            FileFindings& findings) {
-  MjcfDocument urdf = MjcfDocument::load(file);
-  XMLElement& robot = urdf.root();
-  if (robot.FirstChildElement() == nullptr) urdf.fail(robot, "robot: expected links and joints");
-  prepare(urdf, findings);
-  reduce_mujoco_section(urdf, findings);
-  const std::string usual = floating_link(urdf);
+RobotFile converted_urdf(MjcfDocument document, const std::string& base) {
+  const auto urdf = std::make_shared<MjcfDocument>(std::move(document));
+  XMLElement& root = urdf->root();
+  if (root.FirstChildElement() == nullptr) urdf->fail(root, "robot: expected links and joints");
+  std::vector<std::string> ignored = prepare(*urdf);
+  reduce_mujoco_section(*urdf, ignored);
+  const std::string usual = floating_link(*urdf);
   const std::string& floating = base.empty() ? usual : base;
-  if (urdf.find("link", floating) == nullptr) {
-    urdf.fail(robot, fmt::format("base: expected a link named '{}'{}", floating,
-                                 did_you_mean(floating, links_of(robot))));
+  if (urdf->find("link", floating) == nullptr) {
+    urdf->fail(root, fmt::format("base: expected a link named '{}'{}", floating,
+                                 did_you_mean(floating, links_of(root))));
   }
-  for (auto* joint : children(robot, "joint")) {
+  std::vector<std::string> fixed;
+  std::map<std::string, double> effort;
+  for (auto* joint : children(root, "joint")) {
     if (joint->FirstChildElement("mimic") != nullptr) {
-      urdf.fail(*joint, fmt::format("{}: expected no <mimic>: coupled joints are not supported",
-                                    title_of(*joint)));
+      urdf->fail(*joint, fmt::format("{}: expected no <mimic>: coupled joints are not supported",
+                                     title_of(*joint)));
     }
-    if (attribute(*joint, "type") == "fixed")
-      findings.fixed.emplace_back(attribute(*joint, "name"));
+    const std::string name(attribute(*joint, "name"));
+    if (attribute(*joint, "type") == "fixed") fixed.push_back(name);
     const XMLElement* const limit = joint->FirstChildElement("limit");
-    const double effort = limit == nullptr ? 0.0 : limit->DoubleAttribute("effort");
-    if (effort > 0.0) findings.effort[std::string(attribute(*joint, "name"))] = effort;
+    const double most = limit == nullptr ? 0.0 : limit->DoubleAttribute("effort");
+    if (most > 0.0) effort[name] = most;
   }
-  MjcfDocument mjcf = MjcfDocument::converted(converted_to_mjcf(urdf.text(""), file), urdf);
-  let_float(mjcf, floating);
-  return mjcf;
+  MjcfDocument mjcf = MjcfDocument::converted(converted_to_mjcf(*urdf), urdf);
+  let_float(mjcf, floating, urdf);
+  return {std::move(mjcf), std::move(ignored), {}, std::move(fixed), std::move(effort)};
 }
 
 }  // namespace touchdown::models

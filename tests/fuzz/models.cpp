@@ -2,10 +2,7 @@
 
 #include "core/error.hpp"
 #include "estimator/npz/load_estimator.hpp"
-#include "models/mjcf/document.hpp"
-#include "models/mjcf/parts.hpp"
-#include "models/mjcf/robot_file.hpp"
-#include "models/robot_description.hpp"
+#include "models/robot_source.hpp"
 #include "tests/fuzz/entry.hpp"
 #include "tests/fuzz/memory_file.hpp"
 
@@ -36,43 +33,23 @@ TOUCHDOWN_FUZZ(models) {
   if (model.grid) (void)(*model.grid)({0.5, 1e308});
 }
 
-namespace {
-
-constexpr std::string_view own_part_names = R"(mjcf: robot.xml
-joints: {left_hip: lh, left_knee: lk, left_wheel: lw, right_hip: rh, right_knee: rk, right_wheel: rw}
-held: [arm]
-tyres: {left: lt, right: rim}
-imu: chip
-)";
-
-models::PartNames own_parts() {
-  models::PartNames parts;
-  parts.joint = {"lh", "lk", "lw", "rh", "rk", "rw"};
-  parts.held = {"arm"};
-  parts.tyre = {"lt", "rim"};
-  parts.imu = "chip";
-  return parts;
-}
-
-}  // namespace
-
-/// A robot's MJCF, with its own names or those of the contract, up to its compilation by MuJoCo.
+/// A robot's MJCF, up to its compilation by MuJoCo.
 TOUCHDOWN_FUZZ(mjcf) {
-  static const MemoryFile keys(own_part_names);
   const MemoryFile file(input);
-  for (const models::PartNames& parts : {models::PartNames(), own_parts()}) {
-    try {
-      models::MjcfDocument document = models::MjcfDocument::load(file.path());
-      models::FileFindings findings;
-      models::keep_robot_only(document, findings);
-      models::translate_later_versions(document, findings);
-      models::drop_missing_assets(document, findings);
-      models::name_parts(document, parts, findings, models::RobotKeys(keys.path()));
-      models::swap_sides(document);
-      (void)document.text("<option/>\n").place_of_name("left_hip");
-    } catch (const Error& error) {
-      expected(error, input);
-    }
+  try {
+    models::RobotFile robot{models::MjcfDocument::load(file.path())};
+    models::keep_robot_only(robot);
+    models::complete_loops(robot, {}, models::RobotKeys(file.path()));
+    models::translate_later_versions(robot);
+    models::note_computed_masses(robot);
+    models::drop_missing_assets(robot);
+    models::PartNames parts;
+    parts.tyre_radius = 0.1;
+    models::add_spheres(robot.document, parts);
+    (void)robot.document.edited("<option/>\n");
+    (void)robot.document.place_in(1, "left_hip");
+  } catch (const Error& error) {
+    expected(error, input);
   }
 }
 

@@ -99,8 +99,8 @@ TEST(StartPose, OfUnequalLegsBendsTheLongerOneToShareOneAxle) {
 TEST(StartPose, RefusesLegsThatCannotShareOneAxle) {
   models::RobotModel model =
       models::compile_robot_model(TOUCHDOWN_SOURCE_DIR "/models/upkie.xml", {});
-  models::scale_leg(*model.mj, 0, 4.0);
-  models::scale_leg(*model.mj, 1, 0.2);
+  models::scale_leg(model, 0, 4.0);
+  models::scale_leg(model, 1, 0.2);
   models::recompute(*model.mj);
   EXPECT_THAT(complaint_of([&] { (void)start_pose(model, {}, {}); }),
               ::testing::HasSubstr("upkie: its legs"));

@@ -45,8 +45,8 @@ TEST(WheeledBiped, HasTheWheelPositionsOfTheEnginesKinematics) {
     mj_kinematics(model.mj.get(), data.get());
     const odometry::WheeledBiped biped = wheeled_biped(model);
     for (std::size_t side = 0; side < 2; ++side) {
-      const Eigen::Vector3d wheel = models::vector_at(data->geom_xpos, model.tyre_geom[side]) -
-                                    models::vector_at(data->site_xpos, model.imu_site);
+      const Eigen::Vector3d wheel =
+          models::vector_at(data->geom_xpos, model.tyre_geom[side]) - model.imu_position;
       const odometry::WheelMotion motion = odometry::motion_of(
           biped.leg[side], {{joints[3 * side], joints[3 * side + 1], joints[3 * side + 2]}, {}});
       EXPECT_LT((motion.centre - wheel).norm(), 1e-6) << robot;
