@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -107,25 +108,32 @@ double given_way(const logs::Recording& recording, const std::vector<models::Hel
   return largest;
 }
 
-logs::Recording played(const Scenario& scenario, const std::string& engine,
-                       const std::function<bool()>& should_continue) {
+/// A scenario with its compiled scene.
+struct Scene {
+  Scenario scenario;
+  std::shared_ptr<const models::RobotModel> robot;
+  const std::function<bool()>& should_continue;
+};
+
+logs::Recording played(const Scene& scene, const std::string& engine) {
   const auto is_wanted = [&](double /*time*/ = 0.0) {
-    return !should_continue || should_continue();
+    return !scene.should_continue || scene.should_continue();
   };
-  logs::Recording recording = play(scenario, engine, 0, 0, is_wanted);
+  logs::Recording recording =
+      play(scene.scenario, *make_simulator(scene.scenario, engine, scene.robot), 0, 0, is_wanted);
   if (!is_wanted()) throw Stopped("stopped");
   return recording;
 }
 
 /// `is_explained`: whether it is known why it cannot stand.
-CheckedStand stand(const Scenario& scenario, const std::string& engine, bool is_explained,
-                   RobotCheck& check, const std::function<bool()>& should_continue) {
-  logs::Recording recording = played(scenario, engine, should_continue);
+CheckedStand stand(const Scene& scene, const std::string& engine, bool is_explained,
+                   RobotCheck& check) {
+  logs::Recording recording = played(scene, engine);
   CheckedStand stand{.engine = engine,
-                     .ending = ending_text(recording, scenario.end),
+                     .ending = ending_text(recording, scene.scenario.end),
                      .stands = recording.info.outcome == logs::Outcome::finished};
   stand.given_way = given_way(recording, check.held);
-  if (!is_explained) stand.ending += part_on_terrain(scenario, recording);
+  if (!is_explained) stand.ending += part_on_terrain(*scene.robot, recording);
   stand.moved = (recording.truth.back().base_position - recording.truth.front().base_position)
                     .head<2>()
                     .norm();
@@ -173,11 +181,10 @@ void check_loads(const CheckedStand& stand, double weight, std::vector<std::stri
 
 /// How a drop from 10 cm ended. Limit cycles of the servos are complaints, and falls of a robot
 /// that stands; a part that touches the ground is a warning, since a lower step may suit the robot.
-std::string drop(Scenario scenario, const CheckedStand& stand,
-                 const std::function<bool()>& should_continue, RobotCheck& check) {
-  scenario.start.clearance = 0.1;  // m
-  scenario.end.duration = 1.0;     // s
-  const logs::Recording recording = played(scenario, stand.engine, should_continue);
+std::string drop(Scene scene, const CheckedStand& stand, RobotCheck& check) {
+  scene.scenario.start.clearance = 0.1;  // m
+  scene.scenario.end.duration = 1.0;     // s
+  const logs::Recording recording = played(scene, stand.engine);
   logs::ChatterCheck chatter;
   for (const models::Observation& record : recording.observation) chatter.add(record);
   logs::Findings findings;
@@ -185,9 +192,9 @@ std::string drop(Scenario scenario, const CheckedStand& stand,
   for (const std::string& line : findings.lines()) {
     check.complaints.push_back(fmt::format("{}: dropped from 10 cm: {}", stand.engine, line));
   }
-  std::string ending = ending_text(recording, scenario.end);
+  std::string ending = ending_text(recording, scene.scenario.end);
   if (stand.stands && recording.info.outcome != logs::Outcome::finished) {
-    const std::string part = part_on_terrain(scenario, recording);
+    const std::string part = part_on_terrain(*scene.robot, recording);
     (part.empty() ? check.complaints : check.warnings)
         .push_back(fmt::format("{}: dropped from 10 cm: {}{}", stand.engine, ending, part));
   }
@@ -204,8 +211,9 @@ std::string hint_about_gains(const std::filesystem::path& file) {
 }
 
 /// Reads the robot. Returns why it cannot stand, if this is known.
-std::string read_robot(const Scenario& scenario, RobotCheck& check) {
-  const models::RobotModel robot = models::compile_robot_model(scenario.robot, {});
+std::string read_robot(const Scene& scene, RobotCheck& check) {
+  const auto& [scenario, compiled, should_continue] = scene;
+  const models::RobotModel& robot = *compiled;
   const models::MjDataPtr data = models::at_reference(robot);
   check.name = robot.name;
   check.mass = mj_getTotalmass(robot.mj.get());
@@ -250,9 +258,11 @@ std::string read_robot(const Scenario& scenario, RobotCheck& check) {
 
 /// The parts beside the tyres within a centimetre of the terrain, and how far they are (m).
 std::map<std::string, double> parts_near_terrain(const models::RobotModel& robot, mjData& data) {
-  mjModel& mj = *robot.mj;
+  const mjModel& mj = *robot.mj;
+  const std::vector<mjtNum> margins(mj.geom_margin, mj.geom_margin + mj.ngeom);
   std::fill_n(mj.geom_margin, mj.ngeom, 0.01);
   mj_fwdPosition(&mj, &data);
+  std::ranges::copy(margins, mj.geom_margin);
   std::map<std::string, double> parts;
   for (int i = 0; i < data.ncon; ++i) {
     const mjContact& contact = data.contact[i];
@@ -325,12 +335,11 @@ std::vector<std::string> draft_robot(const std::filesystem::path& robot,
   return guesses;
 }
 
-std::string part_on_terrain(const Scenario& scenario, const logs::Recording& recording) {
+std::string part_on_terrain(const models::RobotModel& robot, const logs::Recording& recording) {
   if (recording.info.outcome != logs::Outcome::fell || recording.truth.empty() ||
       !recording.truth.back().body_touches_terrain) {
     return {};
   }
-  const models::RobotModel robot = models::compile_robot_model(scenario.robot, scenario.terrain);
   const models::MjDataPtr data = models::at_reference(robot);
   const models::GroundTruth& last = recording.truth.back();
   std::array<double, models::servo_count> joints = {};
@@ -351,26 +360,27 @@ RobotCheck check_robot(const std::filesystem::path& file,
                        const std::function<bool()>& should_continue) {
   RobotCheck check;
   try {
+    const auto robot = std::make_shared<const models::RobotModel>(
+        models::compile_robot_model(find_resource(file), {}));
     // First, as there may be no stance within the ranges.
-    check.complaints =
-        models::range_complaints(models::compile_robot_model(find_resource(file), {}));
+    check.complaints = models::range_complaints(*robot);
     const YamlDocument stand_scene =
         YamlDocument::parse("name: stand\nend: {duration: 2}\n", "stand");
     YAML::Node(stand_scene.root())["robot"] = file.string();  // it need not be UTF-8
-    const Scenario scenario = complete_scenario(stand_scene);
-    const std::string reason = read_robot(scenario, check);
+    const Scene scene = {complete_scenario(stand_scene, robot), robot, should_continue};
+    const std::string reason = read_robot(scene, check);
     constexpr double gravity = 9.81;
     for (const std::string& engine : simulators::simulator_names()) {
-      check.stands.push_back(stand(scenario, engine, !reason.empty(), check, should_continue));
+      check.stands.push_back(stand(scene, engine, !reason.empty(), check));
       CheckedStand& last = check.stands.back();
       if (!last.stands) {
         check.complaints.push_back(
             fmt::format("{}: standing: {}{}", engine, last.ending,
-                        reason.empty() ? hint_about_gains(scenario.robot) : ": " + reason));
+                        reason.empty() ? hint_about_gains(scene.scenario.robot) : ": " + reason));
       } else {
         check_loads(last, gravity * check.mass, check.complaints);
       }
-      last.drop = drop(scenario, last, should_continue, check);
+      last.drop = drop(scene, last, check);
     }
   } catch (const InputError& error) {
     check.complaints.emplace_back(error.what());

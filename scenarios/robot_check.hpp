@@ -12,7 +12,6 @@
 #include "models/robot.hpp"
 #include "models/robot_model.hpp"
 #include "policies/servo_stability.hpp"
-#include "scenarios/scenario.hpp"
 
 namespace touchdown::scenarios {
 
@@ -67,9 +66,9 @@ struct RobotCheck {
 };
 
 /// ": 'left_guard' (`no_collision: [left_guard]` leaves it out)": the collider nearest to the
-/// terrain at the end of a run, tyres left out, by the name of its geom or body. Empty unless the
-/// robot fell as a part other than a tyre touched the terrain.
-std::string part_on_terrain(const Scenario& scenario, const logs::Recording& recording);
+/// terrain at the end of a run in `scene`, tyres left out, by the name of its geom or body. Empty
+/// unless the robot fell as a part other than a tyre touched the terrain.
+std::string part_on_terrain(const models::RobotModel& scene, const logs::Recording& recording);
 
 /// Friction, viscous friction and armature after a text; empty if there are none.
 std::string actuator_text(const models::Actuator& actuator, std::string text = {});

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -24,7 +25,8 @@ namespace {
 /// The robot as its file describes it, compiled when it is first needed.
 class DescribedRobot {
  public:
-  explicit DescribedRobot(std::filesystem::path file) : file_(std::move(file)) {}
+  DescribedRobot(std::filesystem::path file, std::shared_ptr<const models::RobotModel> model)
+      : file_(std::move(file)), model_(std::move(model)) {}
 
   const std::filesystem::path& file() const { return file_; }
   const models::RobotModel& model() {
@@ -233,7 +235,8 @@ std::vector<Key> robot_keys() {
   return keys.keys();
 }
 
-Scenario complete_scenario(const YamlDocument& document) {
+Scenario complete_scenario(const YamlDocument& document,
+                           std::shared_ptr<const models::RobotModel> model) {
   // Read once for the robot and the stance, then again with the robot's values as defaults.
   constexpr double unspecified = std::numeric_limits<double>::quiet_NaN();
   Scenario wanted;
@@ -245,7 +248,7 @@ Scenario complete_scenario(const YamlDocument& document) {
   Fields(document).check("robot", [&] {
     defaults.robot = names_robot ? find_resource(wanted.robot) : find_program_file(wanted.robot);
   });
-  DescribedRobot robot(defaults.robot);
+  DescribedRobot robot(defaults.robot, std::move(model));
   (void)robot.model();  // complaints about the robot come before those about its scenario
   const models::Stance stance = stance_of(robot);
   defaults.start.hip = std::isnan(wanted.start.hip) ? stance.hip : wanted.start.hip;

@@ -97,20 +97,21 @@ void simulate(SimulateFlags flags, const CliSession& session) {
   }
   if (flags.run >= 0) scenario = scenarios::perturbed(scenario, flags.seed, flags.run);
 
+  const auto scene = scenarios::compile_scene(scenario);
   logs::Recording recording;
   {
     constexpr double ticks_per_second = 1000.0;
     Progress progress("simulating", "ms",
                       static_cast<std::int64_t>(ticks_per_second * scenario.end.duration));
     std::int64_t shown = 0;
-    recording = scenarios::play(scenario, flags.simulator, flags.seed,
-                                std::max(flags.run, flags.recorded_run), [&](double time) {
-                                  const auto ticks =
-                                      static_cast<std::int64_t>(ticks_per_second * time);
-                                  progress.advance(ticks - shown);
-                                  shown = ticks;
-                                  return !*session.stop;
-                                });
+    recording =
+        scenarios::play(scenario, *scenarios::make_simulator(scenario, flags.simulator, scene),
+                        flags.seed, std::max(flags.run, flags.recorded_run), [&](double time) {
+                          const auto ticks = static_cast<std::int64_t>(ticks_per_second * time);
+                          progress.advance(ticks - shown);
+                          shown = ticks;
+                          return !*session.stop;
+                        });
   }
   end_if(session.stop);
   if (sensors) report_through(*sensors, recording);
@@ -123,7 +124,7 @@ void simulate(SimulateFlags flags, const CliSession& session) {
   }
   print("{}: {} {}, {} of a wheel\n", flags.output, recording.info.scenario,
         scenarios::ending_text(recording, scenario.end) +
-            scenarios::part_on_terrain(scenario, recording),
+            scenarios::part_on_terrain(*scene, recording),
         experiments::plural(flights, "flight"));
 }
 
