@@ -107,17 +107,6 @@ bool has_motor(const RobotModel& robot, const RobotSource& source, std::size_t s
   return source.motor_of(joint) >= 0 || std::ranges::count(named, name) > 0;
 }
 
-/// The torque limit of the motor that is a closed leg's hip or knee.
-double limit_of_motor(const RobotModel& robot, std::size_t servo, const RobotSource& source) {
-  const int joint = robot.motor_joint[servo];
-  const auto& actuator = source.description().actuator(static_cast<Servo>(servo));
-  return torque_limit(
-      *robot.mj,
-      {joint, fmt::format("motor of joint {}", source.title_of({mjOBJ_JOINT, joint})),
-       fmt::format("actuators: {{{}: {{maximum_torque: …}}}}", servo % 3 == 0 ? "hip" : "knee")},
-      actuator ? actuator->maximum_torque : HUGE_VAL, source);
-}
-
 /// Gives a leg its motors, the hip's own first and the knee's own last.
 void set_motors(RobotModel& robot, ClosedLeg& leg, std::size_t side, const RobotSource& source) {
   mjModel& model = *robot.mj;
@@ -141,7 +130,7 @@ void set_motors(RobotModel& robot, ClosedLeg& leg, std::size_t side, const Robot
     if (i >= motors.size()) continue;
     const int joint = leg.joint[static_cast<std::size_t>(motors[i])];
     robot.motor_joint[servo] = joint;
-    robot.effort[servo] = limit_of_motor(robot, servo, source);
+    robot.effort[servo] = torque_limit(model, joint, servo, source);
     robot.actuator[servo] = actuator_at(model, model.jnt_dofadr[joint]);
   }
   // Friction is that of motors, in every engine.

@@ -73,18 +73,21 @@ void set_size(RobotModel& robot, const RobotDescription& description, const Robo
 
 /// Checks that engines can take the inertias and places of the robot's bodies, geoms and sites.
 void check_places(const mjModel& model, const RobotSource& source) {
-  const auto message = [](const mjtNum* position, const mjtNum* orientation, int i) -> std::string {
-    const double distance = vector_at(position, i).norm();
-    if (!(distance <= 100.0)) {
-      return fmt::format("expected a place within 100 m of its parent, found {:g} m", distance);
-    }
-    const double length = quaternion_at(orientation, i).norm();
-    if (std::abs(length - 1.0) < 1e-3) return "";
-    return fmt::format("expected an orientation, found a quaternion of length {:g}", length);
+  const auto check = [&](Part part, int body, const mjtNum* position, const mjtNum* orientation) {
+    if (body == 0) return;  // the terrain's
+    const double distance = vector_at(position, part.id).norm();
+    const double length = quaternion_at(orientation, part.id).norm();
+    const bool is_near = distance <= 100.0;
+    if (is_near && std::abs(length - 1.0) < 1e-3) return;
+    source.fail_at(
+        part,
+        fmt::format(
+            "{}: expected {}", mju_type2Str(part.type),
+            is_near ? fmt::format("an orientation, found a quaternion of length {:g}", length)
+                    : fmt::format("a place within 100 m of its parent, found {:g} m", distance)));
   };
   for (int i = 1; i < model.nbody; ++i) {
-    const std::string text = message(model.body_pos, model.body_quat, i);
-    if (!text.empty()) source.fail_at({mjOBJ_BODY, i}, "body: " + text);
+    check({mjOBJ_BODY, i}, i, model.body_pos, model.body_quat);
     const double inertia = vector_at(model.body_inertia, i).maxCoeff();
     constexpr double widest = 2.0;  // m, radius of gyration
     if (inertia <= widest * widest * model.body_mass[i]) continue;
@@ -96,13 +99,10 @@ void check_places(const mjModel& model, const RobotSource& source) {
                     std::sqrt(inertia / model.body_mass[i])));
   }
   for (int i = 0; i < model.ngeom; ++i) {
-    const bool is_robots = model.geom_bodyid[i] > 0;
-    const std::string text = is_robots ? message(model.geom_pos, model.geom_quat, i) : "";
-    if (!text.empty()) source.fail_at({mjOBJ_GEOM, i}, "geom: " + text);
+    check({mjOBJ_GEOM, i}, model.geom_bodyid[i], model.geom_pos, model.geom_quat);
   }
   for (int i = 0; i < model.nsite; ++i) {
-    const std::string text = message(model.site_pos, model.site_quat, i);
-    if (!text.empty()) source.fail_at({mjOBJ_SITE, i}, "site: " + text);
+    check({mjOBJ_SITE, i}, model.site_bodyid[i], model.site_pos, model.site_quat);
   }
 }
 

@@ -231,14 +231,13 @@ void order_sides(RobotModel& robot, const RobotSource& source) {
 void find_imu(RobotModel& robot, const RobotSource& source) {
   const mjModel& model = *robot.mj;
   const std::string& given = source.parts().imu;
-  const std::string name = given.empty() ? "imu" : given;
-  Part imu = {mjOBJ_SITE, mj_name2id(&model, mjOBJ_SITE, name.c_str())};
-  if (imu.id < 0) imu = {mjOBJ_BODY, mj_name2id(&model, mjOBJ_BODY, name.c_str())};
-  if (imu.id < 0 && given.empty()) {
+  Part imu = {mjOBJ_SITE, mj_name2id(&model, mjOBJ_SITE, "imu")};
+  if (given.empty() && imu.id < 0) imu = {mjOBJ_BODY, mj_name2id(&model, mjOBJ_BODY, "imu")};
+  if (!given.empty()) imu = source.named({mjOBJ_SITE, mjOBJ_BODY}, given, "imu");
+  if (imu.id < 0) {
     source.fail(fmt::format("expected a site named 'imu'{}",
-                            found_text(name, names_of(model, mjOBJ_SITE))));
+                            found_text("imu", names_of(model, mjOBJ_SITE))));
   }
-  if (imu.id < 0) imu = source.named({mjOBJ_SITE, mjOBJ_BODY}, name, "imu");
   const int body = imu.type == mjOBJ_SITE ? model.site_bodyid[imu.id] : imu.id;
   if (model.body_weldid[body] != model.body_weldid[robot.base_body]) {
     source.fail_at(imu, "site 'imu': expected it on the base body");

@@ -21,8 +21,10 @@ using Eigen::Vector3d;
 class Draft {
  public:
   explicit Draft(const std::filesystem::path& file)
-      : source_(robot_file(robot_description(file), RobotKeys(file))) {
-    model_ = compile(source_, Terrain{});
+      : description_(robot_description(file)),
+        keys_(file),
+        file_(robot_file(description_, keys_)),
+        model_(compile(file_, Terrain{})) {
     data_ = make_data(*model_);
     mj_kinematics(model_.get(), data_.get());
     for (int joint = 0; joint < model_->njnt; ++joint) {
@@ -37,7 +39,7 @@ class Draft {
   }
 
   std::vector<DraftLine> lines() {
-    for (const std::string& warning : source_.warnings) add("", "", warning);
+    for (const std::string& warning : file_.warnings) add("", "", warning);
     add_base();
     add_joints();
     add_held();
@@ -58,7 +60,7 @@ class Draft {
   Vector3d anchor(int joint) const { return vector_at(data_->xanchor, joint); }
 
   void add_base() {
-    if (std::string_view(source_.document.file().extension().string()) == ".urdf") {
+    if (std::string_view(file_.document.file().extension().string()) == ".urdf") {
       add("base", as_yaml(name(mjOBJ_BODY, base_)));
     }
     const Vector3d left = anchor(legs_.axle[0].joint) - anchor(legs_.axle[1].joint);
@@ -192,14 +194,11 @@ class Draft {
   }
 
   bool has_limit(int joint) const {
-    const auto effort = source_.effort.find(joint_name(joint));
-    if (effort != source_.effort.end() && std::isfinite(effort->second)) return true;
-    for (int i = 0; i < model_->nu; ++i) {
-      if (model_->actuator_trnid[2 * i] != joint) continue;
-      if (model_->actuator_ctrllimited[i] != 0 || model_->actuator_forcelimited[i] != 0)
-        return true;
-    }
-    return false;
+    const RobotSource source(file_, description_, keys_, *model_);
+    const int motor = source.motor_of(joint);
+    return std::isfinite(source.limit_of(joint)) ||
+           (motor >= 0 && (model_->actuator_ctrllimited[motor] != 0 ||
+                           model_->actuator_forcelimited[motor] != 0));
   }
 
   /// Torque limits from the robot's weight, if its file has none. A joint without a limit beside
@@ -227,7 +226,9 @@ class Draft {
     add("actuators", limits, "torques guessed from the weight: give your own");
   }
 
-  RobotFile source_;
+  RobotDescription description_;
+  RobotKeys keys_;
+  RobotFile file_;
   MjModelPtr model_;
   MjDataPtr data_;
   int base_ = -1;

@@ -109,19 +109,14 @@ void find_closed_legs(RobotModel& robot, const RobotSource& source);
 /// not determine the wheel.
 void measure_closed_legs(RobotModel& robot, const RobotSource& source);
 
-/// The torque limit of a servo on its joint, for messages about it.
-struct LimitedJoint {
-  int joint = -1;
-  std::string title;   ///< "motor 'left_hip'"
-  std::string remedy;  ///< "actuators: {hip: {maximum_torque: …}}", a key of the YAML file
-};
-
 /// The torque limit of a joint (N·m): the control range of its motor times the gain, within the
 /// force range, times the gear, and at most `most` and the joint's own limit. Position and velocity
-/// servos count with their force range. Errors: `InputError` for activations, limits that are not
-/// symmetric, and none at all.
-double torque_limit(const mjModel& model, const LimitedJoint& of, double most,
+/// servos count with their force range. `remedy`: a key of the YAML file, for messages. Errors:
+/// `InputError` for activations, limits that are not symmetric, and none at all.
+double torque_limit(const mjModel& model, int joint, double most, const std::string& remedy,
                     const RobotSource& source);
+/// The same of a servo's motor, which is on `joint`.
+double torque_limit(const mjModel& model, int joint, std::size_t servo, const RobotSource& source);
 
 /// Friction, viscous friction and armature of the file at one degree of freedom.
 Actuator actuator_at(const mjModel& model, int dof);

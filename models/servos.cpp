@@ -33,13 +33,14 @@ Actuator actuator_at(const mjModel& model, int dof) {
           .armature = model.dof_armature[dof]};
 }
 
-double torque_limit(const mjModel& model, const LimitedJoint& of, double most,
+double torque_limit(const mjModel& model, int joint, double most, const std::string& remedy,
                     const RobotSource& source) {
-  const int motor = source.motor_of(of.joint);
-  most = std::min(most, source.limit_of(of.joint));
+  const int motor = source.motor_of(joint);
+  most = std::min(most, source.limit_of(joint));
   const auto fail = [&](const std::string& message) {
-    source.fail_at(motor < 0 ? Part{mjOBJ_JOINT, of.joint} : Part{mjOBJ_ACTUATOR, motor},
-                   fmt::format("{}: {}, or '{}' in the YAML file", of.title, message, of.remedy));
+    source.fail_at(motor < 0 ? Part{mjOBJ_JOINT, joint} : Part{mjOBJ_ACTUATOR, motor},
+                   fmt::format("motor of joint {}: {}, or '{}' in the YAML file",
+                               source.title_of({mjOBJ_JOINT, joint}), message, remedy));
   };
   if (motor >= 0 && model.actuator_dyntype[motor] != mjDYN_NONE) {
     fail("expected a motor, found an activation (dyntype)");
@@ -68,6 +69,14 @@ double torque_limit(const mjModel& model, const LimitedJoint& of, double most,
   limit *= std::abs(model.actuator_gear[6 * motor]);
   if (!(limit > 0.0)) fail("expected a torque limit above 0 N·m");
   return std::min(limit, most);
+}
+
+double torque_limit(const mjModel& model, int joint, std::size_t servo, const RobotSource& source) {
+  const auto& given = source.description().actuator(static_cast<Servo>(servo));
+  return torque_limit(model, joint, given ? given->maximum_torque : no_limit,
+                      fmt::format("actuators: {{{}: {{maximum_torque: …}}}}",
+                                  std::array{"hip", "knee", "wheel"}[servo % 3]),
+                      source);
 }
 
 namespace {
@@ -307,12 +316,7 @@ void find_limits(RobotModel& robot, const RobotSource& source) {
   for (std::size_t i = 0; i < servo_count; ++i) {
     const int joint = robot.joint[i];
     if (joint < 0 || (i % 3 != 2 && model.neq > 0)) continue;  // closed legs have their own motors
-    const auto& given = source.description().actuator(static_cast<Servo>(i));
-    robot.effort[i] = torque_limit(model,
-                                   {joint, fmt::format("motor '{}'", robot.joint_name[i]),
-                                    fmt::format("actuators: {{{}: {{maximum_torque: …}}}}",
-                                                std::array{"hip", "knee", "wheel"}[i % 3])},
-                                   given ? given->maximum_torque : no_limit, source);
+    robot.effort[i] = torque_limit(model, joint, i, source);
     robot.actuator[i] = actuator_at(model, robot.dof_address[i]);
   }
   robot.motor_joint = robot.joint;
@@ -327,12 +331,9 @@ void complete_held(RobotModel& robot, const RobotSource& source) {
   for (HeldJoint& held : robot.held) {
     source.check_hinge(held.joint, "as it is held");
     set_gains(held, given, robots);
-    held.effort = given.maximum_torque
-                      ? *given.maximum_torque
-                      : torque_limit(model,
-                                     {held.joint, fmt::format("motor of joint '{}'", held.name),
-                                      "held_servo: {maximum_torque: …}"},
-                                     no_limit, source);
+    held.effort = given.maximum_torque ? *given.maximum_torque
+                                       : torque_limit(model, held.joint, no_limit,
+                                                      "held_servo: {maximum_torque: …}", source);
     held.actuator = actuator_at(model, held.dof_address);
     model.dof_frictionloss[held.dof_address] = model.dof_damping[held.dof_address] = 0.0;
     if (!is_rod_of(robot, held.joint)) continue;

@@ -54,20 +54,6 @@ std::string name_of(const XMLElement& asset) {
                       : name;
 }
 
-/// Elements by the asset that they use.
-using Users = std::multimap<std::string, XMLElement*>;
-
-Users users_of(const MjcfDocument& document, const char* tag, const char* name) {
-  Users users;
-  document.visit([&](XMLElement& e) {
-    const XMLElement* const parent = e.Parent()->ToElement();
-    const bool is_default = parent != nullptr && std::string_view(parent->Name()) == "default";
-    if (std::string_view(e.Name()) != tag || is_default) return;
-    users.emplace(attribute_or_default(document, e, name), &e);
-  });
-  return users;
-}
-
 /// Whether a body's mass and inertia do not depend on one of its geoms.
 bool has_own_mass(const MjcfDocument& document, const XMLElement& geom) {
   const XMLElement& body = *geom.Parent()->ToElement();
@@ -75,32 +61,32 @@ bool has_own_mass(const MjcfDocument& document, const XMLElement& geom) {
   return numbers(attribute_or_default(document, geom, "mass")) == std::vector<double>{0.0};
 }
 
-void drop_mesh(RobotFile& robot, XMLElement& mesh, const std::string& file, Users& users) {
+/// Removes a mesh or a texture without its file, with the geoms of this mesh.
+void drop(RobotFile& robot, XMLElement& asset, const std::string& file) {
   MjcfDocument& document = robot.document;
-  const std::string name = name_of(mesh);
-  const std::string about = fmt::format("mesh '{}': {}: no such file", name, file);
+  const std::string tag = asset.Name();
+  const std::string name = name_of(asset);
+  const std::string about = fmt::format("{} '{}': {}: no such file", tag, name, file);
+  std::vector<XMLElement*> users;
+  document.visit([&](XMLElement& e) {
+    const bool is_user = std::string_view(e.Name()) == (tag == "mesh" ? "geom" : "material");
+    if (is_user && attribute_or_default(document, e, tag.c_str()) == name) users.push_back(&e);
+  });
   std::string untouched;
-  const auto [begin, end] = users.equal_range(name);
-  for (auto user = begin; user != end; ++user) {
-    XMLElement* const geom = user->second;
-    const std::string body = title_of(*geom->Parent()->ToElement());
-    if (!has_own_mass(document, *geom)) {
-      document.fail(mesh, fmt::format("{}, and {} has its mass from it: expected an <inertial>",
-                                      about, body));
+  for (XMLElement* const user : users) {
+    const XMLElement& parent = *user->Parent()->ToElement();
+    if (tag == "texture") document.replace(*user, "texture");
+    if (tag == "texture" || std::string_view(parent.Name()) == "default") continue;
+    if (!has_own_mass(document, *user)) {
+      document.fail(asset, fmt::format("{}, and {} has its mass from it: expected an <inertial>",
+                                       about, title_of(parent)));
     }
-    if (!is_visual(document, *geom)) untouched = ", and " + body + " does not touch with it";
-    document.remove(*geom);
+    if (!is_visual(document, *user))
+      untouched = ", and " + title_of(parent) + " does not touch with it";
+    document.remove(*user);
   }
-  users.erase(begin, end);
-  robot.ignore(mesh, about + ": not drawn" + untouched);
-}
-
-void drop_texture(RobotFile& robot, const XMLElement& texture, const std::string& file,
-                  const Users& users) {
-  const std::string name = name_of(texture);
-  const auto [begin, end] = users.equal_range(name);
-  for (auto user = begin; user != end; ++user) robot.document.replace(*user->second, "texture");
-  robot.ignore(texture, fmt::format("texture '{}': {}: no such file: not drawn", name, file));
+  robot.ignore(asset, about + ": not drawn" + untouched);
+  document.remove(asset);
 }
 
 /// Vertices, texture points and normals of an OBJ.
@@ -226,22 +212,18 @@ void draw_as_rods(MjcfDocument& document, XMLElement& body) {
 void drop_missing_assets(RobotFile& robot) {
   MjcfDocument& document = robot.document;
   Compiler compiler = compiler_of(document);
-  Users geoms = users_of(document, "geom", "mesh");
-  const Users materials = users_of(document, "material", "texture");
   for (XMLElement* const asset : in_sections(document.root(), "asset")) {
     const std::string_view tag = asset->Name();
     const bool is_mesh = tag == "mesh";
     if ((!is_mesh && tag != "texture") || asset->Attribute("file") == nullptr) continue;
     const std::filesystem::path file =
         file_of(document, compiler, *asset, is_mesh ? "meshdir" : "texturedir");
-    if (!is_missing(file)) {
-      const std::string fault = is_mesh ? fault_of_mesh(file) : "";
-      if (fault.empty()) continue;
+    const std::string fault = is_mesh && !is_missing(file) ? fault_of_mesh(file) : "";
+    if (!fault.empty()) {
       document.fail(*asset, fmt::format("mesh '{}': {}", name_of(*asset), fault));
     }
-    is_mesh ? drop_mesh(robot, *asset, file.string(), geoms)
-            : drop_texture(robot, *asset, file.string(), materials);
-    document.remove(*asset);
+    if (!is_missing(file)) continue;
+    drop(robot, *asset, file.string());
   }
   for (XMLElement* const body : in_sections(document.root(), "worldbody", "body")) {
     draw_as_rods(document, *body);

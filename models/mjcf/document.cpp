@@ -303,6 +303,7 @@ void MjcfDocument::set(XMLElement& element, const char* attribute, const std::st
 
 void MjcfDocument::replace(XMLElement& element, const char* attribute, const std::string& name,
                            const std::string& value) {
+  if (element.Attribute(attribute) == nullptr) return;
   std::size_t begin = text_.find_first_of(spaces, span(element).begin);
   while (begin < span(element).head) {
     begin = text_.find_first_not_of(spaces, begin);

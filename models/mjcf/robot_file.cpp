@@ -156,16 +156,6 @@ void require_mjcf(const MjcfDocument& document) {
                                   tag, tag == "sdf" ? ": SDF is not read, convert it first" : ""));
 }
 
-/// "expected a body named 'x' in robot.xml (did you mean 'y'?)", or with the names that there are.
-std::string missing(const MjcfDocument& document, const char* tag, const std::string& name) {
-  std::vector<std::string> names;
-  document.visit([&](const XMLElement& element) {
-    if (std::string_view(element.Name()) == tag) names.emplace_back(attribute(element, "name"));
-  });
-  return fmt::format("expected a {} named '{}' in {}{}", tag, name,
-                     document.file().filename().string(), found_text(name, names));
-}
-
 /// Checks that the bodies of a loop of the YAML file are there.
 void check_bodies(const MjcfDocument& document, const LoopKeys& loop, const std::string& key,
                   const RobotKeys& keys) {
@@ -199,6 +189,15 @@ LoopEnds connect_bodies(MjcfDocument& document, XMLElement& connect) {
 }
 
 }  // namespace
+
+std::string missing(const MjcfDocument& document, const char* tag, const std::string& name) {
+  std::vector<std::string> names;
+  document.visit([&](const XMLElement& element) {
+    if (std::string_view(element.Name()) == tag) names.emplace_back(attribute(element, "name"));
+  });
+  return fmt::format("expected a {} named '{}' in {}{}", tag, name,
+                     document.file().filename().string(), found_text(name, names));
+}
 
 void keep_robot_only(RobotFile& robot) {
   MjcfDocument& document = robot.document;

@@ -34,6 +34,9 @@ struct RobotFile {
   }
 };
 
+/// "expected a body named 'x' in robot.xml (did you mean 'y'?)", or with the names that there are.
+std::string missing(const MjcfDocument& document, const char* tag, const std::string& name);
+
 /// Reads the file of a description. Errors: `InputError` for what is no robot, or cannot be
 /// simulated.
 RobotFile robot_file(const RobotDescription& description, const RobotKeys& keys);

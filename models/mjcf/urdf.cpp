@@ -1,11 +1,9 @@
 #include <memory>
-#include <set>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "core/yaml.hpp"
 #include "models/mjcf/compiler.hpp"
 #include "models/mjcf/robot_file.hpp"
 
@@ -14,37 +12,6 @@ namespace touchdown::models {
 namespace {
 
 using tinyxml2::XMLElement;
-
-std::string link_of(const XMLElement& joint, const char* end) {
-  const XMLElement* const link = joint.FirstChildElement(end);
-  return link == nullptr ? std::string() : std::string(attribute(*link, "link"));
-}
-
-/// The link that is no other link's child.
-std::string root_link(const MjcfDocument& urdf) {
-  const XMLElement& robot = urdf.root();
-  std::set<std::string> held;
-  for (auto* joint : children(robot, "joint")) held.insert(link_of(*joint, "child"));
-  std::string root;
-  for (auto* link : children(robot, "link")) {
-    const std::string name(attribute(*link, "name"));
-    if (held.contains(name)) continue;
-    if (!root.empty() && link->FirstChildElement("inertial") != nullptr) {
-      urdf.fail(*link, fmt::format("{}: expected a joint with this child: '{}' is the root",
-                                   title_of(*link), root));
-    }
-    if (root.empty()) root = name;
-  }
-  return root;
-}
-
-std::vector<std::string> links_of(const XMLElement& robot) {
-  std::vector<std::string> names;
-  for (auto* link : children(robot, "link")) {
-    names.emplace_back(attribute(*link, "name"));
-  }
-  return names;
-}
 
 /// The command that brings a missing mesh beside the URDF.
 std::string remedy_for(std::string_view address) {
@@ -122,43 +89,49 @@ void reduce_mujoco_section(MjcfDocument& urdf, std::vector<std::string>& ignored
       fmt::format("<mujoco><compiler fusestatic=\"false\" strippath=\"false\"{}/></mujoco>", kept));
 }
 
-/// The link that floats by default: the root, or the first link with a mass below it. ROS has links
-/// without mass above it, such as `world` and `base_footprint`.
-std::string floating_link(const MjcfDocument& urdf) {
-  const XMLElement& robot = urdf.root();
-  std::string link = root_link(urdf);
-  const auto has_mass = [&](const std::string& name) {
-    const XMLElement* const element = urdf.find("link", name);
-    return element != nullptr && element->FirstChildElement("inertial") != nullptr;
-  };
-  while (!has_mass(link)) {
-    std::string below;
-    for (auto* joint : children(robot, "joint")) {
-      const std::string_view type = attribute(*joint, "type");
-      const std::string child = link_of(*joint, "child");
-      if (link_of(*joint, "parent") != link || (type != "fixed" && type != "floating")) continue;
-      if (below.empty() || has_mass(child)) below = child;
-    }
-    if (below.empty()) return root_link(urdf);
-    link = below;
+bool has_mass(const XMLElement& body) { return body.FirstChildElement("inertial") != nullptr; }
+
+bool is_free(const XMLElement& body) {
+  return body.FirstChildElement("freejoint") != nullptr ||
+         (body.FirstChildElement("joint") != nullptr &&
+          attribute(*body.FirstChildElement("joint"), "type") == "free");
+}
+
+bool is_fixed(const XMLElement& body) { return body.FirstChildElement("joint") == nullptr; }
+
+/// The body that floats by default: the root, or the first one with a mass below it. ROS has links
+/// without mass above it, such as `world` and `base_footprint`. Null if there is none.
+const XMLElement* floating_body(const XMLElement& above) {
+  const XMLElement* found = nullptr;
+  for (const XMLElement* const body : children(above, "body")) {
+    if (!is_fixed(*body) && !is_free(*body)) continue;
+    if (found == nullptr || has_mass(*body)) found = body;
   }
-  return link;
+  if (found == nullptr || has_mass(*found)) return found;
+  const XMLElement* const below = floating_body(*found);
+  return below != nullptr && has_mass(*below) ? below : found;
+}
+
+/// Refuses a second root with a mass. MuJoCo takes a link `world` for the world.
+void require_one_root(const MjcfDocument& mjcf, const MjcfDocument& urdf) {
+  const XMLElement* root = nullptr;
+  for (const XMLElement* const body : in_sections(mjcf.root(), "worldbody", "body")) {
+    if (root != nullptr && has_mass(*body) && urdf.find("link", "world") == nullptr) {
+      mjcf.fail(*body, fmt::format("link '{}': expected a joint with this child: '{}' is the root",
+                                   attribute(*body, "name"), attribute(*root, "name")));
+    }
+    if (root == nullptr) root = body;
+  }
 }
 
 /// Lets a body float: it becomes the child of the world, with a free joint.
 void let_float(MjcfDocument& mjcf, const std::string& base,
                const std::shared_ptr<const MjcfDocument>& urdf) {
   XMLElement* body = mjcf.find("body", base);
-  if (body == nullptr) {
-    mjcf.fail(mjcf.root(), fmt::format("base: expected a body of the link '{}'", base));
-  }
-  const XMLElement* const joint = body->FirstChildElement("joint");
-  const bool is_free = body->FirstChildElement("freejoint") != nullptr ||
-                       (joint != nullptr && attribute(*joint, "type") == "free");
-  if (joint != nullptr && !is_free) {
+  if (!is_fixed(*body) && !is_free(*body)) {
     mjcf.fail(*body, fmt::format("base: link '{}': expected fixed joints alone above it", base));
   }
-  if (!is_free) {
+  if (!is_free(*body)) {
     mjcf.insert_last(*body, "<freejoint/>");
     mjcf = MjcfDocument::converted(mjcf.edited(), urdf);
     body = mjcf.find("body", base);
@@ -178,12 +151,6 @@ RobotFile converted_urdf(MjcfDocument document, const std::string& base) {
   if (root.FirstChildElement() == nullptr) urdf->fail(root, "robot: expected links and joints");
   std::vector<std::string> ignored = prepare(*urdf);
   reduce_mujoco_section(*urdf, ignored);
-  const std::string usual = floating_link(*urdf);
-  const std::string& floating = base.empty() ? usual : base;
-  if (urdf->find("link", floating) == nullptr) {
-    urdf->fail(root, fmt::format("base: expected a link named '{}'{}", floating,
-                                 did_you_mean(floating, links_of(root))));
-  }
   std::vector<std::string> fixed;
   std::map<std::string, double> effort;
   for (auto* joint : children(root, "joint")) {
@@ -198,6 +165,14 @@ RobotFile converted_urdf(MjcfDocument document, const std::string& base) {
     if (most > 0.0) effort[name] = most;
   }
   MjcfDocument mjcf = MjcfDocument::converted(converted_to_mjcf(*urdf), urdf);
+  require_one_root(mjcf, *urdf);
+  const XMLElement* const world = mjcf.root().FirstChildElement("worldbody");
+  const XMLElement* const usual = world == nullptr ? nullptr : floating_body(*world);
+  const std::string floating =
+      base.empty() && usual != nullptr ? std::string(attribute(*usual, "name")) : base;
+  if (mjcf.find("body", floating) == nullptr) {
+    urdf->fail(root, "base: " + missing(*urdf, "link", floating));
+  }
   let_float(mjcf, floating, urdf);
   return {std::move(mjcf), std::move(ignored), {}, std::move(fixed), std::move(effort)};
 }

@@ -68,6 +68,15 @@ TEST_F(FoundFile, LimitsTorquesByItsJointsAsMuJoCo3Does) {
             9.0);
 }
 
+TEST_F(FoundFile, HasAtMostFiveThousandGeoms) {
+  std::string many;
+  for (int i = 0; i < 50'000; ++i) many += "<geom class=\"visual\" size=\"0.01\"/>\n";
+  EXPECT_THAT(complaint_of([&] {
+                (void)robot({{"<site name=\"imu\"", many + "$&"}});
+              }),
+              HasSubstr("expected at most 5000 geoms"));
+}
+
 TEST_F(FoundFile, MayDriveItsJointsInTheParentsFrame) {
   const RobotModel robot = this->robot(
       {{hip_motor, "<motor name=\"actuator1\" jointinparent=\"left_hip\" ctrlrange=\"-7 7\""}});
