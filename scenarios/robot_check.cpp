@@ -360,14 +360,14 @@ RobotCheck check_robot(const std::filesystem::path& file,
                        const std::function<bool()>& should_continue) {
   RobotCheck check;
   try {
-    const auto robot = std::make_shared<const models::RobotModel>(
+    check.robot = std::make_shared<const models::RobotModel>(
         models::compile_robot_model(find_resource(file), {}));
     // First, as there may be no stance within the ranges.
-    check.complaints = models::range_complaints(*robot);
+    check.complaints = models::range_complaints(*check.robot);
     const YamlDocument stand_scene =
         YamlDocument::parse("name: stand\nend: {duration: 2}\n", "stand");
     YAML::Node(stand_scene.root())["robot"] = file.string();  // it need not be UTF-8
-    const Scene scene = {complete_scenario(stand_scene, robot), robot, should_continue};
+    const Scene scene = {complete_scenario(stand_scene, check.robot), check.robot, should_continue};
     const std::string reason = read_robot(scene, check);
     constexpr double gravity = 9.81;
     for (const std::string& engine : simulators::simulator_names()) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -60,9 +61,10 @@ struct RobotCheck {
   std::vector<std::string> differences;  ///< between the engines
   /// Factor on all gains at which the servos become unstable, in flight and standing.
   policies::ServoMargins margins;
-  std::vector<CheckedStand> stands;     ///< in every engine
-  logs::Recording standing;             ///< of the first engine
-  std::vector<std::string> complaints;  ///< none if the robot is usable
+  std::shared_ptr<const models::RobotModel> robot;  ///< null if its file is refused
+  std::vector<CheckedStand> stands;                 ///< in every engine
+  logs::Recording standing;                         ///< of the first engine
+  std::vector<std::string> complaints;              ///< none if the robot is usable
 };
 
 /// ": 'left_guard' (`no_collision: [left_guard]` leaves it out)": the collider nearest to the

@@ -202,12 +202,11 @@ std::size_t check_robot(const std::string& path, const CheckFlags& flags,
     robot = flags.draft;
   }
   const RobotCheck check = scenarios::check_robot(robot, [&] { return !*session.stop; });
-  if (!flags.legs.empty()) write_legs(models::compile_robot_model(robot, {}), flags.legs);
+  if (!flags.legs.empty() && check.robot) write_legs(*check.robot, flags.legs);
   print(flags.json ? json_of(path, check).dump(1, ' ', false, Json::error_handler_t::replace) + "\n"
                    : text_of(path, check));
   if (!flags.figure.empty() && check.standing.steps() > 0) {
-    render::render_scene(models::compile_robot_model(robot, {}), check.standing, {}, 0.0,
-                         flags.figure);
+    render::render_scene(*check.robot, check.standing, {}, 0.0, flags.figure);
   }
   return check.complaints.size();
 }

@@ -121,6 +121,17 @@ std::unique_ptr<tinyxml2::XMLDocument> parsed(const std::string& text,
   return document;
 }
 
+/// The spans of a tree's elements in its text.
+std::vector<std::array<std::size_t, 3>> spans_in(tinyxml2::XMLDocument& tree,
+                                                 const std::string& text,
+                                                 const std::filesystem::path& file) {
+  std::vector<std::array<std::size_t, 3>> spans = spans_of(text);
+  std::size_t elements = 0;
+  for_each_in(tree, [&](XMLElement&) { ++elements; });
+  if (elements == spans.size()) return spans;
+  throw InputError(fmt::format("{}:1:1: expected well-formed XML", file.string()));
+}
+
 }  // namespace
 
 std::string_view attribute_or_default(const MjcfDocument& document, const XMLElement& element,
@@ -173,7 +184,7 @@ MjcfDocument MjcfDocument::converted(std::string text, std::shared_ptr<const Mjc
 
 void MjcfDocument::parse() {
   tree_ = parsed(text_, file());
-  const auto spans = spans_of(text_);
+  const auto spans = spans_in(*tree_, text_, file());
   std::size_t number = 0;
   for_each_in(*tree_, [&](XMLElement& element) {
     const auto [begin, head, end] = spans.at(number++);
@@ -188,7 +199,7 @@ void MjcfDocument::add_file(const std::filesystem::path& file,
   files_.push_back(file.lexically_normal());
   const std::string text = read_file(file);
   const auto tree = parsed(text, file);
-  const auto spans = spans_of(text);
+  const auto spans = spans_in(*tree, text, file);
   const auto add = [&](std::size_t begin, std::size_t end) {
     const auto [line, column] = place_in_text(std::string_view(text).substr(0, begin), 1, 1);
     pieces_[text_.size()] = {number, line, column};
