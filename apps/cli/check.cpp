@@ -197,11 +197,16 @@ void write_legs(const models::RobotModel& robot, const std::string& path) {
 std::size_t check_robot(const std::string& path, const CheckFlags& flags,
                         const CliSession& session) {
   std::filesystem::path robot = find_resource(path);
-  if (!flags.draft.empty()) {
-    print_warnings(scenarios::draft_robot(robot, flags.draft));
-    robot = flags.draft;
+  RobotCheck check;
+  try {
+    if (!flags.draft.empty()) {
+      print_warnings(scenarios::draft_robot(robot, flags.draft));
+      robot = flags.draft;
+    }
+    check = scenarios::check_robot(robot, [&] { return !*session.stop; });
+  } catch (const InputError& error) {
+    check.complaints.emplace_back(error.what());
   }
-  const RobotCheck check = scenarios::check_robot(robot, [&] { return !*session.stop; });
   if (!flags.legs.empty() && check.robot) write_legs(*check.robot, flags.legs);
   print(flags.json ? json_of(path, check).dump(1, ' ', false, Json::error_handler_t::replace) + "\n"
                    : text_of(path, check));
