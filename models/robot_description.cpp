@@ -11,7 +11,7 @@
 #include "core/files.hpp"
 #include "core/fingerprint.hpp"
 #include "core/resources.hpp"
-#include "models/mjcf/robot_file.hpp"
+#include "models/mjcf/assets.hpp"
 
 namespace touchdown::models {
 

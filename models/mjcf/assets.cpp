@@ -1,3 +1,5 @@
+#include "models/mjcf/assets.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -10,7 +12,6 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
-#include "models/mjcf/document.hpp"
 #include "models/mjcf/robot_file.hpp"
 
 namespace touchdown::models {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
+#include "models/mjcf/assets.hpp"
 #include "models/mjcf/compiler.hpp"
 #include "models/mjcf/robot_file.hpp"
 
