@@ -13,6 +13,19 @@
 
 namespace touchdown::models {
 
+RobotFile robot_file(const RobotDescription& description, const RobotKeys& keys) {
+  MjcfDocument document = MjcfDocument::load(description.mjcf);
+  const bool is_urdf = std::string_view(document.root().Name()) == "robot";
+  RobotFile robot = is_urdf ? converted_urdf(std::move(document), description.parts.base)
+                            : RobotFile{std::move(document)};
+  keep_robot_only(robot);
+  complete_loops(robot, description.parts, keys);
+  translate_later_versions(robot);
+  note_computed_masses(robot);
+  drop_missing_assets(robot);
+  return robot;
+}
+
 MjModelPtr compile(const RobotFile& robot, const Terrain& terrain) {
   MjModelPtr model = compile_xml(robot.document, robot.loops + scene_mjcf(terrain));
   for (std::size_t loop = 0; loop < robot.ends.size(); ++loop) {

@@ -16,6 +16,15 @@
 
 namespace touchdown::models {
 
+/// Reads the file of a description. Errors: `InputError` for what is no robot, or cannot be
+/// simulated.
+RobotFile robot_file(const RobotDescription& description, const RobotKeys& keys);
+
+/// Completes the loops of closed legs: those of the YAML file become <connect>s. Connections of
+/// sites, as MuJoCo 3 has them, become ones of their bodies. Errors: `InputError` for names that
+/// the MJCF does not have.
+void complete_loops(RobotFile& robot, const PartNames& parts, const RobotKeys& keys);
+
 /// Compiles a robot's file with a terrain. Errors: those of `compile_xml`.
 MjModelPtr compile(const RobotFile& robot, const Terrain& terrain);
 

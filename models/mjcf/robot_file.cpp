@@ -156,38 +156,6 @@ void require_mjcf(const MjcfDocument& document) {
                                   tag, tag == "sdf" ? ": SDF is not read, convert it first" : ""));
 }
 
-/// Checks that the bodies of a loop of the YAML file are there.
-void check_bodies(const MjcfDocument& document, const LoopKeys& loop, const std::string& key,
-                  const RobotKeys& keys) {
-  for (const std::string& body : loop.bodies) {
-    if (document.find("body", body) != nullptr) continue;
-    keys.fail(key, missing(document, "body", body));
-  }
-}
-
-/// Lets a connection of sites be one of their bodies. The anchors follow after compiling.
-LoopEnds connect_bodies(MjcfDocument& document, XMLElement& connect) {
-  LoopEnds ends;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const std::string key = fmt::format("site{}", i + 1);
-    const std::string name = ends.sites[i] = attribute(connect, key.c_str());
-    if (name.empty()) continue;
-    XMLElement* const site = document.find("site", name);
-    if (site == nullptr) {
-      document.fail(connect, fmt::format("{}: {}: {}", title_of(connect), key,
-                                         missing(document, "site", name)));
-    }
-    XMLElement& body = *site->Parent()->ToElement();
-    if (body.Attribute("name") == nullptr) {
-      document.set(body, "name", fmt::format("{}body_of_{}", own_prefix, name));
-    }
-    document.replace(connect, key.c_str(), fmt::format("body{}", i + 1),
-                     std::string(attribute(body, "name")));
-    if (i == 0) document.set(connect, "anchor", "0 0 0");
-  }
-  return ends;
-}
-
 }  // namespace
 
 std::string missing(const MjcfDocument& document, const char* tag, const std::string& name) {
@@ -201,6 +169,7 @@ std::string missing(const MjcfDocument& document, const char* tag, const std::st
 
 void keep_robot_only(RobotFile& robot) {
   MjcfDocument& document = robot.document;
+  require_mjcf(document);
   XMLElement& root = document.root();
   const bool has_robot =
       std::ranges::any_of(in_sections(root, "worldbody", "body"),
@@ -214,21 +183,6 @@ void keep_robot_only(RobotFile& robot) {
   // Ranges count as limits without `limited`, as in MuJoCo from version 2.3 on. The file's own
   // <compiler> comes later and counts more.
   document.insert_first(root, "<compiler autolimits=\"true\"/>");
-}
-
-void complete_loops(RobotFile& robot, const PartNames& parts, const RobotKeys& keys) {
-  for (XMLElement* const connect : in_sections(robot.document.root(), "equality")) {
-    robot.ends.push_back(connect_bodies(robot.document, *connect));
-  }
-  for (std::size_t i = 0; i < parts.loops.size(); ++i) {
-    const LoopKeys& loop = parts.loops[i];
-    const std::string key = fmt::format("loops.{}", i);
-    check_bodies(robot.document, loop, key, keys);
-    robot.loops += fmt::format(
-        "<equality><connect name=\"{}\" body1=\"{}\" body2=\"{}\" anchor=\"{}\"/></equality>", key,
-        loop.bodies[0], loop.bodies[1], fmt::join(loop.anchor, " "));
-    robot.ends.push_back({{}, loop.second_anchor});
-  }
 }
 
 void note_computed_masses(RobotFile& robot) {
@@ -253,20 +207,6 @@ void note_computed_masses(RobotFile& robot) {
                   "<inertial>, or a mass or density of the shapes)",
                   document.place_of(*first), names.size(), names.size() == 1 ? "" : "s",
                   fmt::join(names, ", ")));
-}
-
-RobotFile robot_file(const RobotDescription& description, const RobotKeys& keys) {
-  MjcfDocument document = MjcfDocument::load(description.mjcf);
-  const bool is_urdf = std::string_view(document.root().Name()) == "robot";
-  RobotFile robot = is_urdf ? converted_urdf(std::move(document), description.parts.base)
-                            : RobotFile{std::move(document)};
-  require_mjcf(robot.document);
-  keep_robot_only(robot);
-  complete_loops(robot, description.parts, keys);
-  translate_later_versions(robot);
-  note_computed_masses(robot);
-  drop_missing_assets(robot);
-  return robot;
 }
 
 }  // namespace touchdown::models

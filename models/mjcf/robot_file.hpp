@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "models/mjcf/document.hpp"
-#include "models/robot_description.hpp"
 
 namespace touchdown::models {
 
@@ -37,21 +36,12 @@ struct RobotFile {
 /// "expected a body named 'x' in robot.xml (did you mean 'y'?)", or with the names that there are.
 std::string missing(const MjcfDocument& document, const char* tag, const std::string& name);
 
-/// Reads the file of a description. Errors: `InputError` for what is no robot, or cannot be
-/// simulated.
-RobotFile robot_file(const RobotDescription& description, const RobotKeys& keys);
-
 /// Reduces an MJCF to its robot. Solver options, flags, gravity, sizes, sensors, keyframes, contact
 /// pairs and what stands still beside the robot are removed: the scene has its own, or does
 /// without. A robot that is fixed to the world gets a free joint. Errors: `InputError` for
 /// everything that changes the physics and that not every engine is given: tendons, welds, coupled
 /// joints, moving bodies beside the robot, or more than 5,000 geoms.
 void keep_robot_only(RobotFile& robot);
-
-/// Completes the loops of closed legs: those of the YAML file become <connect>s. Connections of
-/// sites, as MuJoCo 3 has them, become ones of their bodies. Errors: `InputError` for names that
-/// the MJCF does not have.
-void complete_loops(RobotFile& robot, const PartNames& parts, const RobotKeys& keys);
 
 /// Warns of bodies with masses that MuJoCo computes from their shapes at its own density.
 void note_computed_masses(RobotFile& robot);
