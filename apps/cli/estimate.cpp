@@ -49,13 +49,13 @@ class BeliefWriter {
   /// A null stream means no such output. Streams must outlive this object.
   BeliefWriter(const EstimateStreams& streams, const std::optional<DrawnPart>& drawn)
       : csv_(streams.csv), drawn_(drawn) {
-    if (csv_ != nullptr) *csv_ << experiments::belief_columns;
     if (streams.mpack != nullptr) annotator_.emplace(*streams.mpack);
     if (streams.mcap != nullptr) bag_.emplace(*streams.mcap);
   }
 
   /// Call it before the first step, once the log's rate and robot are known.
   void begin(const experiments::LogSteps& log, bool labelled) {
+    if (csv_ != nullptr) *csv_ << experiments::belief_columns;
     threshold_ = scoring::force_threshold(labels_, log.robot_mass());
     summary_.emplace(log.period(), scoring::ScoringConfig{});
     score_.emplace(log.period_us(), labels_, log.robot_mass(), scoring::ScoringConfig{}, labelled);

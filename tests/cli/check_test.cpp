@@ -213,11 +213,10 @@ TEST_F(CheckOfARobot, PrintsWhatItReadAsTextOrJsonAndExitsWithZero) {
 }
 
 TEST_F(CheckOfARobot, PrintsItsComplaintsAndExitsWithOne) {
-  folder_.write("robot.xml", edited_upkie({added("<tendon/>\n<extension/>")}));
+  folder_.write("robot.xml", edited_upkie({added("<tendon/>")}));
   const Ended ended = folder_.run("check robot.xml");
   EXPECT_EQ(ended.exit_code, 1);
-  EXPECT_THAT(ended.output, AllOf(HasSubstr("complaint: robot.xml:149:1: tendon"),
-                                  HasSubstr("\ncomplaint: robot.xml:150:1: extension")));
+  EXPECT_THAT(ended.output, HasSubstr("complaint: robot.xml:149:1: tendon"));
 }
 
 TEST_F(InFolder, CheckWritesTheFileOfARobotAndDrawsIt) {

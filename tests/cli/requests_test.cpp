@@ -220,14 +220,15 @@ TEST_F(UnknownFlag, OfAnyCommandNamesTheFlagThatWasMeant) {
 }
 
 TEST_F(UnknownFlag, OfOneLetterOrOfAFileShowsWhatWasMeant) {
-  folder_.expect_refusals({{"-v", {"did you mean '--version'?"}},
-                           {"estimate -e x log", {"did you mean '--estimator'?"}},
-                           {"list scenaros", {"list: 'scenaros': expected no further word"}},
-                           {"compare a b --metric acuracy",
-                            {"--metric: 'acuracy': expected accuracy or balanced_accuracy (did you "
-                             "mean 'accuracy'?)"}},
-                           {"render log -o a.mp4 --quality pgae", {"did you mean 'page'?"}},
-                           {"fit -z", {"known: "}}});
+  folder_.expect_refusals(
+      {{"-v", {"did you mean '--version'?"}},
+       {"estimate -e x log", {"did you mean '--estimator'?"}},
+       {"list scenaros", {"unknown kind of file 'scenaros' (did you mean 'scenario'?)"}},
+       {"compare a b --metric acuracy",
+        {"--metric: 'acuracy': expected accuracy or balanced_accuracy (did you "
+         "mean 'accuracy'?)"}},
+       {"render log -o a.mp4 --quality pgae", {"did you mean 'page'?"}},
+       {"fit -z", {"known: "}}});
   for (const std::string name : {"-run.mpack", "--out", "-r"}) {
     folder_.write(name, "");
     folder_.expect_refusals(

@@ -139,7 +139,7 @@ class WrittenInPython(InExperimentFolder):
         return numbers
 
     def test_has_its_title_in_the_tables_of_studies(self):
-        studies = {"benchmark": {}, "ablation": {}, "sweep": {"accelerometer.bias": [0, 0.1]}}
+        studies = {"benchmark": {}, "ablation": {}, "vary": {"sensors.accelerometer.bias": [0, 0.1]}}
         for key, section in studies.items():
             result = touchdown.run("hops.yaml", overrides={"estimators": ["free_fall", "python:mine.Same"], "noise.seeds": 1,
                                                            "test.runs": 1, key: section}, out=key)

@@ -81,9 +81,10 @@ noise: {torque: [3.0], accelerometer: [0.0, 5.0], seeds: 2}
 }
 
 TEST_F(ABase, KeepsTheOrderOfItsKeys) {
-  folder.write("swept.yaml", base + "vary: {sensors.torque.scale: [0.1], sensors.torque.bias: [0.2]}\n");
-  folder.write("own.yaml",
-               "base: " + path("swept.yaml") + "\nvary: {sensors.dropout: [0.01], sensors.torque.bias: [0.3]}\n");
+  folder.write("swept.yaml",
+               base + "vary: {sensors.torque.scale: [0.1], sensors.torque.bias: [0.2]}\n");
+  folder.write("own.yaml", "base: " + path("swept.yaml") +
+                               "\nvary: {sensors.dropout: [0.01], sensors.torque.bias: [0.3]}\n");
   const std::string written = to_yaml(read("own.yaml"));
   EXPECT_LT(written.find("torque.scale"), written.find("torque.bias"));
   EXPECT_LT(written.find("torque.bias"), written.find("dropout"));

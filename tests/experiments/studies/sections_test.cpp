@@ -24,11 +24,12 @@ TEST(SectionsOfStudies, AreWrittenAsTheyAreReadAndOnlyIfSet) {
     const char* text;
     const char* written;
   };
-  for (const Section& section : {Section{"ablation: {}", "from: paper"},
-                                 Section{"ablation: {from: load_filter}", "to: robust"},
-                                 Section{"moments: true", "moments: true"},
-                                 Section{"odometry: {delay: [0.25, 0.5]}", "delay: [0.25, 0.5]"},
-                                 Section{"vary: {sensors.dropout: [0.25]}", "sensors.dropout: [0.25]"}}) {
+  for (const Section& section :
+       {Section{"ablation: {}", "from: paper"},
+        Section{"ablation: {from: load_filter}", "to: robust"},
+        Section{"moments: true", "moments: true"},
+        Section{"odometry: {delay: [0.25, 0.5]}", "delay: [0.25, 0.5]"},
+        Section{"vary: {sensors.dropout: [0.25]}", "sensors.dropout: [0.25]"}}) {
     EXPECT_THAT(reread_yaml(with_section(section.text)), HasSubstr(section.written));
     const std::string key(section.text, std::string_view(section.text).find(':') + 1);
     EXPECT_THAT(to_yaml(with_section("")), Not(HasSubstr(key)));
