@@ -114,8 +114,8 @@ std::vector<std::size_t> RunGroup::tested_on(std::string_view simulator) const {
 }
 
 std::span<const Task> Plan::tasks_of(std::size_t run) const {
-  const auto of_run = std::ranges::equal_range(tasks, run, {}, &Task::run);
-  return {of_run.begin(), of_run.end()};
+  const auto first = std::ranges::lower_bound(tasks, run, {}, &Task::run);
+  return {first, std::ranges::upper_bound(tasks, run, {}, &Task::run)};
 }
 
 std::string_view to_text(RunRole role) { return role == RunRole::fit ? "fit" : "test"; }

@@ -214,8 +214,8 @@ void MjcfDocument::add_file(const std::filesystem::path& file,
     from = end;
     const std::filesystem::path other =
         (folder / std::string(attribute(element, "file"))).lexically_normal();
-    const auto fail = [&](const std::string& message) {
-      const auto [line, column] = place_in_text(std::string_view(text).substr(0, begin), 1, 1);
+    const auto fail = [&, before = std::string_view(text).substr(0, begin)](const auto& message) {
+      const auto [line, column] = place_in_text(before, 1, 1);
       throw InputError(fmt::format("{}:{}:{}: include: {}", file.string(), line, column, message));
     };
     std::error_code ignored;
