@@ -233,9 +233,8 @@ struct CrossSimulatorResult {
 };
 
 /// Compares the runs of the two engines and the loss of estimators that were fitted in the other
-/// engine, separates causes, and gives verdicts. A failed
-/// verdict is a result, not an error. Errors: `Error` when the robot completes no test run in both
-/// engines.
+/// engine, separates causes, and gives verdicts. A failed verdict is a result, not an error.
+/// Errors: `Error` when the robot completes no test run in both engines.
 CrossSimulatorResult check_across_simulators(const Evaluation& evaluation);
 
 /// Writes `tables/{agreement,torques,transfer,verdicts}.csv`, those of causes, and
