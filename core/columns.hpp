@@ -51,9 +51,7 @@ class Columns {
   template <typename Getter>
   Columns& interval(const std::string& name, Getter getter) {
     last_ = columns_.size();
-    columns_.push_back({name, ColumnRole::metric, ColumnType::measured});
-    columns_.push_back({bound_name(name, "_low"), ColumnRole::low, ColumnType::measured});
-    columns_.push_back({bound_name(name, "_high"), ColumnRole::high, ColumnType::measured});
+    add_interval(name, columns_);
     cells_.push_back([getter](const Row& row, std::vector<Cell>& cells) {
       add_interval(std::invoke(getter, row), cells);
     });

@@ -123,6 +123,18 @@ std::string bound_name(const std::string& name, const char* end) {
   return std::string(name).insert(name.size() - (has_unit ? 3 : 0), end);
 }
 
+void add_interval(const std::string& name, std::vector<Column>& columns) {
+  columns.push_back({name, ColumnRole::metric, ColumnType::measured});
+  columns.push_back({bound_name(name, "_low"), ColumnRole::low, ColumnType::measured});
+  columns.push_back({bound_name(name, "_high"), ColumnRole::high, ColumnType::measured});
+}
+
+void add_interval(const Interval& interval, std::vector<Cell>& cells) {
+  for (const double value : {interval.estimate, interval.low, interval.high}) {
+    cells.emplace_back(rounded(value));
+  }
+}
+
 Table select(const Table& table, const std::vector<std::string>& columns) {
   std::vector<std::size_t> places;
   for (const std::string& name : columns) {
@@ -271,12 +283,6 @@ std::string exact(double value) { return std::isnan(value) ? "nan" : fmt::format
 std::string metric(double value) { return std::isnan(value) ? "nan" : fixed(value, 6); }
 
 double rounded(double value) { return number_in(metric(value)); }
-
-void add_interval(const Interval& interval, std::vector<Cell>& cells) {
-  for (const double value : {interval.estimate, interval.low, interval.high}) {
-    cells.emplace_back(rounded(value));
-  }
-}
 
 std::string with_interval(const Interval& interval, int decimals) {
   if (std::isnan(interval.estimate)) return "–";

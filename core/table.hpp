@@ -84,6 +84,10 @@ class TableRow {
 /// `name_low_ms`.
 std::string bound_name(const std::string& name, const char* end);
 
+/// Appends the three columns, or the three cells, of a measured number with its interval.
+void add_interval(const std::string& name, std::vector<Column>& columns);
+void add_interval(const Interval& interval, std::vector<Cell>& cells);
+
 /// These columns of a table, in this order. A metric brings the ends of its interval along. Errors:
 /// `Error` for a column that it lacks.
 Table select(const Table& table, const std::vector<std::string>& columns);
@@ -138,9 +142,6 @@ std::string metric(double value);
 
 /// The number that `metric` prints.
 double rounded(double value);
-
-/// Appends the cells of a measured number with its interval.
-void add_interval(const Interval& interval, std::vector<Cell>& cells);
 
 /// For people: `0.987 [0.981, 0.992]`; a dash for an undefined value.
 std::string with_interval(const Interval& interval, int decimals = 3);

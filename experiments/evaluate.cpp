@@ -56,11 +56,8 @@ void evaluate(ExperimentContext& context, Computed& done) {
       missing.insert(run);
     }
   }
-  if (done.missing == MissingRun::refuse && !missing.empty()) {
-    throw Error(fmt::format("the results of {} are missing", plan.runs[*missing.begin()].file));
-  }
   const std::size_t saved = tasks.size() - missing.size();
-  if (done.missing == MissingRun::simulate && saved > 0) {
+  if (saved > 0) {
     print_message(fmt::format("{} of {} runs were evaluated before\n", saved, tasks.size()));
   }
   if (missing.empty()) return;
@@ -86,7 +83,7 @@ void evaluate(ExperimentContext& context, Computed& done) {
     run.signals = {};
     release_free_memory();  // the pieces of ever new sizes that runs leave
   };
-  for_each_rollout("evaluating", experiment, plan, missing, context.directory, done.missing,
+  for_each_rollout("evaluating", experiment, plan, missing, context.directory, MissingRun::simulate,
                    context.should_continue, evaluate_run);
   done.tasks += computed;
 }
@@ -94,7 +91,7 @@ void evaluate(ExperimentContext& context, Computed& done) {
 void run_model_tasks(ExperimentContext& context, const Computed& done) {
   if (!has_model_tasks(context.plan, done.share)) return;
   const StageTimer timer(context, "model_tasks");
-  run_model_tasks(context.plan, done.share, done.models, context.directory.store(), done.missing,
+  run_model_tasks(context.plan, done.share, done.models, context.directory.store(),
                   context.should_continue);
 }
 

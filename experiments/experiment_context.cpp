@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -19,37 +18,9 @@ namespace touchdown::experiments {
 
 namespace {
 
-/// The indices of the tasks that are not saved, or lack a recording of their run.
-std::vector<std::size_t> missing_tasks(const ExperimentContext& context) {
-  const Plan& plan = context.plan;
-  std::set<std::size_t> without_recording;
-  for (std::size_t i = 0; i < plan.runs.size(); ++i) {
-    if (!is_recorded(plan.runs[i], context.directory)) without_recording.insert(i);
-  }
-  std::vector<std::size_t> missing;
-  for (std::size_t t = 0; t < plan.tasks.size(); ++t) {
-    if (without_recording.contains(plan.tasks[t].run) ||
-        !saved_counts(plan, plan.tasks[t], context.directory.store())) {
-      missing.push_back(t);
-    }
-  }
-  return missing;
-}
-
-/// Errors: `InputError` when the saved state of a task belongs to another task or request.
-void require_own(const ExperimentContext& context, const Task& task) {
-  const std::optional<WrongPart> wrong =
-      context.directory.store().wrong_part(task_parts, task_name(context.plan, task));
-  if (!wrong) return;
-  throw InputError(fmt::format("{}: holds '{}', expected '{}'", wrong->file.string(), wrong->found,
-                               wrong->expected));
-}
-
-}  // namespace
-
 /// Errors: `Error` that names the settings to lower, if the plan and the signals of a fit's runs do
 /// not fit into memory. It is known before the plan, which may be too large itself.
-static void require_memory(const RunRequest& request) {
+void require_memory(const RunRequest& request) {
   constexpr double planned_bytes = sizeof(PlannedRun) + 512.0;  // with terrain and scripts
   constexpr double step_bytes =
       sizeof(Signals) + static_cast<double>(models::wheel_count) * (sizeof(double) + 1.0);
@@ -76,6 +47,8 @@ static void require_memory(const RunRequest& request) {
       experiment.noise.seeds, 1e-9 * needed, 1e-9 * memory,
       held > 0.5 * needed ? "fit.runs" : "test.runs or noise.seeds"));
 }
+
+}  // namespace
 
 Plan whole_plan(const RunRequest& request) {
   require_memory(request);
@@ -129,19 +102,6 @@ std::string what_is_saved(const ExperimentContext& context) {
       "stopped; {} of {} recordings and {} of {} parts of the evaluation are saved in {}; the "
       "same command continues from there",
       recordings, kept, parts, context.plan.tasks.size(), context.directory.path().string());
-}
-
-void require_all_shards(const ExperimentContext& context) {
-  const std::vector<std::size_t> missing = missing_tasks(context);
-  if (missing.empty() &&
-      !lacks_model_tasks(context.plan, context.plan.all_tasks(), context.directory.store()))
-    return;
-  for (const std::size_t task : missing) require_own(context, context.plan.tasks[task]);
-  throw InputError(fmt::format(
-      "{0}: {1} are missing: compute them by 'touchdown run {0}/config.yaml --out {0}'",
-      context.directory.path().string(),
-      missing.empty() ? "parts of its studies"
-                      : fmt::format("{} of {} parts", missing.size(), context.plan.tasks.size())));
 }
 
 }  // namespace touchdown::experiments

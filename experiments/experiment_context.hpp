@@ -45,7 +45,4 @@ ExperimentContext reopened(const std::filesystem::path& run_directory, const Run
 /// A message for the user who stopped the experiment: how much of it is saved.
 std::string what_is_saved(const ExperimentContext& context);
 
-/// Errors: `InputError` that counts the missing parts and names the command that computes them.
-void require_all_shards(const ExperimentContext& context);
-
 }  // namespace touchdown::experiments

@@ -174,9 +174,6 @@ void fit(ExperimentContext& context, Computed& done) {
   for (const NeededFit& needed : needed_fits(context, done)) {
     std::optional<SavedFit> fit = find(context, needed);
     if (!fit) {
-      if (done.missing == MissingRun::refuse) {
-        throw Error(fmt::format("the fit on {} is missing", part_name(needed)));
-      }
       fit = make(context, needed, chosen_in(done.trials));
       context.directory.store().put(fit_parts, part_name(needed), *fit);
       release_free_memory();

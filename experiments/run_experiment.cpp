@@ -48,7 +48,7 @@ RunDirectory open_run_directory(const RunRequest& request, Access access,
 }
 
 /// An experiment on one page. Each stage reads what is saved and computes the rest, so that a
-/// resumed run, a shard and a merge are the same calls. A shard ends when its tasks are evaluated,
+/// resumed run and a shard are the same calls. A shard ends when its tasks are evaluated,
 /// without a result. Pictures are drawn from the result (render/report/report.hpp). Errors:
 /// `Stopped`, with what is saved; `Error` with the reasons if no test run can be scored.
 std::optional<ExperimentResult> run_stages(ExperimentContext& context, Computed& done) try {
@@ -66,9 +66,23 @@ std::optional<ExperimentResult> run_stages(ExperimentContext& context, Computed&
   throw Stopped(what_is_saved(context));
 }
 
-ExperimentResult whole(ExperimentContext& context, MissingRun missing) {
-  Computed done{context.plan.all_tasks(), missing};
+ExperimentResult whole(ExperimentContext& context) {
+  Computed done{context.plan.all_tasks()};
   return *run_stages(context, done);
+}
+
+/// A message if shards ran on processors of different classes.
+void compare_processors(const RunDirectory& directory) {
+  std::set<std::string> processors;
+  for (const std::string& shard : directory.store().names(processor_parts)) {
+    const auto processor = directory.store().find<std::string>(processor_parts, shard);
+    if (processor) processors.insert(*processor);
+  }
+  if (processors.size() < 2) return;
+  print_message(fmt::format(
+      "touchdown: {}: its shards ran on different processors ({}), so that last digits, and runs "
+      "that these decide, differ from those of one machine\n",
+      directory.path().string(), fmt::join(processors, "; ")));
 }
 
 }  // namespace
@@ -100,7 +114,7 @@ ExperimentResult run_experiment(const Experiment& experiment, const RunOptions& 
   remove_partial_files(directory.path());
   ExperimentContext context =
       start(std::move(request), std::move(plan), std::move(directory), options);
-  return whole(context, MissingRun::simulate);
+  return whole(context);
 }
 
 ShardReport run_shard(const Experiment& experiment, const Shard& shard, const RunOptions& options) {
@@ -115,7 +129,7 @@ ShardReport run_shard(const Experiment& experiment, const Shard& shard, const Ru
   const TaskRange tasks{shard.begin(all), shard.end(all)};
   ShardReport report{context.directory, tasks.size(), 0, {}};
   if (tasks.size() == 0) return report;
-  Computed done{tasks, MissingRun::simulate, true};
+  Computed done{tasks, true};
   (void)run_stages(context, done);
   report.computed = done.tasks;
   for (const auto& [index, run] : done.runs) {
@@ -124,21 +138,10 @@ ShardReport run_shard(const Experiment& experiment, const Shard& shard, const Ru
   return report;
 }
 
-ExperimentResult merge_run(const std::filesystem::path& path, const RunOptions& options) {
+ExperimentResult finish_run(const std::filesystem::path& path, const RunOptions& options) {
   ExperimentContext context = reopened(path, options);
-  require_all_shards(context);
-  std::set<std::string> processors;
-  for (const std::string& shard : context.directory.store().names(processor_parts)) {
-    const auto processor = context.directory.store().find<std::string>(processor_parts, shard);
-    if (processor) processors.insert(*processor);
-  }
-  if (processors.size() > 1) {
-    print_message(fmt::format(
-        "touchdown: {}: its shards ran on different processors ({}), so that last digits, and runs "
-        "that these decide, differ from those of one machine\n",
-        context.directory.path().string(), fmt::join(processors, "; ")));
-  }
-  return whole(context, MissingRun::refuse);
+  compare_processors(context.directory);
+  return whole(context);
 }
 
 }  // namespace touchdown::experiments

@@ -43,10 +43,9 @@ struct ShardReport {
 /// from other machines. Errors: as above.
 ShardReport run_shard(const Experiment& experiment, const Shard& shard, const RunOptions& options);
 
-/// Merges the shards in a run directory. The result and the files equal those of `run_experiment`
-/// to the byte. Simulates and evaluates nothing.
-/// Errors: `InputError` when there is no run, when another build computed it, or with the names of
-/// the unfinished shards.
-ExperimentResult merge_run(const std::filesystem::path& directory, const RunOptions& options);
+/// Computes what a run directory lacks, such as the results after its last shard. The result and
+/// the files equal those of `run_experiment` to the byte. A message names different processors of
+/// shards. Errors: `InputError` when there is no run, or when another build computed it; as above.
+ExperimentResult finish_run(const std::filesystem::path& directory, const RunOptions& options);
 
 }  // namespace touchdown::experiments

@@ -13,13 +13,12 @@ namespace touchdown::experiments {
 
 /// The stages of an experiment; experiments/run_experiment.cpp puts them in order. The sources are
 /// experiments/fit.cpp, evaluate.cpp and summarize.cpp. Each stage asks the store for what is saved
-/// and computes the rest, so that a resumed run, a shard and a merge are the same calls. Signals of
+/// and computes the rest, so that a resumed run and a shard are the same calls. Signals of
 /// a run are in memory only while it is used. Errors of all stages: `Stopped`.
 
 /// A share of an experiment's tasks, and what the stages have found for it so far.
 struct Computed {
   TaskRange share;
-  MissingRun missing;     ///< what to do with results that are not saved
   bool is_shard = false;  ///< whether other processes compute the other tasks
 
   FinishedRuns runs = {};  ///< the share's test runs, and those of their fits
@@ -44,8 +43,7 @@ class StageTimer {
 
 /// Makes the fits that the evaluation of the share needs, with their tuning and refits, one after
 /// the other: the runs of one fit at a time are in memory. A fit without a tuning of its own uses
-/// the choices of the experiment's own fit. Errors: those of `require_fittable`; `Error` for a fit
-/// that is missing and must not be made.
+/// the choices of the experiment's own fit. Errors: those of `require_fittable`.
 void fit(ExperimentContext& context, Computed& done);
 
 /// Errors: `InputError` with the estimators that cannot be fitted, what their runs lack, and the
@@ -54,7 +52,7 @@ void fit(ExperimentContext& context, Computed& done);
 void require_fittable(const Experiment& experiment, const std::vector<Rollout>& fitted_runs);
 
 /// Simulates the test runs of the share's tasks that are not saved, evaluates each at once, and
-/// saves the results. Errors: `Error` for a task that is missing and must not be computed.
+/// saves the results.
 void evaluate(ExperimentContext& context, Computed& done);
 
 /// Computes the share's model tasks (`Plan::model_tasks`).

@@ -42,7 +42,8 @@ struct FormerVerb {
   std::string_view name;
   const char* successor;
 };
-constexpr std::array former_verbs = {FormerVerb{"keys", "touchdown list KIND"},
+constexpr std::array former_verbs = {FormerVerb{"merge", "touchdown run DIR"},
+                                     FormerVerb{"keys", "touchdown list KIND"},
                                      FormerVerb{"manual", "touchdown list commands --markdown"},
                                      FormerVerb{"clean", "rm -r runs/NAME/ID"}};
 
@@ -81,7 +82,6 @@ int run_command_line(int argc, char** argv) {
   program.require_subcommand(1);
   program.failure_message(CLI::FailureMessage::simple);
   add_run(program, session);
-  add_merge(program, session);
   add_generate(program, session);
   add_simulate(program, session);
   add_render(program, session);

@@ -67,7 +67,7 @@ void figure(const FigureFlags& flags, const CliSession& session) {
                     near.empty() ? fmt::format(" (it has: {})", fmt::join(names, ", ")) : near));
   }
   const fs::path script = fs::path(flags.directory) / "figures" / (flags.name + ".gp");
-  experiments::ExperimentResult result = experiments::merge_run(
+  experiments::ExperimentResult result = experiments::finish_run(
       flags.directory, {.out = {},
                         .command = subject.manifest.value("command", session.command),
                         .stop = session.stop});

@@ -41,12 +41,6 @@ std::string last_screen(const experiments::ExperimentResult& result, const CliSe
                             session.program, next);
 }
 
-void add_picture_flags(Verb& verb, ShownPictures* pictures) {
-  verb.flag("--no-pictures", &pictures->none, "Write tables only, without figures and videos");
-  verb.flag("--no-video", &pictures->no_video,
-            "Write tables, figures and the report, but no videos");
-}
-
 /// Prints an experiment's result and its paths, and draws its figures and videos. Errors: `Error`
 /// if a demanded verdict fails.
 void show(experiments::ExperimentResult& result, const CliSession& session,
@@ -80,8 +74,7 @@ void run_one_shard(const experiments::Experiment& experiment, const experiments:
   print("{}", experiments::unused_runs_text(report.failed_runs));
   print("shard {}: {} parts, {} computed now\n", experiments::to_text(shard), report.tasks,
         report.computed);
-  print("when all {} are done: touchdown merge {}\n", shard.count,
-        report.directory.path().string());
+  print("when all {} are done: touchdown run {}\n", shard.count, report.directory.path().string());
 }
 
 void outline(const experiments::Experiment& experiment, const experiments::RunOptions& options) {
@@ -93,7 +86,28 @@ void outline(const experiments::Experiment& experiment, const experiments::RunOp
   for (const auto& [name, items] : outline.model_tasks) print("besides   {}, {}\n", name, items);
 }
 
+/// Errors: `InputError` for a flag that would make another experiment of a run directory.
+void require_as_it_is(const RunFlags& flags) {
+  for (const auto& [is_given, flag] :
+       {std::pair{!flags.out.empty(), "--out"}, std::pair{!flags.overrides.empty(), "--set"},
+        std::pair{!flags.shard.empty(), "--shard"}, std::pair{flags.overwrite, "--overwrite"},
+        std::pair{flags.dry_run, "--dry-run"}}) {
+    if (!is_given) continue;
+    throw InputError(fmt::format(
+        "{0}: is a run directory, which is finished as it is: for {1} give its experiment, {2}",
+        flags.experiment, flag,
+        (std::filesystem::path(flags.experiment) / "config.yaml").string()));
+  }
+}
+
 void run(const RunFlags& flags, const CliSession& session) {
+  if (is_folder(flags.experiment)) {
+    require_as_it_is(flags);
+    experiments::ExperimentResult result = experiments::finish_run(
+        flags.experiment, {.out = {}, .command = session.command, .stop = session.stop});
+    show(result, session, flags.pictures);
+    return;
+  }
   std::optional<experiments::Shard> shard;
   if (!flags.shard.empty()) shard = experiments::shard_from(flags.shard.front());
   const YamlDocument document =
@@ -117,17 +131,6 @@ void run(const RunFlags& flags, const CliSession& session) {
   show(result, session, flags.pictures);
 }
 
-struct MergeFlags {
-  std::string directory;
-  ShownPictures pictures;
-};
-
-void merge(const MergeFlags& flags, const CliSession& session) {
-  experiments::ExperimentResult result = experiments::merge_run(
-      flags.directory, {.out = {}, .command = session.command, .stop = session.stop});
-  show(result, session, flags.pictures);
-}
-
 }  // namespace
 
 void add_run(CLI::App& program, const CliSession& session) {
@@ -135,9 +138,10 @@ void add_run(CLI::App& program, const CliSession& session) {
       program, "run",
       "touchdown run experiments/stairs.yaml\n\n"
       "Runs an experiment: simulates, fits and runs estimators on noisy signals, scores them and\n"
-      "draws figures.");
+      "draws figures. Of a run directory it computes what is missing, such as the results after\n"
+      "its last shard.");
   const auto flags = std::make_shared<RunFlags>();
-  verb.option("experiment", &flags->experiment, "Experiment file").required();
+  verb.option("experiment", &flags->experiment, "Experiment file, or a run directory").required();
   verb.option("--out", &flags->out, "Run directory (default: runs/<experiment>/<id>)")
       .value_name("DIR");
   verb.option("--set", &flags->overrides,
@@ -145,7 +149,7 @@ void add_run(CLI::App& program, const CliSession& session) {
       .value_name("KEY=VALUE")
       .one_at_a_time();
   verb.option("--shard", &flags->shard,
-              "Compute shard K of N into the run directory, for `touchdown merge`")
+              "Compute shard K of N into the run directory; after all of them: touchdown run DIR")
       .value_name("K/N")
       .takes(1);
   verb.flag("--overwrite", &flags->overwrite,
@@ -153,20 +157,11 @@ void add_run(CLI::App& program, const CliSession& session) {
   verb.flag("--dry-run", &flags->dry_run,
             "Only check the experiment; print its run directory, the number of parts in which it\n"
             "can be computed, and its runs");
-  add_picture_flags(verb, &flags->pictures);
+  verb.flag("--no-pictures", &flags->pictures.none,
+            "Write tables only, without figures and videos");
+  verb.flag("--no-video", &flags->pictures.no_video,
+            "Write tables, figures and the report, but no videos");
   verb.action([flags, &session] { run(*flags, session); });
-}
-
-void add_merge(CLI::App& program, const CliSession& session) {
-  Verb verb(program, "merge",
-            "touchdown merge runs/stairs/latest\n\n"
-            "Merges the results of an experiment's shards in its run directory.");
-  const auto flags = std::make_shared<MergeFlags>();
-  verb.option("directory", &flags->directory, "Run directory that the shards share")
-      .required()
-      .value_name("DIR");
-  add_picture_flags(verb, &flags->pictures);
-  verb.action([flags, &session] { merge(*flags, session); });
 }
 
 }  // namespace touchdown::cli

@@ -70,7 +70,6 @@ struct CliSession {
 
 /// Each function adds one verb and its flags to the program. The verb runs at the end of parsing.
 void add_run(CLI::App& program, const CliSession& session);
-void add_merge(CLI::App& program, const CliSession& session);
 void add_generate(CLI::App& program, const CliSession& session);
 void add_simulate(CLI::App& program, const CliSession& session);
 void add_render(CLI::App& program, const CliSession& session);

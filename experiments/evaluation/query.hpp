@@ -96,16 +96,11 @@ Answer<Score> answer(const std::vector<Scored<Score>>& rows, const Query<Score>&
   }
   std::vector<std::function<double(const Score&)>> statistics;
   Table table{query.by.list(), std::vector<std::vector<Cell>>(lines.size())};
-  const auto add_columns = [&](const std::string& name) {
-    table.columns.push_back({name, ColumnRole::metric, ColumnType::measured});
-    table.columns.push_back({bound_name(name, "_low"), ColumnRole::low, ColumnType::measured});
-    table.columns.push_back({bound_name(name, "_high"), ColumnRole::high, ColumnType::measured});
-  };
   for (const Statistic<Score>& one : query.statistics) {
     statistics.push_back(one.of);
-    add_columns(one.name);
+    add_interval(one.name, table.columns);
   }
-  for (const Difference<Score>& one : query.differences) add_columns(one.name);
+  for (const Difference<Score>& one : query.differences) add_interval(one.name, table.columns);
   table.columns.insert(table.columns.end(), query.totals.list().begin(), query.totals.list().end());
   if (!query.runs.empty()) {
     table.columns.push_back({query.runs, ColumnRole::runs, ColumnType::count});

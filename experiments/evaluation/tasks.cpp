@@ -46,33 +46,18 @@ bool has_model_tasks(const Plan& plan, const TaskRange& tasks) {
 }
 
 void run_model_tasks(const Plan& plan, const TaskRange& tasks, const FittedModels& models,
-                     const Store& store, MissingRun missing,
-                     const ShouldContinue& should_continue) {
+                     const Store& store, const ShouldContinue& should_continue) {
   for (const ModelTasks& one : plan.model_tasks) {
     const TaskRange items = share_of(one, tasks, plan.tasks.size());
     Progress progress(title_of(one), one.unit + "s", static_cast<std::int64_t>(items.size()));
     tbb::parallel_for(items.begin, items.end, [&](std::size_t item) {
       if (!should_continue()) throw Stopped();
       const std::string name = name_of(one, item);
-      (void)store.get<std::string>(one.name, name, [&] {
-        if (missing == MissingRun::refuse) {
-          throw Error(fmt::format("state/{}/{} is missing", one.name, name));
-        }
-        return one.compute(item, models, should_continue);
-      });
+      (void)store.get<std::string>(one.name, name,
+                                   [&] { return one.compute(item, models, should_continue); });
       progress.advance();
     });
   }
-}
-
-bool lacks_model_tasks(const Plan& plan, const TaskRange& tasks, const Store& store) {
-  for (const ModelTasks& one : plan.model_tasks) {
-    const TaskRange items = share_of(one, tasks, plan.tasks.size());
-    for (std::size_t item = items.begin; item < items.end; ++item) {
-      if (!saved_result(one, item, store)) return true;
-    }
-  }
-  return false;
 }
 
 void add_scores(const MeasuredPrediction& prediction, std::span<const Measure> measures,

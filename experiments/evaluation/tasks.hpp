@@ -29,13 +29,10 @@ TaskRange share_of(const ModelTasks& model_tasks, const TaskRange& tasks, std::s
 /// Whether that share holds any work.
 bool has_model_tasks(const Plan& plan, const TaskRange& tasks);
 
-/// Computes and saves, in parallel, the items of this share that are not saved yet. Errors: `Error`
-/// for an item that is missing and must not be computed; `Stopped`; those of the tasks.
+/// Computes and saves, in parallel, the items of this share that are not saved yet. Errors:
+/// `Stopped`; those of the tasks.
 void run_model_tasks(const Plan& plan, const TaskRange& tasks, const FittedModels& models,
-                     const Store& store, MissingRun missing, const ShouldContinue& should_continue);
-
-/// Whether an item of this share is not saved.
-bool lacks_model_tasks(const Plan& plan, const TaskRange& tasks, const Store& store);
+                     const Store& store, const ShouldContinue& should_continue);
 
 /// What a measure found in one run, or in one prediction.
 struct MeasuredBytes {

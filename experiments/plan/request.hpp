@@ -82,9 +82,9 @@ void require_place(const RunRequest& request, const std::filesystem::path& direc
 /// Whether a run directory already belongs to this request and this build.
 bool is_written(const RunRequest& request, const std::filesystem::path& directory);
 
-/// Writes the request into a directory that `require_place` allows. `merge` needs no other input.
-/// Removes the files of another request or build. The caller must hold the directory's exclusive
-/// lock.
+/// Writes the request into a directory that `require_place` allows. `finish_run` needs no other
+/// input. Removes the files of another request or build. The caller must hold the directory's
+/// exclusive lock.
 void write_request(const RunRequest& request, const RunDirectory& directory, bool overwrite);
 
 /// Reads the request of a directory. Errors: `InputError` when the directory holds none, one of

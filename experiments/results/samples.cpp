@@ -149,7 +149,7 @@ SampledRun read_samples(const fs::path& run_directory) {
   if (!is_there(table)) {
     throw InputError(
         fmt::format("{}: is not finished, or was made by an older touchdown: it has no "
-                    "tables/samples.csv; run it again, or `touchdown merge` its shards",
+                    "tables/samples.csv; `touchdown run` it again",
                     run_directory.string()));
   }
   return {run_directory.string(), cells_of(read_table(table)), bootstrap_in(config)};

@@ -111,14 +111,6 @@ std::vector<std::string> Store::names(std::string_view kind) const {
   return names;
 }
 
-std::optional<WrongPart> Store::wrong_part(std::string_view kind, std::string_view name) const {
-  const std::filesystem::path file = directory_ / "state" / kind / name;
-  const std::optional<SavedPart> part = read_part(file);
-  const std::string expected = key_of(kind, name);
-  if (!part || part->key == expected) return std::nullopt;
-  return WrongPart{file, part->key, expected};
-}
-
 std::string Store::key_of(std::string_view kind, std::string_view name) const {
   return fmt::format("{} {} part {}", key_, kind, name);
 }

@@ -97,17 +97,11 @@ T unpack(std::string_view& bytes) {
   return value;
 }
 
-/// A complete file at a part's place that another experiment, build or part wrote.
-struct WrongPart {
-  std::filesystem::path file;
-  std::string found;     ///< the key in the file
-  std::string expected;  ///< the key of the part
-};
-
 /// The parts of an experiment that are computed already, as bytes by kind and name. A resumed run,
-/// a shard and a merge ask for the same parts, whichever process computed them. Each file holds a
-/// key (experiment, build, kind, name) and a checksum; a file with another key, or a damaged one,
-/// counts as missing. Several threads and processes may use the same files at once.
+/// a shard and the run that finishes shards ask for the same parts, whichever process computed
+/// them. Each file holds a key (experiment, build, kind, name) and a checksum; a file with another
+/// key, or a damaged one, counts as missing. Several threads and processes may use the same files
+/// at once.
 class Store {
  public:
   /// Parts in memory, shared by all copies.
@@ -141,9 +135,6 @@ class Store {
 
   /// The names of the files of a kind, sorted; whole, damaged and other ones.
   [[nodiscard]] std::vector<std::string> names(std::string_view kind) const;
-  /// The file in a part's place, if it is whole but not this part.
-  [[nodiscard]] std::optional<WrongPart> wrong_part(std::string_view kind,
-                                                    std::string_view name) const;
 
  private:
   struct Memory;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # scripts/slurm/submit.sh EXPERIMENT SHARDS [SBATCH OPTION...]
-# Runs an experiment on a Slurm cluster: an array job of SHARDS tasks, and a job that merges their
-# results when all are done. Call it in the folder for the results, on a file system that all nodes
+# Runs an experiment on a Slurm cluster: an array job of SHARDS tasks, and a job that makes
+# the results when all are done. Call it in the folder for the results, on a file system that all nodes
 # share. TOUCHDOWN_PROGRAM names the program if it is not this checkout's. See docs/guides/shards.md.
 set -euo pipefail
 
@@ -45,11 +45,11 @@ log="$directory/logs/%x_%A_%a.txt"
 array="$(sbatch --parsable --output="$log" --job-name="shard" "$@" --array="1-$shards" \
   "$task" shard "$program" "$experiment" "$shards")" || exit $?
 array="${array%%;*}" # the name of a cluster may follow
-merge="$(sbatch --parsable --output="$directory/logs/%x_%j.txt" --job-name="merge" "$@" \
-  --dependency="afterok:$array" --kill-on-invalid-dep=yes "$task" merge "$program" "$directory")" ||
-  complain "the shards are job $array; when they are done: touchdown merge $directory" 1
-merge="${merge%%;*}"
+results="$(sbatch --parsable --output="$directory/logs/%x_%j.txt" --job-name="results" "$@" \
+  --dependency="afterok:$array" --kill-on-invalid-dep=yes "$task" results "$program" "$directory")" ||
+  complain "the shards are job $array; when they are done: touchdown run $directory" 1
+results="${results%%;*}"
 
 echo "array     $array: $shards tasks, $((parts / shards)) to $(((parts + shards - 1) / shards)) of $parts parts each"
-echo "merge     $merge: when all of them are done"
+echo "last      $results: when all of them are done"
 echo "results   $directory"

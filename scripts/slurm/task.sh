@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# submit.sh submits this: one task of the array, or the merge.
+# submit.sh submits this: one task of the array, or the results.
 #   task.sh shard PROGRAM EXPERIMENT SHARDS
-#   task.sh merge PROGRAM DIRECTORY
+#   task.sh results PROGRAM DIRECTORY
 # A task that Slurm requeues, because it was preempted or its node failed, continues from its saved
 # parts. A task requeues itself if its program is killed or its time runs out.
 #SBATCH --cpus-per-task=4
@@ -21,7 +21,7 @@ if [[ "$what" == shard ]]; then
   command=(run "$3" --shard "$SLURM_ARRAY_TASK_ID/$4" --set "workers=${SLURM_CPUS_PER_TASK:-0}")
 else
   job="$SLURM_JOB_ID"
-  command=(merge "$3")
+  command=(run "$3")
 fi
 restarts="${SLURM_RESTART_COUNT:-0}"
 

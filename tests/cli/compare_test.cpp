@@ -107,7 +107,7 @@ TEST_F(Compared, WhatCannotBeComparedIsRefusedInOneLine) {
       {"compare before others",
        {"no cell of engine, estimator and noise in common", "robust, measurement_only",
         "of the second: free_fall"}},
-      {"compare before older", {"older: ", "no tables/samples.csv; run it again"}},
+      {"compare before older", {"older: ", "no tables/samples.csv; `touchdown run` it again"}},
       {"compare before tiny.yaml", {"tiny.yaml: no run directory of an experiment"}},
       {"compare before before --metric f1", {"f1"}},
       {"compare before before -o before/tables/samples.csv", {"samples.csv"}},

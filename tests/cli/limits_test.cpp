@@ -105,7 +105,7 @@ TEST_F(Limits, LinksInPlaceOfARunsFoldersAreRefusedByName) {
                            {run + "dangling", {"figures: is a link"}},
                            {run + "own", {"tables: is a link"}},
                            {"report own", {"tables: is a link"}},
-                           {"merge own", {"tables: is a link"}}});
+                           {"run own", {"tables: is a link"}}});
   EXPECT_TRUE(fs::is_empty(folder_ / "mine"));
 }
 
@@ -235,7 +235,7 @@ TEST_F(Limits, TooFewDescriptorsAreNamedByEveryVerb) {
                                           "generate --count 1 -o generated",
                                           "render s.mpack -o b.mp4 --width 160 --height 120",
                                           "report out",
-                                          "merge out --no-pictures",
+                                          "run out --no-pictures",
                                           run + " --no-pictures"};
   for (const std::string& arguments : verbs) {
     for (const int descriptors :

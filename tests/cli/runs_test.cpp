@@ -184,7 +184,7 @@ TEST_F(Run, WithoutRecordingsContinuesAndMergesToTheSameBytes) {
   EXPECT_EQ(files_of("whole"), whole);
   run_tiny(none + "parts --shard 2/2");
   run_tiny(none + "parts --shard 1/2");
-  folder_.output_of("merge parts --no-pictures");
+  folder_.output_of("run parts --no-pictures");
   EXPECT_EQ(files_of("parts"), whole);
 }
 

@@ -109,7 +109,7 @@ TEST_F(RunDirectory, OfAnotherBuildIsComputedAnewWithoutAsking) {
   folder_.write("a/state/key", key.substr(0, key.find(" build ")) + " build 0123456789abcdef\n");
   write_atomically(experiments::record_file(folder_ / "a", "report.html"), "of that build");
   write_precious({"a/tables/notes.txt"});
-  folder_.expect_refusals({{"merge a", {"another build"}}});
+  folder_.expect_refusals({{"run a", {"another build"}}});
   folder_.output_of(run + "a");
   EXPECT_EQ(folder_.text("a/state/key"), key);
   EXPECT_FALSE(folder_.has("a/report.html"));
@@ -122,7 +122,7 @@ TEST_F(RunDirectory, WithoutItsStateIsComputedAnew) {
   write_finished_run(folder_);
   const auto before = result_files(folder_ / "a");
   fs::remove_all(folder_ / "a/state");
-  folder_.expect_refusals({{"merge a", {"a: holds no part of an experiment"}},
+  folder_.expect_refusals({{"run a", {"a: holds no part of an experiment"}},
                            {run + "a --set seed=4", {"a: holds experiment 'tiny'"}}});
   folder_.output_of(run + "a");
   EXPECT_EQ(result_files(folder_ / "a"), before);
@@ -179,7 +179,7 @@ TEST_F(Lock, OfARunRefusesOtherWritersAndNamesItsOwner) {
     StartedProgram running(long_run, folder_.path());
     running.let_run_until([&] { return folder_.has("a/config.yaml"); });
     for (const std::string& other :
-         std::vector<std::string>{long_run, "merge a", "report a", "render a -o x.mp4",
+         std::vector<std::string>{long_run, "run a", "report a", "render a -o x.mp4",
                                   "run x.yaml --set seed=4 --overwrite --out a"}) {
       folder_.expect_refusals(
           {{other, {"touchdown: a: is in use by process ", " --out a): wait until it has ended"}}},
@@ -190,7 +190,7 @@ TEST_F(Lock, OfARunRefusesOtherWritersAndNamesItsOwner) {
     running.end();
   }
   // A killed owner does not block others.
-  EXPECT_THAT(folder_.execute("merge a").errors, HasSubstr("parts are missing"));
+  EXPECT_THAT(folder_.execute("report a").errors, Not(HasSubstr("in use")));
 }
 
 TEST_F(Lock, OfAShardAdmitsOnlyOtherShards) {
@@ -198,12 +198,11 @@ TEST_F(Lock, OfAShardAdmitsOnlyOtherShards) {
   StartedProgram first(longer + " --shard 1/2 --set workers=1", folder_.path());
   first.let_run_until([&] { return folder_.has("a/state/processors/1_of_2"); });
   first.send(SIGSTOP);
-  folder_.expect_refusals({{"merge a", {"--shard 1/2"}}, {longer, {"a: is in use by process "}}},
-                          1);
+  folder_.expect_refusals({{"run a", {"--shard 1/2"}}, {longer, {"a: is in use by process "}}}, 1);
   EXPECT_EQ(folder_.execute(longer + " --shard 2/2").exit_code, 0);
   first.send(SIGCONT);
   EXPECT_EQ(first.end().exit_code, 0);
-  EXPECT_EQ(folder_.execute("merge a --no-pictures").exit_code, 0);
+  EXPECT_EQ(folder_.execute("run a --no-pictures").exit_code, 0);
 }
 
 TEST_F(Lock, LeavesShardsThatStartTogetherToAgreeOnTheirDirectory) {
@@ -223,7 +222,7 @@ TEST_F(Lock, LeavesShardsThatStartTogetherToAgreeOnTheirDirectory) {
       EXPECT_EQ(ended.exit_code, 0) << ended.errors;
     }
   }
-  EXPECT_EQ(folder_.execute("merge a --no-pictures").exit_code, 0);
+  EXPECT_EQ(folder_.execute("run a --no-pictures").exit_code, 0);
   EXPECT_EQ(folder_.execute(run + "whole").exit_code, 0);
   EXPECT_THAT(different_files(folder_ / "a", folder_ / "whole"), IsEmpty());
 }
@@ -236,9 +235,9 @@ void replace_in(const fs::path& file, const std::string& from, const std::string
   write_atomically(file, content.replace(at, from.size(), to));
 }
 
-using Merge = RunDirectory;
+using Finish = RunDirectory;
 
-TEST_F(Merge, RefusesAnExperimentThatWasChangedSinceItsPartsWereComputed) {
+TEST_F(Finish, RefusesAnExperimentThatWasChangedSinceItsPartsWereComputed) {
   folder_.output_of(run + "a --shard 1/1");
   for (const auto& [file, from, to, named] :
        {std::tuple{"a/config.yaml", "seed: 3", "seed: 7", "a: config.yaml"},
@@ -247,7 +246,7 @@ TEST_F(Merge, RefusesAnExperimentThatWasChangedSinceItsPartsWereComputed) {
     const std::string before = folder_.text(file);
     replace_in(folder_ / file, from, to);
     folder_.expect_refusals(
-        {{"merge a --no-pictures",
+        {{"run a --no-pictures",
           {fmt::format("{} was changed since: its inputs make request ", named), "expected "}}});
     write_atomically(folder_ / file, before);
   }
@@ -255,10 +254,10 @@ TEST_F(Merge, RefusesAnExperimentThatWasChangedSinceItsPartsWereComputed) {
   // From another folder and with one more comment it is the same experiment.
   replace_in(folder_ / "a/config.yaml", "name: tiny", "name: tiny  # of mine");
   const ProgramFolder elsewhere;
-  elsewhere.output_of("merge " + (folder_ / "a").string() + " --no-pictures");
+  elsewhere.output_of("run " + (folder_ / "a").string() + " --no-pictures");
 }
 
-TEST_F(Merge, LetsTheReportNameTablesThatWereEditedSince) {
+TEST_F(Finish, LetsTheReportNameTablesThatWereEditedSince) {
   write_finished_run(folder_);
   const std::string report = "report a --no-video --no-replay";
   EXPECT_EQ(folder_.run(report).errors, "");
@@ -273,7 +272,7 @@ TEST_F(Merge, LetsTheReportNameTablesThatWereEditedSince) {
   EXPECT_EQ(folder_.run(report).errors, "");
 }
 
-TEST_F(Merge, RefusesPartsOfOtherTasksByName) {
+TEST_F(Finish, ComputesPartsOfOtherTasksAnew) {
   folder_.output_of(run + "a --shard 1/1");
   const fs::path parts = folder_ / "a/state/evaluation";
   const std::string one = "mujoco_step_test_000_seed_0000";
@@ -281,12 +280,7 @@ TEST_F(Merge, RefusesPartsOfOtherTasksByName) {
   fs::rename(parts / one, parts / "kept");
   fs::rename(parts / other, parts / one);
   fs::rename(parts / "kept", parts / other);
-  folder_.expect_refusals({{"merge a --no-pictures",
-                            {"a/state/evaluation/" + one + ": holds '",
-                             " part " + other + "', expected '", " part " + one + "'"}}});
-  EXPECT_FALSE(folder_.has("a/tables"));
-  // The run itself computes the parts again.
-  folder_.output_of(run + "a");
+  folder_.output_of("run a --no-pictures");
   folder_.output_of(run + "whole");
   EXPECT_THAT(different_files(folder_ / "a", folder_ / "whole"), IsEmpty());
 }

@@ -92,8 +92,8 @@ TEST_F(Sensors, OfAProfileThatWasEditedAreAnotherRequest) {
   folder_.write("mine.yaml", "torque: {white: 0.2}\n");
   folder_.expect_refusals(
       {{"run tiny.yaml --out a --set sensors=mine.yaml", {"holds experiment 'tiny'"}}});
-  // A merge uses the profile of the run, not the edited file.
-  folder_.output_of("merge a --no-pictures");
+  // A run that is finished uses the profile of the run, not the edited file.
+  folder_.output_of("run a --no-pictures");
 }
 
 TEST_F(Sensors, OfAProfileThatIsWrongStopTheRunBeforeItBegins) {

@@ -44,7 +44,7 @@ TEST_F(Studies, EndInTheSameBytesAfterKillsAndFromShards) {
   for (const char* shard : {"2/3", "1/3", "3/3"}) {
     folder_.output_of(run + "parts --shard " + shard);
   }
-  folder_.output_of("merge parts --no-pictures");
+  folder_.output_of("run parts --no-pictures");
   EXPECT_THAT(different_files(result_files(folder_ / "parts"), expected), IsEmpty());
   for (const double seconds : {0.4, 0.8, 1.2, 1.6}) {
     StartedProgram program(run + "killed", folder_.path());
@@ -121,7 +121,7 @@ TEST_F(DropFigures, AreTheSameForARunAndForItsShards) {
     folder_.output_of(run + "b --set workers=1 --shard " + shard + drops);
   }
   EXPECT_FALSE(folder_.has("b/figures"));
-  folder_.output_of("merge b");
+  folder_.output_of("run b");
   EXPECT_TRUE(data_in(folder_ / "b") == files);
 }
 
@@ -154,15 +154,16 @@ TEST_F(Shards, OneThreeOrEightOfThemMergeToTheBytesOfOneRun) {
     for (int index = count; index >= 1; --index) {
       const std::string shard = fmt::format("{}/{}", index, count);
       EXPECT_THAT(folder_.output_of(fmt::format("{}{} --shard {}", run, out, shard)),
-                  AllOf(HasSubstr("shard " + shard), HasSubstr("touchdown merge " + out)));
+                  AllOf(HasSubstr("shard " + shard), HasSubstr("touchdown run " + out)));
     }
     EXPECT_FALSE(folder_.has(out + "/tables"));
-    folder_.output_of("merge " + out + pictures);
+    EXPECT_THAT(folder_.run("run " + out + pictures).errors,
+                HasSubstr("6 of 6 runs were evaluated before"));
     EXPECT_THAT(different_files(result_files(folder_ / out), expected), IsEmpty()) << count;
   }
 }
 
-TEST_F(Shards, AreNotComputedTwiceAndMissingPartsAreCountedByMerge) {
+TEST_F(Shards, AreNotComputedTwiceAndMissingPartsAreComputedAtTheEnd) {
   const auto computed = [&](const std::string& shard) {
     const std::string output = folder_.output_of(run + "a --shard " + shard);
     return output.substr(output.find(": ") + 2, output.find('\n') - output.find(": ") - 2);
@@ -175,22 +176,32 @@ TEST_F(Shards, AreNotComputedTwiceAndMissingPartsAreCountedByMerge) {
   for (const char* shard : {"1/5", "3/5", "5/5"}) {
     folder_.output_of(run + "b --shard " + shard);
   }
-  folder_.expect_refusals({{"merge b",
-                            {"4 of 12 parts are missing: compute them by 'touchdown run "
-                             "b/config.yaml --out b'"}}});
   EXPECT_FALSE(folder_.has("b/tables"));
-  folder_.output_of("run b/config.yaml --out b --no-pictures");
-  EXPECT_TRUE(folder_.has("b/tables"));
+  EXPECT_THAT(folder_.run("run b --no-pictures").errors,
+              HasSubstr(" of 6 runs were evaluated before"));
+  folder_.output_of("run a --no-pictures");
+  EXPECT_THAT(different_files(folder_ / "b", folder_ / "a"), IsEmpty());
 }
 
-TEST_F(Shards, OnDifferentProcessorsAreNamedByMerge) {
+TEST_F(Shards, AreFinishedAsTheyAre) {
   folder_.output_of(run + "a --shard 1/1");
-  const std::string merge = "merge a --no-pictures";
-  EXPECT_EQ(folder_.run(merge).errors, "");
+  for (const std::string flag :
+       {"--set seed=4", "--shard 1/2", "--out b", "--overwrite", "--dry-run"}) {
+    folder_.expect_refusals(
+        {{"run a " + flag,
+          {"a: is a run directory", "for " + flag.substr(0, flag.find(' ')), "a/config.yaml"}}});
+  }
+  folder_.expect_refusals({{"run .", {".: holds no part of an experiment"}}});
+}
+
+TEST_F(Shards, OnDifferentProcessorsAreNamedAtTheEnd) {
+  folder_.output_of(run + "a --shard 1/1");
+  const std::string finish = "run a --no-pictures";
+  EXPECT_THAT(folder_.run(finish).errors, Not(HasSubstr("processors")));
   const std::string key = folder_.text("a/state/key");
   experiments::Store(folder_ / "a", key.substr(0, key.find('\n')))
       .put("processors", "2_of_2", std::string("of another class"));
-  EXPECT_THAT(folder_.run(merge).errors,
+  EXPECT_THAT(folder_.run(finish).errors,
               AllOf(HasSubstr("a: its shards ran on different processors ("),
                     HasSubstr("of another class"), HasSubstr(processor_class())));
 }
@@ -201,7 +212,7 @@ TEST_F(Shards, WrongOnesAreRefusedInOneLine) {
               "touchdown: '" + shard +
                   "' is no shard: expected k/n with k from 1 to n, for example 1/3\n");
   }
-  folder_.expect_refusals({{"merge a", {}}, {run + "a --shard 1/2 --shard 2/2", {}}});
+  folder_.expect_refusals({{"run a", {}}, {run + "a --shard 1/2 --shard 2/2", {}}});
   EXPECT_FALSE(folder_.has("a"));
 }
 
@@ -241,7 +252,7 @@ perturbation: {yaw: 0.05}
   EXPECT_THAT(folder_.output_of(run + "parts --shard 1/2" + both),
               HasSubstr("Not used: mujoco_absurd"));
   folder_.output_of(run + "parts --shard 2/2" + both);
-  EXPECT_THAT(folder_.output_of("merge parts --no-pictures"), HasSubstr("Not used: bullet_absurd"));
+  EXPECT_THAT(folder_.output_of("run parts --no-pictures"), HasSubstr("Not used: bullet_absurd"));
   EXPECT_THAT(different_files(folder_ / "parts", folder_ / "some"), IsEmpty());
 }
 

@@ -123,7 +123,7 @@ TEST_F(Submission, ScoresAreKeptAndReplacedByName) {
   EXPECT_THAT(ran("run bench.yaml --out run --no-pictures"), HasSubstr("\n  second "));
   EXPECT_EQ(folder_.text("run/tables/benchmark.csv"), table);
   EXPECT_EQ(folder_.text("run/tables/results.csv"), results);
-  ran("merge run --no-pictures");
+  ran("run run --no-pictures");
   EXPECT_EQ(folder_.text("run/tables/benchmark.csv"), table);
   ran("report run");
   EXPECT_THAT(folder_.text("run/benchmark.html"), HasSubstr("scope=\"row\">second</th>"));

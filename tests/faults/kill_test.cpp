@@ -118,8 +118,8 @@ void expect_recovery(const Stage& stage, int some, int all) {
   EXPECT_GT(kills.kills(), 0);
 }
 
-/// Two shards, and their merge.
-std::string merge(const ScratchFolder& folder) {
+/// Two shards, and the results of both.
+std::string finish(const ScratchFolder& folder) {
   const std::string run = small_run_without_pictures(folder);
   if (!fs::exists(folder / "a")) {
     for (const char* shard : {" --shard 1/2", " --shard 2/2"}) {
@@ -127,7 +127,7 @@ std::string merge(const ScratchFolder& folder) {
       EXPECT_EQ(end.exit_code, 0) << end.errors;
     }
   }
-  return "merge a --no-pictures";
+  return "run a --no-pictures";
 }
 
 TEST(Kills, WhileItSimulates) {
@@ -158,7 +158,7 @@ TEST(Kills, WhileItRunsClosedLoops) {
   expect_recovery({"closed loop", small_closed_loop, "/closed_loop/", 0.02}, 1, 15);
 }
 
-TEST(Kills, WhileItMerges) { expect_recovery({"merging", merge, "", 0.02}, 1, 15); }
+TEST(Kills, WhileItFinishesShards) { expect_recovery({"finishing", finish, "", 0.02}, 1, 15); }
 
 #ifdef TOUCHDOWN_HAS_TRAINER
 TEST(Kills, WhileItTrains) {
@@ -214,7 +214,7 @@ TEST_F(Together, AShardThatIsKilledBesideAnotherIsComputedAgain) {
     const cli::Ended end = second.end();
     EXPECT_EQ(end.exit_code, 0) << end.errors;
     EXPECT_EQ(cli::StartedProgram(run + " --shard 2/2", folder.path()).end().exit_code, 0);
-    EXPECT_THAT(wrong_after(cli::StartedProgram("merge a --no-pictures", folder.path()).end(),
+    EXPECT_THAT(wrong_after(cli::StartedProgram("run a --no-pictures", folder.path()).end(),
                             folder / "a", expected),
                 IsEmpty());
   }

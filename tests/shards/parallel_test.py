@@ -27,10 +27,10 @@ def test(folder, touchdown):
                                   hosts=':'))
     check(output.count(' 0 computed now') == 3, f'something was computed twice: {output}')
 
-    # After a failed shard, the merge is not started.
+    # After a failed shard, the results are not made.
     output = folder.run(work.recipe('GNU parallel', experiment='tinny.yaml', out='no', shards='2',
                                   hosts=':'), fails=True)
-    check('tinny.yaml: no such file' in output and 'merge' not in output, output)
+    check('tinny.yaml: no such file' in output and 'evaluated before' not in output, output)
 
 
 def main():

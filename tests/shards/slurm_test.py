@@ -47,15 +47,15 @@ def stopped_process_of(shard, folder):
 
 
 class Array:
-    """The experiment's array job and its merge job."""
+    """The experiment's array job and the job of its results."""
 
     def __init__(self, slurm, folder):
         self.slurm, self.folder = slurm, folder
         output = slurm.run(SUBMIT, 'tiny.yaml', SHARDS, '--cpus-per-task=1', cwd=folder).stdout
         print(output, end='')
-        self.job, self.merge, results = re.search(
+        self.job, self.last, results = re.search(
             rf'^array +(\d+): {SHARDS} tasks, {PARTS} to {PARTS} of 240 parts each\n'
-            r'merge +(\d+):.*\nresults +(\S+)\n', output).groups()
+            r'last +(\d+):.*\nresults +(\S+)\n', output).groups()
         self.results = folder / results
 
     def parts(self, shard):
@@ -136,7 +136,7 @@ def test(slurm, touchdown):
     for shard in stopped:
         array.wait_for_restart(shard)
 
-    slurm.wait_for('the merge', lambda: array.state(array.merge) not in ('PENDING', 'RUNNING'), 200)
+    slurm.wait_for('the results', lambda: array.state(array.last) not in ('PENDING', 'RUNNING'), 200)
     logs = {shard: array.log(f'shard_{array.job}_{shard}.txt') for shard in stopped}
     for shard, (_, saved) in stopped.items():
         print(f'--- shard {shard}, stopped after {saved} parts\n{logs[shard]}', end='')
@@ -144,7 +144,7 @@ def test(slurm, touchdown):
         check(0 < computed <= PARTS - saved, f'{computed} were computed, {saved} were saved before')
     check('killed by signal 9; back to the queue' in logs[1], 'the killed task does not report it')
     check('out of time; back to the queue' in logs[3], 'the task out of time does not report it')
-    check(array.state(array.merge) == 'COMPLETED', array.log(f'merge_{array.merge}.txt'))
+    check(array.state(array.last) == 'COMPLETED', array.log(f'results_{array.last}.txt'))
 
     work.compare_with_local_run(array.results, touchdown, folder)
 

@@ -140,7 +140,7 @@ def test(hosts, touchdown):
     work.compare_with_local_run(hosts.work / 'out', touchdown, hosts.work)
 
     output = hosts.run(shared(out='no', experiment='tinny.yaml'), fails=True)
-    check('tinny.yaml: no such file' in output and 'merge' not in output, output)
+    check('tinny.yaml: no such file' in output and 'evaluated before' not in output, output)
 
     # GNU parallel over ssh, if it is installed, with hosts in parallel.
     if shutil.which('parallel'):

@@ -97,22 +97,6 @@ TEST(Store, TakesADamagedFileForMissing) {
   EXPECT_EQ(store.read("kind", "part"), bytes(200));
 }
 
-TEST(Store, NamesTheKeyOfAFileOfAnotherPart) {
-  const ScratchFolder folder;
-  const Store store(folder.path(), "experiment a build b");
-  store.write("kind", "other", bytes(50));
-  const auto file = folder.write("state/kind/part", read_file(folder / "state/kind/other"));
-  const std::optional<WrongPart> wrong = store.wrong_part("kind", "part");
-  ASSERT_TRUE(wrong.has_value());
-  EXPECT_EQ(wrong->file, file);
-  EXPECT_EQ(wrong->found, "experiment a build b kind part other");
-  EXPECT_EQ(wrong->expected, "experiment a build b kind part part");
-  EXPECT_FALSE(store.wrong_part("kind", "other").has_value());
-  write_atomically(file, read_file(file) + "x");
-  EXPECT_FALSE(store.wrong_part("kind", "part").has_value());
-  EXPECT_FALSE(store.wrong_part("kind", "missing").has_value());
-}
-
 TEST(Checksum, OfAFileIsThatOfItsContent) {
   const ScratchFolder folder;
   for (const std::size_t size : {0U, 5U, 4096U, 3'000'001U}) {

@@ -204,7 +204,7 @@ TEST(ABenchmark, RefitsInAShardOfOneEngineAreThoseOfTheWholeRun) {
   for (int shard = 1; shard <= 4; ++shard) {  // two of each engine
     (void)run_shard(experiment, {shard, 4}, {.out = folder / "parts", .command = "test"});
   }
-  (void)merge_run(folder / "parts", {.out = {}, .command = "test"});
+  (void)finish_run(folder / "parts", {.out = {}, .command = "test"});
   const std::string expected = table_text(folder / "whole", "benchmark.csv");
   EXPECT_THAT(expected, HasSubstr("bullet"));
   EXPECT_EQ(table_text(folder / "parts", "benchmark.csv"), expected);
@@ -221,7 +221,7 @@ TEST(ABenchmark, ContinuesAndMergesWithoutSignalsInMemory) {
   EXPECT_EQ(run_shard(experiment, {1, 3}, options("parts")).computed, 0U);
   (void)run_shard(experiment, {2, 3}, options("parts"));
   (void)run_shard(experiment, {3, 3}, options("parts"));
-  (void)merge_run(folder / "parts", options("parts"));
+  (void)finish_run(folder / "parts", options("parts"));
   for (const char* name : {"benchmark.csv", "success.csv", "runs.csv"}) {
     EXPECT_EQ(table_text(folder / "parts", name), table_text(folder / "whole", name)) << name;
   }

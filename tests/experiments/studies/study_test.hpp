@@ -41,7 +41,7 @@ inline void expect_same_in_shards(const ScratchFolder& folder, const Experiment&
   for (int shard = shards; shard > 0; --shard) {
     run_shard(experiment, Shard{shard, shards}, options);
   }
-  merge_run(folder / "shards", options);
+  finish_run(folder / "shards", options);
   for (const std::string& file : files) {
     EXPECT_EQ(read_file(folder / "whole" / file), read_file(folder / "shards" / file)) << file;
   }
