@@ -144,13 +144,12 @@ DynamicLoads::Loads DynamicLoads::update(const Signals& signals, bool has_accele
   Loads loads;
   if (has_imu) {
     update_torso(signals);
-    const std::array<FootJacobian, 2> feet = foot_jacobians(geometry_, legs);
     for (std::size_t side = 0; side < 2; ++side) {
       if (!has_leg[side]) continue;
       const double elapsed = signals.time - leg_[side].time;
       if (!(elapsed >= 0.0 && elapsed <= guard_.maximum_gap)) leg_[side] = {};
       leg_[side].time = signals.time;
-      loads[side] = update_leg(side, legs[side], feet[side], by_servos[side]);
+      loads[side] = update_leg(side, legs[side], by_servos[side]);
     }
   }
   observe_noise(signals, has_imu, has_leg, by_servos);
@@ -242,8 +241,9 @@ DynamicLoads::Levers DynamicLoads::levers(const Links& links,
 }
 
 WheelLoad DynamicLoads::update_leg(std::size_t side, const LegSignals& signals,
-                                   const FootJacobian& foot, const LegTorques& by_servos) noexcept {
+                                   const LegTorques& by_servos) noexcept {
   Leg& leg = leg_[side];
+  const FootJacobian foot = foot_jacobian(geometry_, signals, side == 1);
   const double sign = side == 0 ? 1.0 : -1.0;
   const double upper_rate = sign * signals.hip.velocity;
   leg.rate.update(

@@ -108,7 +108,7 @@ class DynamicLoads {
   void update_moments(Moments& moments, const LegTorques& torque, const LegSignals& leg,
                       double sign) const noexcept;
   [[nodiscard]] Levers levers(const Links& links, const Eigen::Vector2d& force) const noexcept;
-  WheelLoad update_leg(std::size_t side, const LegSignals& signals, const FootJacobian& foot,
+  WheelLoad update_leg(std::size_t side, const LegSignals& signals,
                        const LegTorques& by_servos) noexcept;
 
   LegGeometry geometry_;

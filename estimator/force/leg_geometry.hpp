@@ -71,10 +71,7 @@ struct FootJacobian {
   }
 };
 
-/// For the left and the right leg; the right leg's joints have mirrored signs.
-[[nodiscard]] std::array<FootJacobian, 2> foot_jacobians(
-    const LegGeometry& geometry, const std::array<LegSignals, 2>& legs) noexcept;
-/// For one leg. `mirrored`: the joints' signs are those of the right leg.
+/// `mirrored`: the joints' signs are those of the right leg.
 [[nodiscard]] FootJacobian foot_jacobian(const LegGeometry& geometry, const LegSignals& leg,
                                          bool mirrored) noexcept;
 

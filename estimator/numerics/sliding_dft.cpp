@@ -95,6 +95,12 @@ auto squared_magnitudes(const SlidingDft& dft) noexcept {
   };
 }
 
+/// |X|, likewise.
+auto magnitudes(const SlidingDft& dft) noexcept {
+  return
+      [squared = squared_magnitudes(dft)](int row) -> SpectrumRow { return squared(row).sqrt(); };
+}
+
 }  // namespace
 
 SpectrumSummary::SpectrumSummary(const SlidingDft& dft, SpectrumKind kind, bool nyquist)
@@ -102,7 +108,6 @@ SpectrumSummary::SpectrumSummary(const SlidingDft& dft, SpectrumKind kind, bool 
       rows_(dft.rows()),
       magnitude_(kind == SpectrumKind::magnitude),
       nyquist_counts_(nyquist),
-      magnitudes_(dft.reals().size()),
       within_simd_width_(dft.reals().size() + SlidingDft::lanes) {}
 
 template <typename Rows>
@@ -122,22 +127,15 @@ SpectrumValues SpectrumSummary::of_power(Rows rows, const SlidingDft& dft) noexc
 template <typename Rows>
 SpectrumValues SpectrumSummary::of_magnitude(Rows rows, const SlidingDft& dft) noexcept {
   const double nyquist = dft.nyquist();
-  const double* const real = dft.reals().data();
-  const double* const imaginary = dft.imaginaries().data();
-  double* const magnitude = magnitudes_.data();
   double* const within = within_simd_width_.data();
-  square_roots(
-      rows * lanes, [=](int i) { return real[i] * real[i] + imaginary[i] * imaginary[i]; },
-      [=](int i, double root) { magnitude[i] = root; });
   const auto squared = squared_magnitudes(dft);
   SpectrumRow energy = SpectrumRow::Zero();
   for (int row = 0; row < rows; ++row) energy += squared(row);
   SpectrumValues values;
-  values.mean_square = mean_square(energy.sum(), real[0], nyquist, window_);
+  values.mean_square = mean_square(energy.sum(), dft.reals()[0], nyquist, window_);
   if (values.mean_square > negligible_mean_square) {
     const double last = nyquist_counts_ ? std::abs(nyquist) : 0.0;
-    const auto row_of = [=](int row) { return ConstSpectrumRowMap(magnitude + row * lanes); };
-    const SpectrumRow sum = cumulate(rows, row_of, within);
+    const SpectrumRow sum = cumulate(rows, magnitudes(dft), within);
     values.median_bin = median_bin(SimdSums::of(sum), last, window_ / 2, rows, within);
   }
   return values;

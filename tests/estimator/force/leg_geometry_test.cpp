@@ -33,10 +33,8 @@ TEST(FootJacobian, IsTheDerivativeOfTheFootsPosition) {
           return (up - down) / (2.0 * step);
         };
         const LegSignals left = posed(hip, knee);
-        const std::array<FootJacobian, 2> both = foot_jacobians(leg, {left, mirrored(left)});
         for (const FootJacobian& foot :
-             {foot_jacobian(leg, left, false), foot_jacobian(leg, mirrored(left), true), both[0],
-              both[1]}) {
+             {foot_jacobian(leg, left, false), foot_jacobian(leg, mirrored(left), true)}) {
           EXPECT_NEAR(foot.upper_x + foot.lower_x, slope(step, 0.0, &test::LegPositions::x), 1e-8);
           EXPECT_NEAR(foot.upper_z + foot.lower_z, slope(step, 0.0, &test::LegPositions::z), 1e-8);
           EXPECT_NEAR(foot.lower_x, slope(0.0, step, &test::LegPositions::x), 1e-8);
