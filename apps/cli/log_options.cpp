@@ -34,8 +34,7 @@ void add_log_options(Verb& verb, LogOptions& options) {
           "leave_below=0.05")
       .value_name("NAME=NUMBER")
       .one_at_a_time();
-  verb.flag("--transfer", &options.transfer,
-            "Use a model at another rate or on another robot than it was fitted for");
+  verb.flag("--transfer", &options.transfer, "Use a model on another robot than it was fitted for");
 }
 
 experiments::LogEstimator estimator_for(const LogOptions& options) {

@@ -93,8 +93,9 @@ class Estimator {
     }
     const ExclusiveUse use(busy_);
     const double time = static_cast<double>(steps_++) / rate_;
-    return estimator_->update(
-        logs::signals_from(observation_of(spine, time), ground_velocity_command));
+    const Signals step = logs::signals_from(observation_of(spine, time), ground_velocity_command);
+    add_time(step.time);
+    return estimator_->update(step);
   }
 
   Belief update(const py::object& signals, bool gravity_included) {
@@ -103,6 +104,7 @@ class Estimator {
     const Signals step = loop_ ? loop_->next(signals)
                                : SignalArrays(signals, needs_of(source_.entry), imu, true).at(0);
     ++steps_;
+    add_time(step.time);
     return estimator_->update(step);
   }
 
@@ -182,6 +184,15 @@ class Estimator {
     estimator_->reset();
     if (loop_) loop_->reset();
     steps_ = 0;
+    first_times_.clear();
+  }
+
+  /// Refuses a loop at another sample rate, once its first steps show it.
+  void add_time(double time) {
+    constexpr std::size_t enough = 50;  // most of them follow each other without a pause
+    if (first_times_.size() == enough || !std::isfinite(time)) return;
+    first_times_.push_back(time);
+    if (first_times_.size() == enough) require_rate(logs::typical_step(first_times_));
   }
 
   /// Refuses runs at another sample rate. A clock may jitter.
@@ -203,6 +214,7 @@ class Estimator {
   AssemblyConfig imu_;              ///< the frames of the IMU, without a mapping
   std::optional<MappedLoop> loop_;  ///< with one
   std::size_t steps_ = 0;
+  std::vector<double> first_times_;  ///< of the steps of `update` (s)
   std::atomic<bool> busy_ = false;
 };
 
@@ -250,9 +262,9 @@ void add_estimator(py::module_& module) {
       "name: without it, the estimator of the model\n"
       "model: a result of `fit`, or the path of a file that `touchdown fit` wrote; without name "
       "and model, load_filter, which needs the robot alone\n"
-      "sample_rate: steps per second of its signals (Hz)\n"
+      "sample_rate: steps per second of its signals (Hz); other times of theirs are refused\n"
       "robot: name or file of the robot; a file gives the leg geometry\n"
-      "transfer: allow another rate or robot than the model was fitted for\n"
+      "transfer: allow another robot than the model was fitted for\n"
       "axes: how the IMU is mounted, if not as Upkie's (x back, y left, z down): the names of its "
       "axes that point back, left and down ([\"-x\", \"y\", \"-z\"] for x forward, y left, z up), "
       "or "

@@ -85,16 +85,20 @@ EstimatorEntry configured(EstimatorEntry entry, const Model& model) {
 
 std::unique_ptr<ContactEstimator> LogEstimator::make(double sample_rate,
                                                      const logs::RecordingInfo& log) const {
-  if (model.metadata && !request.transfer) {
-    try {
-      check_use(*model.metadata,
-                {.sample_rate = sample_rate,
-                 .robot = request.robot.name.empty() ? robot_of(log) : request.robot.name});
-    } catch (const InputError& error) {
-      throw InputError(
-          fmt::format("{}: {} (--transfer uses it all the same; in Python, transfer=True)",
-                      request.model.string(), error.what()));
-    }
+  if (model.metadata) {
+    const auto check = [this](const ModelUse& use, const char* advice) {
+      try {
+        check_use(*model.metadata, use);
+      } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: {}{}", request.model.string(), error.what(), advice));
+      }
+    };
+    check({.sample_rate = sample_rate}, "");
+    const std::string& named = request.robot.name;
+    check({.robot = request.transfer ? ""
+                    : named.empty()  ? robot_of(log)
+                                     : named},
+          " (--transfer uses it all the same; in Python, transfer=True)");
   }
   // Clocks jitter, and some estimators support only certain rates.
   const bool is_fitted_rate =

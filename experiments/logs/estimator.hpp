@@ -22,8 +22,7 @@ struct LogEstimatorRequest {
   /// Robot of the logs. Without its legs the load filter uses the model's, else those of a
   /// simulated log's own robot.
   LogRobot robot = {};
-  /// Allows other rates and robots than those that the model was fitted for.
-  bool transfer = false;
+  bool transfer = false;  ///< allows another robot than the model was fitted for
   HyperparameterValues hyperparameters = {};  ///< replace the model's; none that the fit uses
 };
 
@@ -35,8 +34,8 @@ struct LogEstimator {
 
   /// The estimator at a log's rate (Hz), or at the model's where both are equal to 1 %. The window
   /// of a transition model keeps its duration at 1 kHz. Errors: `InputError` for a rate at which
-  /// the estimator cannot run. Without `request.transfer` also for a rate or a robot that the model
-  /// was not fitted for.
+  /// the estimator cannot run or that the model was not fitted for. Without `request.transfer` also
+  /// for a robot that it was not fitted for.
   std::unique_ptr<ContactEstimator> make(double sample_rate,
                                          const logs::RecordingInfo& log = {}) const;
 
@@ -51,7 +50,7 @@ struct LogEstimator {
 /// another estimator; for an estimator that does not run on logs.
 LogEstimator log_estimator(LogEstimatorRequest request);
 
-/// The estimator of a model that was fitted for it, at any rate and for any robot.
+/// The estimator of a model that was fitted for it, for any robot.
 LogEstimator log_estimator(const EstimatorEntry& entry, Model model, const LogRobot& robot);
 
 /// Contact of both wheels throughout a log by an estimator's decisions, as labels to correct by

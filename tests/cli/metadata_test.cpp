@@ -188,11 +188,12 @@ TEST_F(Metadata, OfAnotherEstimatorRateOrRobotIsAnError) {
          "robust?)"}},
        {"estimate a.mpack --model m.npz --robot upkie",
         {"m.npz: was fitted to the robot 'tall', not to 'upkie'"}},
-       {"estimate slow.mpack --model m.npz",
-        {"m.npz: was fitted at 1000 Hz, not at 200 Hz (--transfer"}},
+       {"estimate slow.mpack --model m.npz", {"m.npz: was fitted at 1000 Hz, not at 200 Hz"}},
+       {"estimate slow.mpack --model m.npz --robot upkie --transfer",
+        {"m.npz: was fitted at 1000 Hz, not at 200 Hz"}},
        {"estimate a.mpack --model folder", {"folder: is a folder"}}});
-  EXPECT_THAT(run("estimate slow.mpack --model m.npz --robot upkie --transfer"),
-              HasSubstr("at 200 Hz, Bayes filter (robust)"));
+  EXPECT_THAT(run("estimate a.mpack --model m.npz --robot upkie --transfer"),
+              HasSubstr("at 1000 Hz, Bayes filter (robust)"));
   EXPECT_THAT(run("estimate a.mpack --model m.npz --estimator measurement_only --robot tall"),
               HasSubstr("Measurement only"));
 }

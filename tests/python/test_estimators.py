@@ -234,7 +234,9 @@ class Default(InFolder):
                                ({"robot": "models/upkie_heavy.yaml"}, "was fitted to the robot 'upkie', not to")):
             with self.assertRaisesRegex(touchdown.InputError, words):
                 touchdown.Estimator(model=fitted, **options)
-            touchdown.Estimator(model=fitted, transfer=True, **options)
+        touchdown.Estimator(model=fitted, transfer=True, robot="models/upkie_heavy.yaml")
+        with self.assertRaisesRegex(touchdown.InputError, "was fitted at 1000 Hz, not at 200 Hz"):
+            touchdown.Estimator(model=fitted, transfer=True, sample_rate=200.0)
 
 
 class Check(InFolder):
@@ -282,6 +284,18 @@ class Spine(InFolder):
         for time, status in ((0.0, "good"), (0.001, "good"), (0.9, "gap")):
             belief = estimator.update_from_spine({**spine_observation(hop(), 0), "time": time})
             self.assertEqual(belief.status, status)
+
+    def test_at_another_rate_than_the_estimators_is_refused(self):
+        run = hop()
+        for rate, step in ((1000.0, 0.004), (1000.0, 0.0005), (250.0, 0.001)):
+            by_spine, by_arrays = (touchdown.Estimator("free_fall", sample_rate=rate) for _ in range(2))
+            words = f"{1.0 / step:g} steps per second, and the estimator was made for {rate:g}"
+            with self.assertRaisesRegex(touchdown.InputError, words):
+                for k in range(100):
+                    by_spine.update_from_spine({**spine_observation(run, k), "time": step * k})
+            with self.assertRaisesRegex(touchdown.InputError, words):
+                for k in range(100):
+                    by_arrays.update({**{name: run[name][k] for name in ALL}, "time": step * k})
 
     def test_refuses_other_dictionaries(self):
         update = touchdown.Estimator("free_fall").update_from_spine

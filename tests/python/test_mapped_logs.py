@@ -50,6 +50,13 @@ class OtherRobotsLogs(InFolder):
             "time: {from: t}\njoints:\n  position: " + joint.format("servos") + "\n  velocity: " + joint.format("speeds") +
             "\n  torque: " + joint.format("torques") + "\nimu:\n  axes: [-x, y, -z]\n  orientation: {from: q}\n"
             "  angular_velocity: {from: gyro}\n  linear_acceleration: {from: acc}\ncontact: {from: not_in_a_loop}\n", encoding="utf-8")
+        slow = touchdown.Estimator(mapping="npz.yaml")  # at 1 kHz, and its steps are those of 250 Hz
+        steps = [{name: values[4 * k] for name, values in log.items()} for k in range(100)]
+        with self.assertRaisesRegex(touchdown.InputError, "250 steps per second, and the estimator was made for 1000: "):
+            for step in steps:
+                slow.update(step)
+        right = touchdown.Estimator(mapping="npz.yaml", sample_rate=250.0)
+        self.assertEqual([right.update(step).status for step in steps][-1], "degraded")
         estimator = touchdown.Estimator(mapping="npz.yaml")
         whole = estimator.run(log)
         estimator.reset()
