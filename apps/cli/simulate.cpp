@@ -16,6 +16,7 @@
 #include "core/resources.hpp"
 #include "core/stop.hpp"
 #include "experiments/config/yaml_kind.hpp"
+#include "experiments/logs/robot.hpp"
 #include "experiments/results/captions.hpp"
 #include "logs/log/reader.hpp"
 #include "logs/log/recording_file.hpp"
@@ -55,6 +56,9 @@ YamlDocument recorded_scenario(SimulateFlags& flags) {
                     "simulate`",
                     flags.scenario));
   }
+  const bool names_robot = std::ranges::any_of(
+      flags.overrides, [](const std::string& one) { return one.starts_with("robot="); });
+  if (!names_robot) experiments::require_recorded_robot(info, flags.scenario);
   if (flags.simulator.empty()) flags.simulator = info.simulator;
   flags.seed = info.seed;
   flags.recorded_run = info.run;

@@ -36,6 +36,16 @@ LogRobot robot_in_file(const std::filesystem::path& path) {
           .ranges = ranges_of(robot)};
 }
 
+/// "its robot … was changed since the recording"; empty for the recorded robot. Errors:
+/// `InputError` for a file that cannot be read.
+std::string change_of(const std::filesystem::path& robot, const logs::RecordingInfo& log) {
+  if (log.robot_digest.empty() || log.robot_digest == models::robot_digest(find_resource(robot))) {
+    return {};
+  }
+  return fmt::format("its robot {}, or a file that this reads, was changed since the recording",
+                     robot.string());
+}
+
 constexpr const char* expected_file = "expected a robot's file (.xml, .urdf, .yaml)";
 
 bool is_robots_file(const std::filesystem::path& path) {
@@ -70,18 +80,26 @@ logs::CheckedRobot checked_robot(const LogRobot& requested, const logs::Recordin
   constexpr const char* advice = "the robot's file as it was then, after --robot, is used instead";
   try {
     const LogRobot robot = robot_in_file(file);
-    const bool is_same =
-        log.robot_digest.empty() || log.robot_digest == models::robot_digest(find_resource(file));
-    return {robot.legs, robot.ranges,
-            is_same ? ""
-                    : fmt::format("its robot {}, or a file that this reads, was changed since the "
-                                  "recording: the legs are those of today ({})",
-                                  file.string(), advice)};
+    const std::string change = change_of(file, log);
+    return {
+        robot.legs, robot.ranges,
+        change.empty() ? "" : fmt::format("{}: the legs are those of today ({})", change, advice)};
   } catch (const InputError& error) {
     return {.doubt = fmt::format("the legs are assumed to be Upkie's, because its robot cannot be "
                                  "read: {} ({})",
                                  error.what(), advice)};
   }
+}
+
+void require_recorded_robot(const logs::RecordingInfo& recording, const std::string& name) {
+  const std::filesystem::path robot = robot_file_of(recording);
+  if (robot.empty()) return;
+  const std::string change = change_of(robot, recording);
+  if (change.empty()) return;
+  throw InputError(fmt::format(
+      "{}: {}: restore it, or simulate the run with today's: touchdown simulate RECORDING --set "
+      "robot={}",
+      name, change, robot.string()));
 }
 
 std::string robot_text(const std::string& name) {

@@ -30,6 +30,10 @@ LogRobot robot_of_file(const std::string& file);
 /// recording.
 logs::CheckedRobot checked_robot(const LogRobot& requested, const logs::RecordingInfo& log);
 
+/// Errors: `InputError` for a recording, called `name`, of a robot that is not the same any more. A
+/// recording of an older program has no digest, and its robot counts as the same.
+void require_recorded_robot(const logs::RecordingInfo& recording, const std::string& name);
+
 /// A model's robot for messages: its name in quotes, or "an unnamed robot".
 std::string robot_text(const std::string& name);
 

@@ -14,6 +14,7 @@
 #include "experiments/config/experiment.hpp"
 #include "experiments/evaluation/tuning_table.hpp"
 #include "experiments/fitting/fitting.hpp"
+#include "experiments/logs/robot.hpp"
 #include "experiments/plan/condition.hpp"
 #include "experiments/plan/request.hpp"
 #include "experiments/plan/rollouts.hpp"
@@ -35,6 +36,7 @@ scenarios::Scenario recorded_scenario(const logs::Recording& recording) {
     throw InputError(
         "the recording does not contain its terrain: a robot's own log cannot be drawn");
   }
+  experiments::require_recorded_robot(info, fmt::format("{} in {}", info.scenario, info.simulator));
   scenarios::Scenario scenario = scenarios::scenario_from_yaml(
       YamlDocument::parse(info.scenario_yaml, info.scenario + " (in the log)"));
   scenario.robot = find_resource(scenario.robot);

@@ -146,6 +146,13 @@ TEST_F(Metadata, OfARecordingStatesWhetherItsRobotIsStillTheSame) {
     expect(HasSubstr("touchdown: own.mpack: its robot " + changed));
     EXPECT_THAT(folder_.run("estimate old.mpack").errors, Not(HasSubstr(changed)));
     EXPECT_THAT(folder_.run(uses[0] + " --robot own.yaml").errors, Not(HasSubstr(changed)));
+    // What promises the same run does not show another.
+    const std::string again = "simulate own.mpack -o again.mpack --set end.duration=0.1";
+    folder_.expect_refusals({{again, {"own.mpack: its robot " + changed, "--set robot=own.yaml"}},
+                             {"render own.mpack -o x.mp4", {"its robot " + changed}},
+                             {"export own.mpack -o x.mcap", {"its robot " + changed}}});
+    EXPECT_EQ(folder_.run(again + " --set robot=own.yaml").exit_code, 0);
+    EXPECT_EQ(folder_.run("simulate old.mpack -o x.mpack --set end.duration=0.1").exit_code, 0);
     folder_.write(file, before);
   }
   std::filesystem::remove(folder_ / "upkie.xml");
