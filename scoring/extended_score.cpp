@@ -11,7 +11,10 @@ void LoadScore::add(double normal_force, const WheelLoad& load) {
   ++steps;
   const double error = std::abs(load.force - normal_force);
   if (std::isnan(error)) return;
-  ++errors[std::min(static_cast<std::size_t>(error / bin_width), count - 1)];
+  const double bin = error < largest_fine
+                         ? error / bin_width
+                         : static_cast<double>(fine) + std::log(error / largest_fine) / growth;
+  ++errors[static_cast<std::size_t>(std::min(bin, static_cast<double>(count - 1)))];
   covered += error <= 2.0 * load.deviation ? 1 : 0;
 }
 
@@ -27,7 +30,10 @@ double LoadScore::median_error() const {
   std::int64_t passed = 0;
   for (std::size_t i = 0; i < count; ++i) {
     passed += errors[i];
-    if (all > 0 && 2 * passed >= all) return bin_width * (static_cast<double>(i) + 0.5);
+    if (all == 0 || 2 * passed < all) continue;
+    const double middle = static_cast<double>(i) + 0.5;
+    return i < fine ? bin_width * middle
+                    : largest_fine * std::exp(growth * (middle - static_cast<double>(fine)));
   }
   return std::numeric_limits<double>::quiet_NaN();
 }

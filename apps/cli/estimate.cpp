@@ -56,6 +56,7 @@ class BeliefWriter {
   /// Call it before the first step, once the log's rate and robot are known.
   void begin(const experiments::LogSteps& log, bool labelled) {
     if (csv_ != nullptr) *csv_ << experiments::belief_columns;
+    is_labelled_ = labelled;
     threshold_ = scoring::force_threshold(labels_, log.robot_mass());
     summary_.emplace(log.period(), scoring::ScoringConfig{});
     score_.emplace(log.period_us(), labels_, log.robot_mass(), scoring::ScoringConfig{}, labelled);
@@ -66,7 +67,7 @@ class BeliefWriter {
            const ContactEstimator& estimator, const Belief& belief) {
     const double time = step.signals.time;
     summary_->add(time, belief);
-    score_->add(step.normal_force, belief);
+    score_->add(step.normal_force, step.truth, belief);
     if (bag_) bag_->write(time, reader.start_time(), belief);
     if (csv_ == nullptr && !annotator_ && !drawn_) return;
     const Evidence evidence = estimator.evidence();
@@ -91,11 +92,14 @@ class BeliefWriter {
   }
 
   /// Call it at the end of the log, with the number of findings about it. Returns the summary.
-  std::string finish(const logs::LogReader& reader, std::size_t findings) {
+  std::string finish(const logs::LogReader& reader, const experiments::LogSteps& log,
+                     std::size_t findings) {
     flush();
     if (annotator_) annotator_->copy(reader.skipped());
     if (bag_) bag_->finish();
-    return summary_->text(score_->finish(), reader.start_time(), findings) + score_->load_text();
+    const std::optional<scoring::RobotScore> score = score_->finish();
+    return summary_->text(score, reader.start_time(), findings) +
+           (score ? label_line(log.labelled_share()) : "") + score_->load_text();
   }
 
   std::int64_t steps() const { return summary_->steps(); }
@@ -104,6 +108,19 @@ class BeliefWriter {
   const render::LogTrace& trace() const { return trace_; }
 
  private:
+  /// What the truth of a score is.
+  std::string label_line(double labelled_share) const {
+    constexpr double all = 0.9995;
+    if (!is_labelled_) {
+      return fmt::format(
+          "{:<12} contact is a normal force above {:.2g} N, {:g} of the weight, over {:g} ms\n",
+          "labels", threshold_, labels_.share, 1e3 * labels_.window);
+    }
+    if (labelled_share >= all) return {};
+    return fmt::format("{:<12} cover {:.1f} % of the steps: the others are not scored\n", "labels",
+                       100.0 * labelled_share);
+  }
+
   void require_written() const {
     if (!*csv_) throw Error("the beliefs cannot be written: is the disk full?");
   }
@@ -118,7 +135,8 @@ class BeliefWriter {
   }
 
   scoring::LabelConfig labels_;
-  double threshold_ = 0.0;  ///< N
+  bool is_labelled_ = false;  ///< by a file
+  double threshold_ = 0.0;    ///< of the log's own truth (N)
   std::ostream* csv_;
   std::optional<experiments::BeliefBag> bag_;
   std::optional<logs::LogAnnotator> annotator_;
@@ -183,7 +201,7 @@ Evaluation evaluate(logs::LogReader& reader, const experiments::LogEstimator& ch
   }
   if (!*session.stop) log.require_labels_within();
   std::vector<std::string> findings = log.findings();
-  const std::string summary = writer.finish(reader, findings.size());
+  const std::string summary = writer.finish(reader, log, findings.size());
   return {fmt::format("{}: {} steps, {:.3f} s at {:.6g} Hz, {}\n", reader.name(), writer.steps(),
                       writer.duration(), log.sample_rate(), chosen.entry.title) +
               outcome_line(log.info(), writer.duration()) + summary + gravity_line(log) +

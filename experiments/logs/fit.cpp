@@ -117,8 +117,8 @@ void add_digest_and_warnings(const FitLog& log, const OpenLog& opened, LogFitRep
 
 using Samples = std::array<std::vector<TorqueSample>, 2>;  ///< without contact, in contact
 
-/// Errors: `InputError` for a step without ground truth of contact, if there are no labels, and for
-/// labels of which no step is used; those of the functions above.
+/// Errors: `InputError` for a step without ground truth of contact, if there are no labels; those
+/// of the functions above and of `LogSteps`.
 void read_log(const FitLog& log, const TorqueConfig& torque, const LogFitConfig& config,
               Samples& samples, LogFitReport& report) {
   OpenLog opened(log, config);
@@ -181,13 +181,6 @@ void read_log(const FitLog& log, const TorqueConfig& torque, const LogFitConfig&
   if (log.labels) steps.require_labels_within();
   add_digest_and_warnings(log, opened, report);
   require_agreement(agreement, log);
-  if (log.labels && used == 0) {
-    throw InputError(fmt::format(
-        "{}: none of its intervals, from {:.3f} to {:.3f} s, covers a step of {}, which ends at "
-        "{:.3f} s: expected times as `touchdown estimate` prints them",
-        log.labels->file, log.labels->intervals.front().start, log.labels->intervals.back().end,
-        log.path.string(), time));
-  }
   for (scoring::LabelStream& one : labels) one.finish();
   report.fitted_to.seconds += static_cast<double>(used) * steps.period();
 }
@@ -229,7 +222,7 @@ void add_score(const LogEstimator& chosen, const FitLog& log, const LogFitConfig
   LogScore score(steps.period_us(), config.labels, steps.robot_mass(), {.skip = config.skip}, true);
   while (const LogStep* step = steps.next()) {
     const Belief& belief = estimator->update(step->signals);
-    score.add(is_covered(*step, log) ? step->normal_force : std::nullopt, belief);
+    score.add(is_covered(*step, log) ? step->normal_force : std::nullopt, {}, belief);
   }
   end_if(config.stop);
   if (const auto scored = score.finish()) total += *scored;

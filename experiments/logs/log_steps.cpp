@@ -98,8 +98,15 @@ class LogSteps::LabelCheck {
         labels_.file, 100.0 * *agreement, cause);
   }
 
-  void require_within(const std::string& log) const {
-    const double end = labels_.intervals.empty() ? 0.0 : labels_.intervals.back().end;
+  void require_within(const std::string& log, std::int64_t labelled) const {
+    if (labels_.intervals.empty()) return;
+    const double end = labels_.intervals.back().end;
+    if (labelled == 0) {
+      throw InputError(fmt::format(
+          "{}: none of its intervals, from {:.3f} to {:.3f} s, covers a step of {}, which ends at "
+          "{:.3f} s: expected times as `touchdown estimate` prints them",
+          labels_.file, labels_.intervals.front().start, end, log, last_));
+    }
     constexpr double tolerance = 1.0;  // s
     if (!std::isfinite(last_) || end <= 1.1 * last_ + tolerance) return;
     throw InputError(
@@ -167,6 +174,7 @@ LogSteps::~LogSteps() = default;
 const LogStep* LogSteps::next() {
   const std::optional<logs::LogRow> row = reader_.next();
   if (!row) return nullptr;
+  ++steps_;
   step_.signals = signals_.next(row->observation, row->action);
   plausibility_.add(row->observation, step_.signals.target);
   add_to_digest(step_.signals);
@@ -180,6 +188,7 @@ const LogStep* LogSteps::next() {
   if (labels_ == nullptr) return &step_;
   step_.normal_force.reset();
   if (const logs::ContactInterval* label = labels_->at(row->observation.time)) {
+    ++labelled_;
     constexpr double some_force = std::numeric_limits<double>::infinity();
     step_.normal_force = {label->contact[0] ? some_force : 0.0,
                           label->contact[1] ? some_force : 0.0};
@@ -209,7 +218,7 @@ std::vector<std::string> LogSteps::findings() const {
 }
 
 void LogSteps::require_labels_within() const {
-  if (label_check_) label_check_->require_within(reader_.name());
+  if (label_check_) label_check_->require_within(reader_.name(), labelled_);
 }
 
 }  // namespace touchdown::experiments

@@ -64,7 +64,13 @@ class LogSteps {
   /// copies of a log, whatever their format.
   std::string digest() const;
 
-  /// For the end of the log. Errors: `InputError` for labels that end clearly after it.
+  /// Of the steps so far, the share that labels cover; 1 without labels.
+  double labelled_share() const {
+    return labels_ == nullptr ? 1.0 : static_cast<double>(labelled_) / static_cast<double>(steps_);
+  }
+
+  /// For the end of the log. Errors: `InputError` for labels that cover no step, or that end
+  /// clearly after the log.
   void require_labels_within() const;
 
  private:
@@ -82,6 +88,8 @@ class LogSteps {
   logs::PlausibilityCheck plausibility_;
   std::unique_ptr<LabelCheck> label_check_;  ///< null without labels
   std::uint64_t digest_ = 0;
+  std::int64_t steps_ = 0;
+  std::int64_t labelled_ = 0;  ///< steps
   LogStep step_;
 };
 

@@ -155,16 +155,22 @@ LogScore::LogScore(std::int64_t period_us, const scoring::LabelConfig& labels, d
       segment_counts_(segment_counts) {}
 
 void LogScore::add(const std::optional<std::array<double, models::wheel_count>>& normal_force,
+                   const std::optional<std::array<double, models::wheel_count>>& truth,
                    const Belief& belief) {
   const double time = 1e-6 * static_cast<double>(period_us_ * steps_++);
+  const auto& force = truth ? truth : normal_force;
+  for (std::size_t w = 0; force && w < belief.wheel.size() && time >= scoring_.skip; ++w) {
+    // Labels of contact stand for an unknown force.
+    if (std::isfinite((*force)[w])) {
+      load_.add((*force)[w], belief.wheel[w].load);
+    } else {
+      is_load_of_air_ = true;
+    }
+  }
   if (!normal_force) {
     is_scored_ = is_scored_ && segment_counts_;
     end_segment();
     return;
-  }
-  for (std::size_t w = 0; w < belief.wheel.size() && time >= scoring_.skip; ++w) {
-    // Labels of contact stand for an unknown force.
-    if (std::isfinite((*normal_force)[w])) load_.add((*normal_force)[w], belief.wheel[w].load);
   }
   if (!is_scored_) return;
   if (!duration_) {
@@ -182,7 +188,8 @@ std::optional<scoring::RobotScore> LogScore::finish() {
 
 std::string LogScore::load_text() const {
   if (load_.known() == 0) return {};
-  return line("load", fmt::format("median error {:.2f} N, {} within 2 σ, known at {} of steps",
+  return line("load", fmt::format("{}median error {:.2f} N, {} within 2 σ, known at {} of steps",
+                                  is_load_of_air_ ? "where labels state no contact: " : "",
                                   load_.median_error(), percent(load_.covered, load_.known()),
                                   percent(load_.known(), load_.steps)));
 }

@@ -60,14 +60,16 @@ class LogScore {
   LogScore(std::int64_t period_us, const scoring::LabelConfig& labels, double robot_mass,
            const scoring::ScoringConfig& scoring, bool segment_counts);
 
-  /// `normal_force` is known or nothing, as in `LogStep`.
+  /// `normal_force` is known or nothing and `truth` the log's own, as in `LogStep`.
   void add(const std::optional<std::array<double, models::wheel_count>>& normal_force,
+           const std::optional<std::array<double, models::wheel_count>>& truth,
            const Belief& belief);
 
   /// Ends the log. Returns nothing without ground truth.
   std::optional<scoring::RobotScore> finish();
 
-  /// Of the steps with a known normal force; a line of text, empty without any.
+  /// Of the steps with a true normal force, else of those that labels state to be without contact;
+  /// a line of text, empty without any.
   std::string load_text() const;
 
  private:
@@ -83,6 +85,7 @@ class LogScore {
   std::optional<scoring::ScoreStream> duration_;
   std::optional<scoring::RobotScore> total_;
   scoring::LoadScore load_;
+  bool is_load_of_air_ = false;  ///< labels do not state the force in contact
 };
 
 /// Counts an estimator's results on a log. It keeps only the first takeoffs and landings, so its

@@ -109,13 +109,16 @@ class IntervalBuilder {
     if (open_ && !continues) end(time);
     if (contact && !continues) labels_.intervals.push_back({time, time, *contact});
     open_ = contact.has_value();
+    if (rows_++ > 0 && time - last_ <= longest_period) {
+      steps_time_ += time - last_;
+      ++steps_;
+    }
     last_ = time;
-    ++rows_;
   }
 
-  /// Ends the last interval: the last row lasts as long as the mean of the others.
+  /// Ends the last interval: the last row lasts as long as the mean of the others, but for pauses.
   ContactIntervals finish() {
-    if (open_) end(last_ + last_ / std::max<double>(1.0, static_cast<double>(rows_) - 1.0));
+    if (open_) end(last_ + steps_time_ / std::max<double>(1.0, static_cast<double>(steps_)));
     return std::move(labels_);
   }
 
@@ -144,6 +147,8 @@ class IntervalBuilder {
   bool open_ = false;
   double last_ = 0.0;
   std::uint64_t rows_ = 0;
+  double steps_time_ = 0.0;  ///< of steps that are no pauses (s)
+  std::uint64_t steps_ = 0;
 };
 
 class MappedRecords final : public RecordSource {

@@ -27,6 +27,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 namespace fs = std::filesystem;
@@ -157,7 +158,7 @@ TEST_F(Estimate, ScoresAgainstTheTruthAsExperimentsDo) {
   EXPECT_THAT(summary, HasSubstr("takeoffs 6 of 6 found"));
   EXPECT_THAT(summary, HasSubstr("left wheel   takeoffs at (s) 0.6"));
   log("robot.mpack", test::robot_log(1.0));
-  EXPECT_THAT(estimate("robot.mpack --model m.npz"), ::testing::Not(HasSubstr("truth")));
+  EXPECT_THAT(estimate("robot.mpack --model m.npz"), Not(HasSubstr("truth")));
 }
 
 TEST_F(Estimate, WritesBeliefsAsABagWithTheClockOfTheLog) {
@@ -201,8 +202,8 @@ TEST_F(Estimate, ScoresAgainstLabelsIfGiven) {
   const auto truth = [&](const std::string& arguments) {
     const std::string summary = estimate(arguments + " --model m.npz");
     const std::size_t begin = summary.find("truth");
-    return begin == std::string::npos ? "none"
-                                      : summary.substr(begin, summary.find("model") - begin);
+    const std::size_t end = std::min(summary.find("\nlabels"), summary.find("\nmodel"));
+    return begin == std::string::npos ? "none" : summary.substr(begin, end - begin);
   };
   log("labelled.mpack", test::synthetic_log(4.0));
   log("robot.mpack", test::robot_log(4.0));
@@ -215,6 +216,41 @@ TEST_F(Estimate, ScoresAgainstLabelsIfGiven) {
   // Labels take precedence over the log's own ground truth.
   folder_.write("hangs.csv", "start,end,contact\n0,4,0\n");
   EXPECT_THAT(truth("labelled.mpack --labels hangs.csv"), HasSubstr("takeoffs 0 of 0 found"));
+}
+
+TEST_F(Estimate, StatesHowMuchOfALogItsLabelsCover) {
+  log("robot.mpack", test::robot_log(4.0));
+  const auto labelled = [&](int start, int end) {
+    folder_.write("l.csv", test::synthetic_labels(start, end));
+    return estimate("robot.mpack --model m.npz --labels l.csv");
+  };
+  EXPECT_THAT(labelled(0, 4), Not(HasSubstr("labels  ")));
+  EXPECT_THAT(labelled(1, 3), HasSubstr("labels       cover 50.0 % of the steps"));
+  EXPECT_THAT(labelled(3, 4), HasSubstr("labels       cover 25.0 % of the steps"));
+  logs::Recording light = test::synthetic_log(4.0);
+  light.info.robot_mass = 0.3;  // kg
+  log("light.mpack", light);
+  EXPECT_THAT(estimate("light.mpack --model m.npz"),
+              HasSubstr("labels       contact is a normal force above 0.056 N, 0.019 of the "));
+  folder_.write("before.csv", "start,end,contact\n-5,-3,1\n-2,-1,0\n");
+  folder_.write("behind.csv", "start,end,contact\n4.1,4.9,1\n");
+  folder_.expect_refusals(
+      {{"estimate robot.mpack --labels before.csv -o x.csv",
+        {"before.csv: none of its intervals, from -5.000 to -1.000 s, covers a step of robot."}},
+       {"estimate robot.mpack --labels behind.csv -o x.csv", {"behind.csv: none of its"}}});
+  EXPECT_FALSE(folder_.has("x.csv"));
+}
+
+TEST_F(Estimate, StatesThatLabelsKnowNoLoadInContact) {
+  log("robot.mpack", test::robot_log(4.0));
+  log("simulated.mpack", test::synthetic_log(4.0));
+  folder_.write("l.csv", test::synthetic_labels(0, 4));
+  constexpr const char* of_air = "load         where labels state no contact: median error ";
+  EXPECT_THAT(estimate("robot.mpack --labels l.csv"), HasSubstr(of_air));
+  // … where the log itself knows it everywhere
+  const std::string own = estimate("simulated.mpack");
+  const auto load_of = [](const std::string& text) { return text.substr(text.find("\nload ")); };
+  EXPECT_EQ(load_of(estimate("simulated.mpack --labels l.csv")), load_of(own));
 }
 
 TEST_F(Estimate, WritesBeliefsIntoTheLogAndKeepsTheRest) {

@@ -95,9 +95,12 @@ TEST_F(Fit, LeavesOutUnlabelledSteps) {
   folder_.write("robot.csv", test::synthetic_labels(1, 3));
   EXPECT_THAT(fit("robot.mpack --labels robot.csv -o f.npz"), HasSubstr("2.000 s of 1 log"));
   folder_.write("late.csv", test::synthetic_labels(7, 8));
+  folder_.write("long.csv", test::synthetic_labels(1, 8));
   folder_.write("behind.csv", "start,end,contact\n4.1,4.9,1\n");
   expect_refusals({{"robot.mpack --labels late.csv -o m.npz",
-                    {"late.csv: its last interval ends at 8.000 s, and robot.mpack at 3.999 s"}},
+                    {"late.csv: none of its intervals, from 7.000 to 8.000 s, covers a step"}},
+                   {"robot.mpack --labels long.csv -o m.npz",
+                    {"long.csv: its last interval ends at 8.000 s, and robot.mpack at 3.999 s"}},
                    {"robot.mpack --labels behind.csv -o m.npz",
                     {"s, covers a step of robot.mpack, which ends at 3.999 s"}},
                    {"robot.mpack robot.mpack --labels robot.csv -o m.npz",

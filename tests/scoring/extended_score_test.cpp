@@ -61,6 +61,11 @@ TEST(LoadScore, HasTheMedianTheCoverageAndTheShareOfSteps) {
   EXPECT_NEAR(score.median_error(), 2.0, 0.1);
   EXPECT_EQ(score.coverage(), 0.5);
   EXPECT_EQ(score.share(), 0.8);
+  for (const double error : {29.0, 31.0, 78.0, 214.0, 3000.0}) {
+    LoadScore large;
+    large.add(26.0, {26.0 + error, 1.2});
+    EXPECT_NEAR(large.median_error(), error, 0.016 * error);
+  }
   LoadScore twice = score;
   twice += score;
   EXPECT_EQ(twice.steps, 10);

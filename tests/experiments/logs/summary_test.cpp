@@ -74,7 +74,7 @@ std::string text_of(const Flights& truth, const Flights& decided) {
     }
     const double force = is_in(truth, k) ? 0.0 : 26.0;
     summary.add(0.001 * k, belief);
-    score.add(std::array{force, force}, belief);
+    score.add(std::array{force, force}, {}, belief);
   }
   return summary.text(score.finish());
 }

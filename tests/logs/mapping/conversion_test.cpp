@@ -247,6 +247,13 @@ TEST_F(Conversion, LabelsAreIntervalsOfEqualRows) {
               HasSubstr("log.csv:6: contact labels need increasing times: 1 s comes after 1.5"));
 }
 
+TEST_F(Conversion, LabelsEndWithTheLogWhateverItsClockSkipped) {
+  std::string text = names + ",c\n";
+  for (const char* time : {"0", "0.01", "0.02", "86400", "86400.01"}) text += row(time) + ",1\n";
+  (void)convert(text, mapping_head + "contact: {from: c}\n");
+  EXPECT_EQ(to_csv(converted_.contact), "start,end,left,right\n0,86400.02,1,1\n");
+}
+
 /// A log of four rows as arrays.
 ModelArrays sample_arrays() {
   const auto array = [](std::size_t columns) {
