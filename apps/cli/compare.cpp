@@ -10,6 +10,7 @@
 #include "apps/cli/verb.hpp"
 #include "core/files.hpp"
 #include "core/program.hpp"
+#include "experiments/results/result_files.hpp"
 #include "render/gnuplot/facets.hpp"
 
 namespace touchdown::cli {
@@ -51,6 +52,13 @@ void check_outputs_of(const CompareFlags& flags, const fs::path& stem) {
 void compare(const CompareFlags& flags) {
   const fs::path stem = figure_stem(flags.figure);
   check_outputs_of(flags, stem);
+  for (const std::string& run : {flags.before, flags.after}) {
+    const std::vector<std::string> edited = experiments::edited_tables(run);
+    if (std::ranges::find(edited, "samples.csv") == edited.end()) continue;
+    print_warnings({fmt::format(
+        "{}/tables/samples.csv: was edited since the run wrote it: it is compared as it is now",
+        run)});
+  }
   const experiments::Comparison comparison = experiments::compare(
       experiments::read_samples(flags.before), experiments::read_samples(flags.after));
   const std::vector<std::string> names = metric_names();

@@ -142,6 +142,21 @@ std::map<std::string, std::string> table_digests(const std::filesystem::path& ru
   return digests;
 }
 
+std::vector<std::string> edited_tables(const std::filesystem::path& run_directory) {
+  std::vector<std::string> edited;
+  const std::filesystem::path file = run_directory / "manifest.json";
+  if (!is_there(file)) return edited;
+  const Json manifest = Json::parse(read_file(file), nullptr, false);
+  if (!manifest.is_object()) return edited;
+  const std::map<std::string, std::string> digests = table_digests(run_directory);
+  const Json written = manifest.value("tables", Json::object());
+  for (const auto& [name, digest] : written.items()) {
+    const auto now = digests.find(name);
+    if (now != digests.end() && digest != now->second) edited.push_back(name);
+  }
+  return edited;
+}
+
 void write_manifest(const ExperimentResult& result) {
   const Experiment& experiment = result.experiment;
   Json json;

@@ -21,6 +21,10 @@ void write_result_files(const ExperimentResult& result);
 /// The digests of the files in `tables/` that a run made, by their names.
 std::map<std::string, std::string> table_digests(const std::filesystem::path& run_directory);
 
+/// The files in `tables/` that differ from what the run wrote. None for runs of older programs:
+/// their manifests hold no digests.
+std::vector<std::string> edited_tables(const std::filesystem::path& run_directory);
+
 /// Writes `manifest.json`: versions, seeds, host, timings, failed runs, inputs, digests of the
 /// tables. Call it again to add later timings.
 void write_manifest(const ExperimentResult& result);

@@ -76,7 +76,7 @@ class JoinedBag final : public JoinedSource {
   }
 
   std::vector<std::string> findings() const override {
-    std::vector<std::string> findings;
+    std::vector<std::string> findings = JoinedSource::findings();
     for (const TopicRows& one : rows_) std::ranges::move(one.findings(), back_inserter(findings));
     return findings;
   }

@@ -44,6 +44,22 @@ class JoinedSource : public RowSource {
     return true;
   }
 
+  /// A line for each source of which most rows of the joints have no values.
+  std::vector<std::string> findings() const override {
+    std::vector<std::string> findings;
+    const auto all = static_cast<double>(join_->rows_before() + join_->rows());
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      // Labels may be of a part of the log.
+      if (names_[i].file == names_[clock_].file || names_[i].section == "contact") continue;
+      const double joined = static_cast<double>(join_->rows() - join_->report(i).stale);
+      if (2.0 * joined >= all) continue;
+      findings.push_back(fmt::format(
+          "{} has values at {:.1f} % of the rows of {}: do both cover one time, by one clock?",
+          names_[i].file, 100.0 * joined / all, names_[clock_].file));
+    }
+    return findings;
+  }
+
   /// One line for each source that is held, and for rows that are left out.
   std::vector<std::string> notes() const override {
     std::vector<std::string> notes;

@@ -61,7 +61,7 @@ std::vector<int> index_of(Fields& fields, const SignalKind& kind, bool is_of_one
     one_or_more(fields, "index", index)
         .type("whole number or list of whole numbers")
         .range("≥ 0")
-        .fallback("the first ones")
+        .fallback("all of them")
         .doc(
             "Columns of an array with two axes in `.npz` files, or items of a message's list, "
             "from 0.");
@@ -211,17 +211,26 @@ std::vector<SourceColumn> MappingReader::columns_of(Fields& fields, const Signal
   one_or_more(fields, "from", from)
       .type(kind.count == 1 ? "text" : "text or list of texts")
       .doc(fmt::format("Columns or arrays: {}.", kind.what));
+  const auto require_index = [&](std::size_t width) {
+    fields.check(kind.count == 1 || width <= kind.count || fields.present("index", false), "from",
+                 fmt::format("'{}' has {} numbers: expected `index` with {} of them, from 0: {}",
+                             from.front(), width, kind.count, kind.what));
+  };
   const bool has_index = !names().are_arrays && fields.present("index", false);
   fields.check(!has_index || from.size() == 1, "index", "expected one list in 'from'");
   if (!names().are_arrays && from.size() == 1 &&
       (has_index || (kind.count > 1 && is_there(item_of(from[0], 0))))) {
     const std::string list = from.front();
+    std::size_t width = 0;
+    while (is_there(item_of(list, static_cast<int>(width)))) ++width;
+    require_index(width);
     from.clear();
     for (const int i : index_of(fields, kind, true)) from.push_back(item_of(list, i));
   }
   // The numbers of a signal can be columns of one array.
   const bool are_arrays = names().are_arrays;
   const bool is_of_one = are_arrays && from.size() == 1;
+  if (is_of_one && names().width) require_index(names().width(from.front()));
   fields.check(
       is_of_one || from.size() == kind.count, "from",
       fmt::format(fmt::runtime(are_arrays ? "expected an array with two axes, or {} with one: {}"

@@ -35,12 +35,7 @@ ReportSubject read_subject(const std::filesystem::path& run_directory) {
                                         experiments::written_estimators(run_directory));
   subject.config_text = read_file(run_directory / "config.yaml");
   subject.tables = experiments::read_score_tables(run_directory);
-  const std::map<std::string, std::string> digests = experiments::table_digests(run_directory);
-  const auto written = subject.manifest.value("tables", nlohmann::ordered_json::object());
-  for (const auto& [name, digest] : written.items()) {
-    const auto now = digests.find(name);
-    if (now != digests.end() && digest != now->second) subject.edited_tables.push_back(name);
-  }
+  subject.edited_tables = experiments::edited_tables(run_directory);
   return subject;
 }
 

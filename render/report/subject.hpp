@@ -16,9 +16,7 @@ struct ReportSubject {
   std::string config_text;
   experiments::Experiment experiment;
   experiments::ScoreTables tables;
-  /// The files in `tables/` that differ from what the run wrote. None for runs of older programs:
-  /// their manifests hold no digests.
-  std::vector<std::string> edited_tables;
+  std::vector<std::string> edited_tables;  ///< `experiments::edited_tables`
 };
 
 /// Reads a run directory. Errors: `InputError` when it is not a run directory or one of its files

@@ -45,6 +45,18 @@ TEST_F(Compared, SameRunTwiceHasEqualCountsInAllCells) {
   EXPECT_EQ(from_csv(folder_.text("before/tables/samples.csv")).rows.size(), 16U * 3U);
 }
 
+TEST_F(Compared, RunsWithAnEditedTableAreNamed) {
+  run_into("after");
+  const std::string edited = "/tables/samples.csv: was edited since the run wrote it";
+  EXPECT_THAT(folder_.messages_of("compare before after"), Not(HasSubstr(edited)));
+  const std::string samples = folder_.text("after/tables/samples.csv");
+  folder_.write("after/tables/samples.csv",
+                samples.substr(0, samples.rfind('\n', samples.size() - 2) + 1));
+  EXPECT_THAT(folder_.messages_of("compare before after"),
+              AllOf(HasSubstr("after" + edited), Not(HasSubstr("before" + edited))));
+  EXPECT_THAT(folder_.messages_of("compare after before"), HasSubstr("after" + edited));
+}
+
 TEST_F(Compared, SamplesOfDropsAddUpToTheAccuracyOfTheirCells) {
   run_into("drops", "--set intervals.over=drop --set test.scenarios=[scenarios/hop.yaml]");
   const Table samples = table_of(from_csv(folder_.text("drops/tables/samples.csv")));

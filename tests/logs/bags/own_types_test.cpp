@@ -107,6 +107,25 @@ TEST_F(OwnTypes, AreReadByTheDefinitionThatTheBagCarries) {
   }
 }
 
+TEST_F(OwnTypes, OfMoreMotorsThanJointsNeedAnIndex) {
+  const auto put_twelve = [](bags::CdrBytes& bytes, std::size_t k) {
+    std::vector<double> positions;
+    for (std::size_t i = 0; i < 12; ++i) positions.push_back(position(i, k));
+    bytes.f64s(positions).f64s({1.0, 0.0, 0.0, 0.0}).f64s({0.1, 0.2, 0.3});
+  };
+  const std::filesystem::path bag =
+      write_bag(bag_of("float64[] q\nfloat64[] o\nfloat64[] g\n", false, put_twelve));
+  const std::string mapping =
+      "sources: {joints: /state, imu: /state}\njoints:\n  position: {from: q, index: [0, 1, 2, 3, "
+      "4, "
+      "5]}\n  velocity: {from: q}\n  torque: {from: o}\n"
+      "imu: {orientation: {from: o}, angular_velocity: {from: g}, proper_acceleration: {from: "
+      "g}}\n";
+  EXPECT_THAT(
+      complaint(bag, mapping),
+      HasSubstr("joints.velocity.from: 'q' has 12 numbers: expected `index` with 6 of them"));
+}
+
 /// The stamp of the header counts, not the time of recording; lists grow and shrink.
 TEST_F(OwnTypes, MayHaveAHeaderListsOfAnyLengthAndAClockOfTheirOwn) {
   const std::string definition = R"(std_msgs/Header header
@@ -134,7 +153,8 @@ string frame_id
   for (bags::TestMessage& message : bag.messages) message.time += 1000 * (message.time % 7);
   const auto mapping = [](const std::string& time) {
     return "sources: {joints: /state, imu: /state}\n" + time +
-           "joints: {position: {from: pos}, velocity: {from: zeros}, torque: {from: zeros, index: "
+           "joints: {position: {from: pos}, velocity: {from: zeros, index: [0, 1, 2, 3, 4, 5]}, "
+           "torque: {from: zeros, index: "
            "[6, 7, 8, 9, 10, 11]}}\nimu: {orientation: {from: zeros, index: [12, 13, 14, 15]}, "
            "angular_velocity: {from: zeros, index: [16, 17, 18]}, proper_acceleration: {from: "
            "zeros, index: [19, 20, 21]}}\n";

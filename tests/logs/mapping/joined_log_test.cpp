@@ -34,6 +34,7 @@ using bags::TestJoints;
 using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 constexpr std::int64_t epoch = 1'732'540'000'000'000'000;  // ns
 constexpr std::int64_t ms = 1'000'000;
@@ -124,6 +125,25 @@ TEST_F(JoinedLog, TopicsOfABagAreJoinedAtTheJointsClock) {
   const auto rows = convert(folder_ / "bag.db3", bag_mapping);
   EXPECT_EQ(rows.size(), 499U);
   expect_joined(rows);
+}
+
+TEST_F(JoinedLog, OfWhichFewRowsAreJoinedHasAFinding) {
+  const auto findings = [&](double from, double to) {
+    TestBag bag = robot_bag(2.0);
+    std::erase_if(bag.messages, [&](const auto& message) {
+      return message.topic == 1 && (message.time < stamp(from) || message.time > stamp(to));
+    });
+    const auto records = mapped_records(write_bag(bag), write("map.yaml", bag_mapping));
+    while (records->next()) {
+    }
+    return records->findings();
+  };
+  EXPECT_THAT(findings(0.0, 3.0), IsEmpty());
+  EXPECT_THAT(findings(0.0, 1.5), IsEmpty());
+  for (const auto& [from, to] :
+       std::vector<std::pair<double, double>>{{0, .1}, {1.9, 3}, {1, 1.2}}) {
+    EXPECT_THAT(findings(from, to), Contains(HasSubstr("/imu has values at "))) << from;
+  }
 }
 
 TEST_F(JoinedLog, ReadingABagLeavesNoFileInTheTemporaryFolder) {
