@@ -218,6 +218,7 @@ void fit(const FitFlags& flags, const CliSession& session) {
   shape_densities(entry, flags);
   experiments::LogFitConfig config = flags.config;
   config.stop = session.stop;
+  config.shows_progress = true;
   config.hyperparameters = experiments::hyperparameters_of(flags.hyperparameters);
   config.robot = experiments::robot_called(flags.robot);
   std::vector<InputFile> inputs;

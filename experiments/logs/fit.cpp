@@ -11,21 +11,49 @@
 #include <tbb/parallel_for.h>
 
 #include "core/error.hpp"
+#include "core/progress.hpp"
 #include "core/stop.hpp"
 #include "estimator/bayes/measurement_fit.hpp"
 #include "estimator/signal_guard.hpp"
 #include "experiments/logs/estimator.hpp"
 #include "experiments/logs/summary.hpp"
 #include "experiments/signals/reserved_seeds.hpp"
+#include "logs/log/byte_source.hpp"
 #include "logs/log/recording_file.hpp"
 
 namespace touchdown::experiments {
 
 namespace {
 
-logs::LogReader reader_of(const FitLog& log, const LogFitConfig& config) {
-  if (!log.recording) return logs::LogReader(log.path, config.stop);
-  return {logs::records_of(log.recording, config.stop), log.path.string()};
+constexpr std::size_t progress_unit = 1024;             // bytes
+constexpr std::uintmax_t read_at_once = 32'000 * 1024;  // bytes: read in less than a second
+
+/// The progress of reading logs, some of them more than once: `passes` in all.
+using OptionalProgress = std::optional<Progress>;
+
+void show_progress(OptionalProgress& progress, const char* what, std::span<const FitLog> logs,
+                   std::size_t passes, const LogFitConfig& config) {
+  progress.reset();
+  std::uintmax_t bytes = 0;
+  for (const FitLog& log : logs) {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(log.path, error);
+    if (!error) bytes += size;
+  }
+  if (!config.shows_progress || passes * bytes < read_at_once) return;
+  progress.emplace(what, "kB", static_cast<std::int64_t>(passes * bytes / progress_unit));
+}
+
+logs::LogReader reader_of(const FitLog& log, const LogFitConfig& config,
+                          OptionalProgress& progress) {
+  if (log.recording) return {logs::records_of(log.recording, config.stop), log.path.string()};
+  if (!progress || log.path == "-") return logs::LogReader(log.path, config.stop);
+  return {[&progress, bytes = logs::file_source(log.path, config.stop)](std::span<char> buffer) {
+            const std::size_t size = bytes(buffer);
+            progress->advance(static_cast<std::int64_t>(size / progress_unit));
+            return size;
+          },
+          log.path.string()};
 }
 
 /// A declared class is a label of all times. Null: the log's own truth counts.
@@ -38,9 +66,9 @@ std::shared_ptr<const logs::ContactIntervals> labels_of(const FitLog& log) {
 
 /// A log of a fit, opened.
 struct OpenLog {
-  OpenLog(const FitLog& log, const LogFitConfig& config)
+  OpenLog(const FitLog& log, const LogFitConfig& config, OptionalProgress& progress)
       : labels(labels_of(log)),
-        reader(reader_of(log, config)),
+        reader(reader_of(log, config, progress)),
         steps(reader, labels.get(), config.robot) {}
 
   std::shared_ptr<const logs::ContactIntervals> labels;
@@ -120,8 +148,8 @@ using Samples = std::array<std::vector<TorqueSample>, 2>;  ///< without contact,
 /// Errors: `InputError` for a step without ground truth of contact, if there are no labels; those
 /// of the functions above and of `LogSteps`.
 void read_log(const FitLog& log, const TorqueConfig& torque, const LogFitConfig& config,
-              Samples& samples, LogFitReport& report) {
-  OpenLog opened(log, config);
+              OptionalProgress& progress, Samples& samples, LogFitReport& report) {
+  OpenLog opened(log, config, progress);
   LogSteps& steps = opened.steps;
   add_source(log, steps, report.fitted_to);
   /// Samples of a leg wait until later forces decide about their labels.
@@ -215,8 +243,8 @@ bool names(const std::string& provenance, std::string_view key, const std::strin
 /// Adds the score of an estimator on the covered steps of a log with contact that is known by its
 /// truth, labels or class.
 void add_score(const LogEstimator& chosen, const FitLog& log, const LogFitConfig& config,
-               scoring::RobotScore& total) {
-  OpenLog opened(log, config);
+               OptionalProgress& progress, scoring::RobotScore& total) {
+  OpenLog opened(log, config, progress);
   LogSteps& steps = opened.steps;
   const auto estimator = chosen.make(steps.sample_rate(), steps.info());
   LogScore score(steps.period_us(), config.labels, steps.robot_mass(), {.skip = config.skip}, true);
@@ -259,51 +287,8 @@ std::vector<Fold> folds_of(std::span<const FitLog> logs, bool by_parts) {
   return folds;
 }
 
-/// Nothing with one fold alone, or if a fold's logs lack a class or a takeoff.
-std::optional<double> held_out(const EstimatorEntry& entry, const std::vector<Fold>& folds,
-                               const LogFitConfig& config) {
-  if (folds.size() < 2) return {};
-  std::vector<scoring::RobotScore> scores(folds.size());
-  std::atomic<bool> is_judged = true;
-  tbb::parallel_for(std::size_t{0}, folds.size(), [&](std::size_t fold) {
-    LogFitReport unused;
-    Model other;
-    try {
-      other = fit_to_logs(entry, folds[fold].fitted, config, unused);
-    } catch (const InputError&) {
-      is_judged = false;
-      return;
-    }
-    const LogEstimator estimator = log_estimator(entry, std::move(other), config.robot);
-    for (const FitLog& log : folds[fold].tested) add_score(estimator, log, config, scores[fold]);
-  });
-  if (!is_judged) return {};
-  const double accuracy = balanced(scores);
-  return std::isnan(accuracy) ? std::nullopt : std::optional(accuracy);
-}
-
-std::vector<scoring::RobotScore> scores_on(std::span<const FitLog> logs,
-                                           const LogEstimator& estimator,
-                                           const LogFitConfig& config) {
-  std::vector<scoring::RobotScore> scores(logs.size());
-  tbb::parallel_for(std::size_t{0}, logs.size(),
-                    [&](std::size_t i) { add_score(estimator, logs[i], config, scores[i]); });
-  return scores;
-}
-
-}  // namespace
-
-bool was_fitted_to(const Model& model, const LogSteps& log) {
-  const std::string provenance = provenance_text(model);
-  const logs::RecordingInfo& info = log.info();
-  const bool is_run = names(provenance, "scenarios", info.scenario) &&
-                      names(provenance, "simulators", info.simulator) &&
-                      names(provenance, "seed:run", fmt::format("{}:{}", info.seed, info.run));
-  return is_run || names(provenance, "logs", log.digest());
-}
-
-Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
-                  const LogFitConfig& config, LogFitReport& report) {
+Model model_of(const EstimatorEntry& entry, std::span<const FitLog> logs,
+               const LogFitConfig& config, OptionalProgress& progress, LogFitReport& report) {
   check_names(config.hyperparameters, entry);
   const EstimatorEntry chosen = with_hyperparameters(entry, config.hyperparameters);
   const MeasurementConfig& measurement = *chosen.fitting.torques;
@@ -311,7 +296,7 @@ Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
   report = {};
   for (const FitLog& log : logs) {
     end_if(config.stop);
-    read_log(log, measurement.torque, config, samples, report);
+    read_log(log, measurement.torque, config, progress, samples, report);
   }
   require_both_classes(samples);
   MeasurementFit fit = fit_measurement(samples[1], samples[0], measurement.fit);
@@ -333,17 +318,77 @@ Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
   return model;
 }
 
+/// Nothing with one fold alone, or if a fold's logs lack a class or a takeoff.
+std::optional<double> held_out(const EstimatorEntry& entry, const std::vector<Fold>& folds,
+                               const LogFitConfig& config, OptionalProgress& progress) {
+  if (folds.size() < 2) return {};
+  std::vector<scoring::RobotScore> scores(folds.size());
+  std::atomic<bool> is_judged = true;
+  tbb::parallel_for(std::size_t{0}, folds.size(), [&](std::size_t fold) {
+    LogFitReport unused;
+    Model other;
+    try {
+      other = model_of(entry, folds[fold].fitted, config, progress, unused);
+    } catch (const InputError&) {
+      is_judged = false;
+      return;
+    }
+    const LogEstimator estimator = log_estimator(entry, std::move(other), config.robot);
+    for (const FitLog& log : folds[fold].tested) {
+      add_score(estimator, log, config, progress, scores[fold]);
+    }
+  });
+  if (!is_judged) return {};
+  const double accuracy = balanced(scores);
+  return std::isnan(accuracy) ? std::nullopt : std::optional(accuracy);
+}
+
+std::vector<scoring::RobotScore> scores_on(std::span<const FitLog> logs,
+                                           const LogEstimator& estimator,
+                                           const LogFitConfig& config, OptionalProgress& progress) {
+  std::vector<scoring::RobotScore> scores(logs.size());
+  tbb::parallel_for(std::size_t{0}, logs.size(), [&](std::size_t i) {
+    add_score(estimator, logs[i], config, progress, scores[i]);
+  });
+  return scores;
+}
+
+}  // namespace
+
+bool was_fitted_to(const Model& model, const LogSteps& log) {
+  const std::string provenance = provenance_text(model);
+  const logs::RecordingInfo& info = log.info();
+  const bool is_run = names(provenance, "scenarios", info.scenario) &&
+                      names(provenance, "simulators", info.simulator) &&
+                      names(provenance, "seed:run", fmt::format("{}:{}", info.seed, info.run));
+  return is_run || names(provenance, "logs", log.digest());
+}
+
+Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
+                  const LogFitConfig& config, LogFitReport& report) {
+  OptionalProgress progress;
+  show_progress(progress, "fitting", logs, 1, config);
+  return model_of(entry, logs, config, progress, report);
+}
+
 FitAccuracy accuracy_of_fit(const EstimatorEntry& entry, std::span<const FitLog> logs,
                             const LogFitConfig& config, const Model& model) {
   FitAccuracy accuracy;
-  accuracy.held_out = held_out(entry, folds_of(logs, false), config);
+  OptionalProgress progress;
+  std::vector<Fold> folds = folds_of(logs, false);
+  if (folds.size() > 1) show_progress(progress, "judging", logs, folds.size(), config);
+  accuracy.held_out = held_out(entry, folds, config, progress);
   if (!accuracy.held_out) {
-    accuracy.held_out = held_out(entry, folds_of(logs, true), config);
+    folds = folds_of(logs, true);
+    show_progress(progress, "judging", logs, 2 * folds.size(), config);
+    accuracy.held_out = held_out(entry, folds, config, progress);
     accuracy.by_parts = accuracy.held_out.has_value();
   }
-  accuracy.fitted = balanced(scores_on(logs, log_estimator(entry, model, config.robot), config));
+  show_progress(progress, "scoring", logs, 2, config);
+  accuracy.fitted =
+      balanced(scores_on(logs, log_estimator(entry, model, config.robot), config, progress));
   const std::vector<scoring::RobotScore> scores =
-      scores_on(logs, log_estimator({.robot = config.robot}), config);
+      scores_on(logs, log_estimator({.robot = config.robot}), config, progress);
   accuracy.load_filter = balanced(scores);
   for (std::size_t i = 0; i < logs.size(); ++i) {
     const scoring::Score score = scores[i].wheels();

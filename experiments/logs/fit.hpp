@@ -39,6 +39,7 @@ struct LogFitConfig {
   /// Upkie's.
   LogRobot robot = {};
   HyperparameterValues hyperparameters = {};  ///< replace the estimator's defaults
+  bool shows_progress = false;                ///< on standard error, of large logs
   /// Stops with `Stopped` once true; may be null.
   const std::atomic<bool>* stop = nullptr;
 };

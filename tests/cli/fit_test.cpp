@@ -161,6 +161,14 @@ TEST_F(Fit, NamesExchangedClassesOfWholeLogs) {
   EXPECT_THAT(errors("hanging.mpack", "rolling.mpack"), HasSubstr("are they exchanged?"));
 }
 
+TEST_F(Fit, ShowsItsProgressOnLargeLogs) {
+  log("robot.mpack", test::synthetic_log(25.0));
+  const std::string errors = folder_.run("fit robot.mpack -o f.npz").errors;
+  for (const char* stage : {"fitting: ", "judging: ", "scoring: "}) {
+    EXPECT_THAT(errors, HasSubstr(stage));
+  }
+}
+
 TEST_F(Fit, ItsLogsAreNoTestOfTheModelAndCountOnce) {
   log("a.mpack", test::robot_log(3.0));
   log("b.mpack", test::robot_log(3.5));
