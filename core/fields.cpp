@@ -16,6 +16,24 @@ std::string scalar_text(const YAML::Node& value) {
   return value.Scalar().empty() ? "\"\"" : value.Scalar();
 }
 
+/// The value of a mapping's key; undefined if there is none.
+YAML::Node node_of(const YAML::Node& mapping, std::string_view key) {
+  if (mapping && mapping.IsMap() && mapping[std::string(key)]) return mapping[std::string(key)];
+  return YAML::Node(YAML::NodeType::Undefined);
+}
+
+/// "time, velocity": the keys of a list's items.
+std::string item_keys(const std::function<void(Fields&, std::size_t)>& describe_item) {
+  KeyCollection keys;
+  Fields item(keys);
+  describe_item(item, 0);
+  std::vector<std::string> names;
+  for (const Key& key : keys.keys()) {
+    if (key.path.find_first_of(".[") == std::string::npos) names.push_back(key.path);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -145,7 +163,8 @@ KeyNotes Fields::within(std::string_view key,
     describe_section(inner);
     return notes;
   }
-  Fields inner = reading() ? Fields(take(key), document_, path_to(key)) : Fields();
+  know(key);  // a section without keys may be empty
+  Fields inner = reading() ? Fields(node_of(node_, key), document_, path_to(key)) : Fields();
   describe_section(inner);
   inner.finish();
   if (!reading()) node_[std::string(key)] = inner.node();
@@ -156,7 +175,9 @@ void Fields::items(std::string_view key, std::size_t count,
                    const std::function<void(Fields&, std::size_t)>& describe_item) {
   if (reading()) {
     const YAML::Node list = take(key);
-    if (list && !list.IsSequence()) fail(key, "expected a list");
+    if (list && !list.IsSequence()) {
+      fail(key, fmt::format("expected a list of items with the keys {}", item_keys(describe_item)));
+    }
     for (std::size_t i = 0; list && i < list.size(); ++i) {
       Fields item(list[i], document_, fmt::format("{}.{}", path_to(key), i));
       describe_item(item, i);
@@ -179,7 +200,7 @@ bool Fields::present(std::string_view key, bool has_value) const {
 }
 
 void Fields::know(std::string_view key) {
-  if (reading()) (void)take(key);
+  if (reading() && !contains(known_, std::string(key))) known_.emplace_back(key);
 }
 
 std::size_t Fields::size() const { return node_.IsMap() ? node_.size() : 0; }
@@ -190,8 +211,10 @@ void Fields::finish() const {
     const auto key = entry.first.as<std::string>();
     if (contains(known_, key)) continue;
     std::string hint = did_you_mean(key, known_);
-    if (hint.empty() && !known_.empty())
-      hint = fmt::format(" (known: {})", fmt::join(known_, ", "));
+    const bool may_be_another_word = hint.empty() || key.size() < 4;
+    if (may_be_another_word && !known_.empty()) {
+      hint += fmt::format(" (known: {})", fmt::join(known_, ", "));
+    }
     fail(entry.first, key, fmt::format("unknown key{}", hint));
   }
 }
@@ -216,14 +239,13 @@ void Fields::check(std::string_view key, const std::function<void()>& action) co
   }
 }
 
-bool Fields::has(std::string_view key) const {
-  return node_ && node_.IsMap() && node_[std::string(key)];
-}
+bool Fields::has(std::string_view key) const { return node_of(node_, key).IsDefined(); }
 
 YAML::Node Fields::take(std::string_view key) {
-  if (!contains(known_, std::string(key))) known_.emplace_back(key);
-  if (!has(key)) return YAML::Node(YAML::NodeType::Undefined);
-  return node_[std::string(key)];
+  know(key);
+  YAML::Node given = node_of(node_, key);
+  if (given && given.IsNull()) fail(key, "expected a value, found none (a text 'null' in quotes)");
+  return given;
 }
 
 std::string Fields::path_to(std::string_view key) const {
@@ -231,7 +253,10 @@ std::string Fields::path_to(std::string_view key) const {
 }
 
 void Fields::fail(std::string_view key, const std::string& message) const {
-  fail(has(key) ? node_[std::string(key)] : node_, key, message);
+  const YAML::Node given = node_of(node_, key);
+  const bool is_keys_of_name = given && given.IsMap() && message == "expected a text";
+  fail(given ? given : node_, key,
+       message + (is_keys_of_name ? ", found keys: a file's own keys are set in that file" : ""));
 }
 
 void Fields::fail(const YAML::Node& node, std::string_view key, const std::string& message) const {

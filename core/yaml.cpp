@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -71,6 +72,9 @@ class Checker : public YAML::EventHandler {
     }
     if (const std::string shown = terminal_text(value, "\n\t"); shown != value) {
       complain(mark, fmt::format("'{}': a text has no control characters", shown));
+    }
+    if (is_key && value == "<<") {
+      complain(mark, "<<: merged keys are not read: repeat them");
     }
     if (is_key && !open_.back().keys.insert(value).second) {
       complain(mark, value + ": appears twice");
@@ -172,6 +176,19 @@ void check_yaml_text(const std::string& text, const MarkFormatter& place) {
   }
 }
 
+/// The first tab that indents a line, up to the line of a parser's error.
+std::optional<YAML::Mark> first_tab(const std::string& text, int last_line) {
+  std::istringstream lines(text);
+  YAML::Mark mark;
+  for (std::string line; mark.line <= last_line && std::getline(lines, line); ++mark.line) {
+    const std::size_t indent = line.find_first_not_of(' ');
+    if (indent == std::string::npos || line[indent] != '\t') continue;
+    mark.column = static_cast<int>(indent);
+    return mark;
+  }
+  return std::nullopt;
+}
+
 YAML::Node parse_or_complain(const std::string& text, const std::string& name) {
   const auto place = [&](const YAML::Mark& mark) {
     return fmt::format("{}:{}:{}", name, mark.line + 1, mark.column + 1);
@@ -184,7 +201,9 @@ YAML::Node parse_or_complain(const std::string& text, const std::string& name) {
     }
     return root;
   } catch (const YAML::ParserException& error) {
-    throw InputError(fmt::format("{}: not valid YAML: {}", place(error.mark), error.msg));
+    const std::optional<YAML::Mark> tab = first_tab(text, error.mark.line);
+    throw InputError(fmt::format("{}: not valid YAML: {}", place(tab.value_or(error.mark)),
+                                 tab ? "a tab indents the line: indent it by spaces" : error.msg));
   }
 }
 
@@ -223,8 +242,25 @@ bool has_leading_zero(std::string_view number) {
          std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
+/// What a file of another kind is, and what takes it; empty for one that may be YAML.
+static std::string other_kind(const std::filesystem::path& path) {
+  const std::string extension = extension_of(path);
+  const auto is_one_of = [&](std::initializer_list<std::string_view> extensions) {
+    return std::ranges::find(extensions, extension) != extensions.end();
+  };
+  if (is_one_of({".mpack"})) return "a recording, which `touchdown estimate` and `render` take";
+  if (is_one_of({".mcap", ".db3", ".bag"})) return "a bag, which `estimate --mapping` takes";
+  if (is_one_of({".xml", ".urdf"})) return "a robot, which `touchdown check` takes";
+  if (is_one_of({".csv", ".npz"})) return "a table or arrays";
+  return {};
+}
+
 YamlDocument YamlDocument::load(const std::filesystem::path& path) {
-  return parse(read_file(path), path.string());
+  const std::string text = read_file(path);
+  if (const std::string kind = other_kind(path); !kind.empty()) {
+    throw InputError(fmt::format("{}: is {}: expected a YAML file", path.string(), kind));
+  }
+  return parse(text, path.string());
 }
 
 YamlDocument YamlDocument::parse(const std::string& text, const std::string& name) {
@@ -277,7 +313,13 @@ std::string YamlDocument::place_of(const YAML::Node& node, std::string_view key)
   const Origin& origin = origin_of(key);
   if (origin.is_assignment) return origin.source;
   YAML::Mark mark = node ? node.Mark() : YAML::Mark::null_mark();
-  if (mark.is_null() && node) mark = origin.mark;
+  if (mark.is_null() && node) {  // an assignment made it
+    const auto below = std::find_if(origins_.rbegin(), origins_.rend(), [&](const Origin& one) {
+      return one.is_assignment && one.key.starts_with(std::string(key) + ".");
+    });
+    if (below != origins_.rend()) return below->source;
+    mark = origin.mark;
+  }
   return mark.is_null() ? origin.source
                         : fmt::format("{}:{}:{}", origin.source, mark.line + 1, mark.column + 1);
 }

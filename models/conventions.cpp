@@ -236,7 +236,9 @@ void find_imu(RobotModel& robot, const RobotSource& source) {
   if (!given.empty()) imu = source.named({mjOBJ_SITE, mjOBJ_BODY}, given, "imu");
   if (imu.id < 0) {
     source.fail(fmt::format("expected a site named 'imu'{}",
-                            found_text("imu", names_of(model, mjOBJ_SITE))));
+                            found_text("imu", names_of(model, mjOBJ_SITE))) +
+                "; a YAML file about the robot can name another, as `touchdown check FILE --write "
+                "robot.yaml` does");
   }
   const int body = imu.type == mjOBJ_SITE ? model.site_bodyid[imu.id] : imu.id;
   if (model.body_weldid[body] != model.body_weldid[robot.base_body]) {

@@ -21,6 +21,7 @@
 #include "core/stop.hpp"
 #include "core/table.hpp"
 #include "estimator/npz/npz.hpp"
+#include "experiments/config/yaml_kind.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
 #include "experiments/results/captions.hpp"
@@ -250,6 +251,9 @@ struct Found {
 void check_file(const std::string& file, const CheckFlags& flags, const CliSession& session,
                 Found& found) {
   if (flags.mapping.empty() && is_robot_file(file)) {
+    if (models::is_about_an_mjcf(file)) {
+      experiments::require_yaml_kind(YamlDocument::load(file), experiments::YamlKind::robot);
+    }
     found.complaints += check_robot(file, flags, session);
     return;
   }

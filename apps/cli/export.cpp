@@ -138,8 +138,9 @@ void export_mcap(const std::string& log, const std::string& robot, const std::st
 std::string name_of(const std::filesystem::path& header) {
   const std::string extension = header.extension().string();
   if (extension != ".hpp" && extension != ".h") {
-    throw InputError(
-        fmt::format("-o: {}: expected a header, FILE.hpp, or a model, FILE.npz", header.string()));
+    throw InputError(fmt::format(
+        "-o: {}: expected a header, FILE.hpp, or a model, FILE.npz; of a log, FILE.mcap",
+        header.string()));
   }
   std::string name = header.stem().string();
   std::replace_if(

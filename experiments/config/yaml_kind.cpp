@@ -30,6 +30,11 @@ std::vector<Kind> kinds() {
        {"terrain", "end", "perturbation"},
        "a scenario",
        "touchdown simulate {} -o run.mpack"},
+      {YamlKind::robot, {"mjcf"}, "a robot's file", "touchdown check {}"},
+      {YamlKind::mapping,
+       {"sources", "period", "time"},
+       "a mapping file",
+       "touchdown check LOG --mapping {}"},
   };
 }
 

@@ -8,8 +8,8 @@
 
 namespace touchdown::experiments {
 
-/// The three kinds of YAML files that users write. Each kind has its own verb.
-enum class YamlKind { experiment, scenario, training };
+/// The kinds of YAML files that users write, but for sensors. Each kind has its own verb.
+enum class YamlKind { experiment, scenario, training, robot, mapping };
 
 /// Errors: `InputError`, with the right verb, when the document is clearly of another kind than
 /// `wanted`. A document of no known kind passes, because its reader reports a better error.

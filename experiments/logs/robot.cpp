@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/resources.hpp"
+#include "experiments/config/yaml_kind.hpp"
 #include "experiments/estimators/fits.hpp"
 #include "models/robot_description.hpp"
 #include "models/robot_model.hpp"
@@ -30,7 +31,11 @@ logs::JointRanges ranges_of(const models::RobotModel& robot) {
 }
 
 LogRobot robot_in_file(const std::filesystem::path& path) {
-  const models::RobotModel robot = models::compile_robot_model(find_resource(path), {});
+  const std::filesystem::path file = find_resource(path);
+  if (models::is_about_an_mjcf(path)) {
+    require_yaml_kind(YamlDocument::load(file), YamlKind::robot);
+  }
+  const models::RobotModel robot = models::compile_robot_model(file, {});
   return {.name = path.stem().string(),
           .legs = scenarios::leg_geometry(robot),
           .ranges = ranges_of(robot)};

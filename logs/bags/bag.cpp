@@ -83,7 +83,17 @@ std::vector<fs::path> bag_files(const fs::path& path) {
           fmt::format("{}: lists {}, which is not there", metadata.string(), named.string()));
     }
   }
-  if (files.empty()) files = files_in(path);
+  if (files.empty()) {
+    files = files_in(path);
+    const auto other = std::ranges::find_if(files, [&](const fs::path& file) {
+      return bag_extension(file) != bag_extension(files.front());
+    });
+    if (other != files.end()) {
+      throw InputError(fmt::format("{}: {} and {} have two formats: are they two bags? Name one",
+                                   path.string(), files.front().filename().string(),
+                                   other->filename().string()));
+    }
+  }
   if (files.empty()) {
     throw InputError(
         fmt::format("{}: expected a ROS 2 bag, a folder with .mcap or .db3 files", path.string()));

@@ -303,7 +303,9 @@ class PackedRecords final : public RecordSource {
     const bool is_scenario = name_.ends_with(".yaml") || name_.ends_with(".yml");
     throw InputError(fmt::format(
         "{}: byte {}: expected a MessagePack map, one per control step{}", name_, offset_ + offset,
-        is_scenario ? ": `touchdown simulate` makes such a log of a scenario" : ""));
+        is_scenario             ? ": `touchdown simulate` makes such a log of a scenario"
+        : offset_ + offset == 0 ? ": it is no log in Upkie's layout"
+                                : ""));
   }
 
   ByteSource source_;

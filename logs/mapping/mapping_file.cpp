@@ -286,6 +286,18 @@ void describe_mapping(Fields& fields, MappingReader& reader, LogMapping& mapping
   if (!mapping.clocks.empty()) mapping.time = mapping.clocks[mapping.joint_source()];
 }
 
+/// Errors: `InputError` also for a robot's file: `--robot` stands beside `--mapping`.
+YamlDocument load_mapping(const std::filesystem::path& path) {
+  require_file(path);
+  YamlDocument document = YamlDocument::load(path);
+  if (document.root()["mjcf"]) {
+    throw InputError(fmt::format(
+        "{}: is a robot's file, which --robot takes: expected a mapping file, with joints and imu",
+        path.string()));
+  }
+  return document;
+}
+
 }  // namespace
 
 bool LogSources::are_files() const {
@@ -293,8 +305,7 @@ bool LogSources::are_files() const {
 }
 
 LogSources read_log_sources(const std::filesystem::path& mapping) {
-  require_file(mapping);
-  const YamlDocument document = YamlDocument::load(mapping);
+  const YamlDocument document = load_mapping(mapping);
   LogSources sources;
   Fields fields(document);
   if (fields.present("sources", false))
@@ -321,8 +332,7 @@ std::vector<Key> mapping_keys() {
 
 LogMapping read_log_mapping(const std::filesystem::path& path, std::span<const SourceNames> sources,
                             bool with_labels) {
-  require_file(path);
-  const YamlDocument document = YamlDocument::load(path);
+  const YamlDocument document = load_mapping(path);
   LogMapping mapping;
   mapping.folder = path.parent_path();
   MappingReader reader(sources, mapping);

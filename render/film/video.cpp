@@ -48,11 +48,17 @@ int frames_of(const std::vector<VideoSource>& sources, const VideoOptions& optio
   require_drawable(sources, options);
   double end = 0.0;
   for (const VideoSource& source : sources) end = std::max(end, duration(source));
-  end = std::min(end, options.to);
-  if (!(options.from >= 0.0) || !(options.from <= end)) {
-    throw InputError(fmt::format("a video from {} s to {} s: the recording has {:.3f} s",
-                                 options.from, options.to, end));
+  if (!(options.to >= options.from)) {
+    throw InputError(fmt::format("a film from {} s to {} s: it ends before it begins", options.from,
+                                 options.to));
   }
+  if (!(options.from >= 0.0 && options.from <= end)) {
+    throw InputError(
+        fmt::format("a film from {} s on: expected a time from 0 to {:.3f} s, where "
+                    "the recording ends",
+                    options.from, end));
+  }
+  end = std::min(end, options.to);
   return 1 + static_cast<int>(std::floor((end - options.from) / step + 1e-9));
 }
 

@@ -95,6 +95,55 @@ TEST_F(WrongRequest, AboutAFileNamesItsOptionOrThePlaceInIt) {
   });
 }
 
+TEST_F(WrongRequest, NamesWhatAFileIsAndWhatAKeyTakes) {
+  write_tiny_experiment(folder_);
+  folder_.output_of("simulate step.yaml -o run.mpack");
+  const std::string upkie = read_file(fs::path(TOUCHDOWN_SOURCE_DIR) / "models/upkie.xml");
+  folder_.write("mine.xml", std::regex_replace(upkie, std::regex("\"imu\""), "\"chip\""));
+  folder_.write("robot.yaml", "mjcf: mine.xml\n");
+  folder_.write("map.yaml", "sources: {joints: /joint_states, imu: /imu}\njoints: {}\n");
+  folder_.write("log.csv", "a,b\n1,2\n");
+  folder_.write("notes.md", "# Notes\n");
+  fs::create_directory(folder_ / "two");
+  folder_.write("two/a.db3", "");
+  folder_.write("two/b.mcap", "");
+  folder_.write("gap.yaml", "name: g\nterrain:\n  pieces:\n    - gap: {length: 1}\n");
+  folder_.write("tab.yaml", "name: g\nterrain:\n\tfriction: 1\n");
+  folder_.write("tabs.yaml", "name: g\nterrain: {}\n \tend: 1\n");
+  folder_.write("merge.yaml", "<<: {name: x}\nseed: 1\n");
+  folder_.write("null.yaml", "name: null\n");
+  folder_.write("none.yaml", "seed: 1\nname:\n");
+  const std::string simulate = "simulate scenarios/flat.yaml -o x.mpack --set ";
+  folder_.expect_refusals({
+      {"run run.mpack", {"run.mpack: is a recording, which `touchdown estimate` and", "YAML"}},
+      {"estimate run.mpack --mapping log.csv", {"log.csv: is a table or arrays: expected a YAML"}},
+      {"run mine.xml", {"mine.xml: is a robot, which `touchdown check` takes"}},
+      {"run robot.yaml", {"is a robot's file; try: touchdown check robot.yaml"}},
+      {"run map.yaml", {"is a mapping file; try: touchdown check LOG --mapping map.yaml"}},
+      {"check tiny.yaml", {"is an experiment; try: touchdown run "}},
+      {"check step.yaml", {"is a scenario; try: touchdown simulate "}},
+      {"estimate run.mpack --robot scenarios/stairs.yaml", {"is a scenario; try: "}},
+      {"check notes.md", {"notes.md: byte 0: expected a MessagePack map", "no log in Upkie's"}},
+      {"estimate log.csv --mapping robot.yaml", {"robot.yaml: is a robot's file, which --robot"}},
+      {"export log.csv --mapping robot.yaml -o x.mpack", {"is a robot's file, which --robot"}},
+      {"export run.mpack -o x.bag", {"x.bag: expected a header, FILE.hpp", "of a log, FILE.mcap"}},
+      {"render run.mpack -o x.mp4 --from 9 --to 3", {"from 9 s to 3 s: it ends before it begins"}},
+      {"render run.mpack -o x.mp4 --from 100", {"from 100 s on: expected a time from 0 to 2.5"}},
+      {simulate + "robot.mass=2", {"--set robot.mass=2: robot: expected a text, found keys: "}},
+      {simulate + "velocity=0.4", {"expected a list of items with the keys time, velocity"}},
+      {simulate + "forces=3", {"--set forces=3: forces: expected a list of items with the keys "}},
+      {simulate + "robot=mine.xml", {"expected a site named 'imu'", "--write robot.yaml"}},
+      {"simulate gap.yaml -o x.mpack",
+       {"gap.yaml:4:7: ", "gap: unknown key (did you mean 'ramp'?) (known: ", "stairs"}},
+      {"check two --mapping map.yaml", {"two: a.db3 and b.mcap have two formats"}},
+      {"simulate tab.yaml -o x.mpack", {"tab.yaml:3:1: not valid YAML: a tab indents the line"}},
+      {"simulate tabs.yaml -o x.mpack", {"tabs.yaml:3:2: not valid YAML: a tab indents the line"}},
+      {"simulate merge.yaml -o x.mpack", {"merge.yaml:1:1: <<: merged keys are not read"}},
+      {"simulate null.yaml -o x.mpack", {"null.yaml:1:7: name: expected a value, found none"}},
+      {"run none.yaml", {"none.yaml:3:1: name: expected a value, found none"}},
+  });
+}
+
 using Help = InFolder;
 
 TEST_F(Help, BeginsWithAnExample) {

@@ -18,6 +18,7 @@
 #include "core/resources.hpp"
 #include "core/yaml.hpp"
 #include "experiments/config/yaml_kind.hpp"
+#include "experiments/estimators/registry.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
 #include "logs/log/recording_file.hpp"
@@ -71,7 +72,12 @@ std::vector<experiments::LogEstimator> estimators_of(const std::vector<std::stri
     const auto split = word.find('=');
     experiments::LogEstimatorRequest request{
         .name = word.substr(0, split), .robot = robot, .transfer = true};
-    if (split != std::string::npos) request.model = word.substr(split + 1);
+    if (split != std::string::npos) {
+      request.model = word.substr(split + 1);
+    } else if (experiments::estimator_entry(word).fits()) {
+      throw InputError(
+          fmt::format("--estimator {0}: has to be fitted: expected {0}=MODEL.npz", word));
+    }
     experiments::LogEstimator estimator = experiments::log_estimator(std::move(request));
     // The title of a model ends with its file, for which there is no room.
     estimator.entry.title.resize(
