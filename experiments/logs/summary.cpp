@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
@@ -173,12 +174,9 @@ void LogScore::add(const std::optional<std::array<double, models::wheel_count>>&
     return;
   }
   if (!is_scored_) return;
-  if (!duration_) {
-    scoring::ScoringConfig scoring = scoring_;
-    scoring.skip = std::max(0.0, scoring_.skip - time);
-    duration_.emplace(period_us_, labels_, robot_mass_, scoring);
-  }
-  duration_->add(*normal_force, belief);
+  if (force_[0].empty()) start_ = time;
+  for (std::size_t w = 0; w < force_.size(); ++w) force_[w].push_back((*normal_force)[w]);
+  add_step(segment_, belief);
 }
 
 std::optional<scoring::RobotScore> LogScore::finish() {
@@ -195,10 +193,17 @@ std::string LogScore::load_text() const {
 }
 
 void LogScore::end_segment() {
-  if (!duration_) return;
+  if (force_[0].empty()) return;
+  std::array<scoring::ContactSequence, models::wheel_count> truth;
+  for (std::size_t w = 0; w < truth.size(); ++w) {
+    truth[w] =
+        contact_labels(force_[w], 1e-6 * static_cast<double>(period_us_), robot_mass_, labels_);
+    force_[w].clear();
+  }
+  scoring::ScoringConfig scoring = scoring_;
+  scoring.skip = std::max(0.0, scoring_.skip - start_);
   if (!total_) total_.emplace();
-  *total_ += duration_->finish();
-  duration_.reset();
+  *total_ += score(truth, std::exchange(segment_, {}), {0}, period_us_, scoring).front();
 }
 
 LogSummary::LogSummary(double period, const scoring::ScoringConfig& scoring)

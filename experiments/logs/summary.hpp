@@ -52,7 +52,8 @@ class BeliefBag {
 };
 
 /// The score of beliefs about a log, against its ground truth or against labels of segments. Each
-/// segment is scored as a run; `scoring.skip` applies to the beginning of the log.
+/// segment is scored as a run; `scoring.skip` applies to the beginning of the log. A scored step
+/// takes 100 bytes until its segment ends.
 class LogScore {
  public:
   /// `segment_counts`: ground truth of a part of the log suffices; otherwise all of it is needed.
@@ -82,7 +83,9 @@ class LogScore {
   bool segment_counts_;
   bool is_scored_ = true;
   std::int64_t steps_ = 0;
-  std::optional<scoring::ScoreStream> duration_;
+  std::array<std::vector<double>, models::wheel_count> force_;  ///< of the segment (N)
+  scoring::Prediction segment_;
+  double start_ = 0.0;  ///< of the segment (s)
   std::optional<scoring::RobotScore> total_;
   scoring::LoadScore load_;
   bool is_load_of_air_ = false;  ///< labels do not state the force in contact
