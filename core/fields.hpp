@@ -228,6 +228,10 @@ class Fields {
     know(key);
     return present(key, has_value);
   }
+  /// Reading: reports a key of former versions, with what replaces it.
+  void gone(std::string_view key, const std::string& successor) const {
+    if (reading() && has(key)) fail(key, successor);
+  }
   /// The number of keys.
   std::size_t size() const;
 

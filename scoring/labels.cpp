@@ -36,8 +36,8 @@ void describe(Fields& fields, Annotator& annotator) {
 
 void describe(Fields& fields, LabelConfig& labels) {
   for (const char* former : {"force_threshold", "debounce"}) {
-    fields.check(!fields.present(former, false), former,
-                 "expected 'share' of the weight and 'window' of the mean force, which replace it");
+    fields.gone(former,
+                "expected 'share' of the weight and 'window' of the mean force, which replace it");
   }
   fields("share", labels.share, 0.0, 1.0)
       .doc("A wheel is in contact above this share of the robot's weight.");

@@ -54,9 +54,8 @@ static void describe(Fields& fields, CausesConfig& causes, const Experiment& exp
 }
 
 static void describe(Fields& section, CrossSimulatorConfig& config, const Experiment& experiment) {
-  section.check(
-      !section.reading() || !section.node()["sensitivity"].IsDefined(), "sensitivity",
-      "is now the section `vary` of the experiment, such as {terrain.friction: [0.5, 1]}");
+  section.gone("sensitivity",
+               "is now the section `vary` of the experiment, such as {terrain.friction: [0.5, 1]}");
   section
       .within("verdict",
               [&](Fields& fields) {

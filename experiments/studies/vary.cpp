@@ -185,8 +185,7 @@ class VaryStudy final : public SectionStudy<VaryConfig> {
     section.before = "noise";
     section.describe = [describe_config = section.describe](Fields& fields,
                                                             Experiment& experiment) {
-      fields.check(!fields.reading() || !fields.node()["sweep"].IsDefined(), "sweep",
-                   "is now `vary`, with keys such as `sensors.dropout`");
+      fields.gone("sweep", "is now `vary`, with keys such as `sensors.dropout`");
       describe_config(fields, experiment);
       const auto* const config = experiment.studies.find<VaryConfig>();
       if (config != nullptr && config->keys.empty()) experiment.studies.erase<VaryConfig>();
