@@ -7,7 +7,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DOCS = ROOT / 'docs'
 KINDS = {'tutorials', 'guides', 'explanation', 'reference'}
-OF_NO_KIND = {'README.md', 'results.md', 'limits.md', 'history.md'}
+OF_NO_KIND = {'README.md', 'results.md', 'limits.md'}
 
 
 def uneven_rows(text):
