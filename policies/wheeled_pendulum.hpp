@@ -28,7 +28,6 @@ Eigen::MatrixXd bryson(const Eigen::VectorXd& largest);
 ///     D·θ̈ + (C/r)·s̈ = G·θ
 ///
 /// This is the sum of the equations of wheels and body, in which the torques cancel.
-/// docs/explanation/policy.md derives it.
 struct WheeledPendulum {
   double inertia = 0.0;        ///< D, of the whole robot about its contact line (kg·m²)
   double coupling = 0.0;       ///< C, between leaning and rolling (kg·m²)
