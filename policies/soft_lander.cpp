@@ -155,8 +155,8 @@ SideView side_view(const models::RobotModel& robot) {
 /// - In the air it keeps the ground speed on its wheels.
 /// - It softens its knees for a landing, each leg along its own line. It also does so when one
 ///   wheel hangs over an edge, and sinks instead of tipping over the other wheel.
-/// Wheel commands and gains are those of `WheelBalancer`. Equations and the effect of
-/// each part: docs/explanation/policy.md.
+/// Wheel commands and gains are those of `WheelBalancer`. The effect of each part:
+/// docs/explanation/policy.md.
 class SoftLander : public Policy {
  public:
   SoftLander(PolicyParts parts, const SideView& robot)

@@ -70,7 +70,7 @@ struct OdometryState {
 /// Contact-aided odometry of a wheeled biped from IMU, encoders and the contact probability of each
 /// wheel. It is a right-invariant extended Kalman filter on SE₂(3) with the biases of the IMU
 /// (Hartley et al. 2020). The measurement is that the contact point of a wheel is at rest.
-/// P(contact) weighs its noise continuously. docs/explanation/odometry.md derives it.
+/// P(contact) weighs its noise continuously (docs/explanation/odometry.md).
 ///
 /// Heading and position are not observable and drift; the other states converge. `update` never
 /// throws, allocates or locks. It ignores values that are not finite.

@@ -5,8 +5,8 @@
 namespace touchdown::odometry {
 
 // The groups SO(3) and SE₂(3), which combines rotation, velocity and position (Barrau and Bonnabel
-// 2017). A vector of its algebra is (φ, ν, ρ): rotation, velocity, position. Equations:
-// docs/explanation/odometry.md.
+// 2017). A vector of its algebra is (φ, ν, ρ): rotation, velocity, position. Its exponential is
+// (exp φ, J ν, J ρ), with the left Jacobian J of φ.
 
 using Vector9 = Eigen::Matrix<double, 9, 1>;
 
