@@ -38,6 +38,9 @@ class Version(unittest.TestCase):
     def test_of_the_citation(self):
         self.assertEqual(found(r'^version: (\S+)$', 'CITATION.cff'), self.version)
 
+    def test_of_the_ros_package(self):
+        self.assertEqual(found(r'^  <version>(\S+)</version>$', 'package.xml'), self.version)
+
     def test_of_the_newest_release(self):
         release, date = re.search(r'^## (\d\S*) – (\d{4}-\d\d-\d\d)$', (ROOT / 'CHANGELOG.md').read_text(encoding='utf-8'),
                                   re.M).groups()
