@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <set>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -12,6 +13,7 @@
 #include <fmt/ranges.h>
 
 #include "core/files.hpp"
+#include "core/terminal_text.hpp"
 #include "core/yaml.hpp"
 
 namespace touchdown::models {
@@ -121,6 +123,38 @@ std::unique_ptr<tinyxml2::XMLDocument> parsed(const std::string& text,
   return document;
 }
 
+/// Whether a word is a number to C's `strtod` but no finite decimal one. MuJoCo takes some for 0.
+bool is_strange_number(const std::string& word) {
+  char* end = nullptr;
+  (void)std::strtod(word.c_str(), &end);
+  return !word.empty() && *end == '\0' && std::isnan(numbers(word).front());
+}
+
+/// Refuses names that neither a YAML file nor a message can hold, and strange numbers. What is the
+/// name of an element is no number.
+void check_attributes(const MjcfDocument& document) {
+  std::set<std::string_view> names;
+  document.visit([&](const XMLElement& element) { names.insert(attribute(element, "name")); });
+  document.visit([&](const XMLElement& element) {
+    const std::string_view name = attribute(element, "name");
+    if (const std::string shown = terminal_text(name); shown != name) {
+      document.fail(element, fmt::format("{}: name: expected one without control characters, found "
+                                         "'{}'",
+                                         element.Name(), shown));
+    }
+    for (const auto* a = element.FirstAttribute(); a != nullptr; a = a->Next()) {
+      // A URDF's limit of velocity is not used.
+      if (names.contains(a->Value()) || a->Name() == std::string_view("velocity")) continue;
+      std::istringstream words(a->Value());
+      for (std::string word; words >> word;) {
+        if (!is_strange_number(word)) continue;
+        document.fail(element, fmt::format("{}: {}: expected finite decimal numbers, found '{}'",
+                                           title_of(element), a->Name(), word));
+      }
+    }
+  });
+}
+
 /// The spans of a tree's elements in its text.
 std::vector<std::array<std::size_t, 3>> spans_in(tinyxml2::XMLDocument& tree,
                                                  const std::string& text,
@@ -153,7 +187,9 @@ std::vector<double> numbers(std::string_view text) {
   for (std::string word; words >> word;) {
     char* end = nullptr;
     const double value = std::strtod(word.c_str(), &end);
-    all.push_back(*end == '\0' ? value : std::nan(""));
+    const bool is_decimal =
+        *end == '\0' && std::isfinite(value) && word.find_first_of("xX") == std::string::npos;
+    all.push_back(is_decimal ? value : std::nan(""));
   }
   return all;
 }
@@ -170,6 +206,7 @@ MjcfDocument MjcfDocument::load(const std::filesystem::path& file) {
   document.add_file(file, file.parent_path());
   document.files_.front() = file;
   document.parse();
+  check_attributes(document);
   return document;
 }
 

@@ -18,7 +18,8 @@ class MjcfDocument {
  public:
   /// Reads a file and the files that it includes. As in MuJoCo, these are relative to the folder of
   /// the first one. Errors: `InputError` with file:line:column for anything that is not XML, a
-  /// missing file or one that is included twice.
+  /// missing file or one that is included twice, names with control characters, and attributes
+  /// with NaN, infinity or hexadecimal numbers.
   static MjcfDocument load(const std::filesystem::path& file);
   /// The MJCF that a URDF was converted to. Bodies and joints have the places of the links and
   /// joints of their names.
@@ -133,7 +134,7 @@ std::string title_of(const tinyxml2::XMLElement& element);
 std::string_view attribute_or_default(const MjcfDocument& document,
                                       const tinyxml2::XMLElement& element, const char* name);
 
-/// The numbers of an attribute; NaN for a word that is none.
+/// The numbers of an attribute; NaN for a word that is no finite decimal number.
 std::vector<double> numbers(std::string_view text);
 
 /// Whether a geom has no contact bit: it is drawn, and touches nothing.

@@ -115,13 +115,17 @@ void reduce_world(RobotFile& robot, XMLElement& element, bool has_robot) {
   robot.document.remove(element);
 }
 
-/// Lets a robot float that is fixed to the world in its file.
+/// Lets a robot float that is fixed to the world in its file, or moves on joints to it.
 void let_float(RobotFile& robot) {
   const std::vector<XMLElement*> bodies = in_sections(robot.document.root(), "worldbody", "body");
   if (bodies.empty()) return;
   if (bodies.size() == 1) {
+    const std::vector<XMLElement*> joints = children(*bodies[0], "joint");
+    for (XMLElement* const joint : joints) robot.document.remove(*joint);
     robot.document.insert_last(*bodies[0], "<freejoint/>");
-    robot.ignore(*bodies[0], title_of(*bodies[0]) + ": fixed to the world: it floats here");
+    robot.ignore(*bodies[0],
+                 fmt::format("{}: {} to the world: it floats here", title_of(*bodies[0]),
+                             joints.empty() ? "fixed" : "on joints"));
     return;
   }
   std::vector<std::string> titles;

@@ -1,5 +1,10 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
 #include <memory>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -36,6 +41,31 @@ void drop_collider(MjcfDocument& urdf, XMLElement& collider, std::string_view ad
   urdf.remove(collider);
 }
 
+/// Attributes of links and joints that are three numbers, and those that are one.
+constexpr std::array triples = {"xyz", "rpy", "size", "scale"};
+constexpr std::array single_numbers = {"value", "ixx",    "ixy",     "ixz",     "iyy",
+                                       "iyz",   "izz",    "radius",  "length",  "lower",
+                                       "upper", "effort", "damping", "friction"};
+
+/// Refuses attributes of a link or joint that are not as many numbers as expected: MuJoCo takes
+/// what it cannot read for 0.
+void check_numbers(const MjcfDocument& urdf, XMLElement& part) {
+  for_each_element(part, [&](const XMLElement& element) {
+    const auto require = [&](const char* name, std::size_t count, const char* expected) {
+      if (element.Attribute(name) == nullptr) return;
+      const std::vector<double> found = numbers(attribute(element, name));
+      if (found.size() == count &&
+          std::ranges::none_of(found, [](double x) { return std::isnan(x); })) {
+        return;
+      }
+      urdf.fail(element, fmt::format("{}: {}: {}: expected {}, found '{}'", title_of(part),
+                                     element.Name(), name, expected, attribute(element, name)));
+    };
+    for (const char* const name : triples) require(name, 3, "three numbers with spaces between");
+    for (const char* const name : single_numbers) require(name, 1, "a number");
+  });
+}
+
 /// Removes what is only drawn, and writes the addresses of meshes as files. Returns what is
 /// ignored.
 std::vector<std::string> prepare(MjcfDocument& urdf) {
@@ -50,6 +80,7 @@ std::vector<std::string> prepare(MjcfDocument& urdf) {
   const std::string meshdir = mesh_folder(urdf);
   for (auto* link : children(urdf.root(), "link")) {
     for (auto* visual : children(*link, "visual")) urdf.remove(*visual);
+    check_numbers(urdf, *link);
     for (auto* collider : children(*link, "collision")) {
       XMLElement* const geometry = collider->FirstChildElement("geometry");
       XMLElement* const mesh = geometry == nullptr ? nullptr : geometry->FirstChildElement("mesh");
@@ -125,6 +156,39 @@ void require_one_root(const MjcfDocument& mjcf, const MjcfDocument& urdf) {
   }
 }
 
+/// The link that a joint names under `tag`, its "parent" or its "child".
+std::string_view link_of(const XMLElement& joint, const char* tag) {
+  const XMLElement* const end = joint.FirstChildElement(tag);
+  return end == nullptr ? std::string_view() : attribute(*end, "link");
+}
+
+/// Fixes a robot to a root without a mass on which it moves, such as `world` with a planar joint:
+/// its first link with a mass then floats as any other.
+void fix_to_world(MjcfDocument& urdf, std::vector<std::string>& ignored) {
+  const std::vector<XMLElement*> joints = children(urdf.root(), "joint");
+  const auto moves = [&](std::string_view link) {
+    return std::ranges::any_of(joints,
+                               [&](auto* joint) { return link_of(*joint, "child") == link; });
+  };
+  for (const XMLElement* link : children(urdf.root(), "link")) {
+    if (moves(attribute(*link, "name"))) continue;
+    for (std::size_t i = 0; i < joints.size() && !has_mass(*link); ++i) {  // joints may be a cycle
+      std::vector<XMLElement*> below;
+      std::ranges::copy_if(joints, std::back_inserter(below), [&](auto* joint) {
+        return link_of(*joint, "parent") == attribute(*link, "name");
+      });
+      if (below.size() != 1) break;
+      link = urdf.find("link", link_of(*below[0], "child"));
+      const std::string_view type = attribute(*below[0], "type");
+      if (link == nullptr || type == "floating") break;
+      if (type == "fixed") continue;
+      ignored.push_back(fmt::format("{}: {}: to the world: the robot floats here",
+                                    urdf.place_of(*below[0]), title_of(*below[0])));
+      urdf.replace(*below[0], "type", "type", "fixed");
+    }
+  }
+}
+
 /// Lets a body float: it becomes the child of the world, with a free joint.
 void let_float(MjcfDocument& mjcf, const std::string& base,
                const std::shared_ptr<const MjcfDocument>& urdf) {
@@ -151,10 +215,12 @@ RobotFile converted_urdf(MjcfDocument document, const std::string& base) {
   XMLElement& root = urdf->root();
   if (root.FirstChildElement() == nullptr) urdf->fail(root, "robot: expected links and joints");
   std::vector<std::string> ignored = prepare(*urdf);
+  fix_to_world(*urdf, ignored);
   reduce_mujoco_section(*urdf, ignored);
   std::vector<std::string> fixed;
   std::map<std::string, double> effort;
   for (auto* joint : children(root, "joint")) {
+    check_numbers(*urdf, *joint);
     if (joint->FirstChildElement("mimic") != nullptr) {
       urdf->fail(*joint, fmt::format("{}: expected no <mimic>: coupled joints are not supported",
                                      title_of(*joint)));

@@ -171,10 +171,64 @@ TEST_F(FoundFile, LeavesOutTheCollidersThatAreNamed) {
 }
 
 TEST_F(FoundFile, FloatsWhereItIsFixedToTheWorld) {
-  const Edit fixed = {"<freejoint name=\"root\"/>", ""};
-  const RobotModel floating = robot({fixed});
-  EXPECT_GE(floating.base_body, 1);
-  EXPECT_THAT(floating.ignored, Contains(AllOf(HasSubstr("body 'torso'"), HasSubstr("floats"))));
+  const std::string slides =
+      "<joint name=\"x\" type=\"slide\" axis=\"1 0 0\"/><joint type=\"slide\" axis=\"0 0 1\"/>";
+  for (const std::string& joints :
+       {std::string(), slides, slides + "<joint axis=\"0 1 0\"/>",
+        slides + "<joint type=\"ball\"/>", std::string("<joint axis=\"0 1 0\"/>")}) {
+    const RobotModel floating = robot({{"<freejoint name=\"root\"/>", joints}});
+    EXPECT_GE(floating.base_body, 1);
+    EXPECT_EQ(floating.mj->nv, 12) << joints;
+    EXPECT_THAT(floating.ignored,
+                Contains(AllOf(HasSubstr("body 'torso'"), HasSubstr("to the world: it floats"))));
+  }
+  const auto joint = [](const std::string& parent, const std::string& type,
+                        const std::string& child) {
+    return fmt::format(
+        "<link name=\"{0}\"/><joint name=\"of_{0}\" type=\"{1}\"><parent link=\"{0}\"/><child "
+        "link=\"{2}\"/><axis xyz=\"0 0 1\"/><limit lower=\"-1\" upper=\"1\" effort=\"1\"/></joint>",
+        parent, type, child);
+  };
+  for (const std::string& joints :
+       {joint("world", "planar", "base"), joint("world", "prismatic", "base"),
+        joint("footprint", "revolute", "base"), joint("world", "floating", "base"),
+        joint("world", "fixed", "base"),
+        joint("world", "prismatic", "cart") + joint("cart", "continuous", "base"),
+        joint("world", "fixed", "cart") + joint("cart", "planar", "base")}) {
+    EXPECT_EQ(written(urdf_biped(joints), "mass: 1\n", "robot.urdf").mj->nv, 12) << joints;
+  }
+}
+
+TEST_F(FoundFile, HasFiniteDecimalNumbersAlone) {
+  for (const auto& one : std::vector<std::pair<Edit, std::string>>{
+           {{"range=\"-2.51 2.51\"", "range=\"-2.51 nan\""},
+            "robot.xml:68:11: joint 'left_knee': range: expected finite decimal numbers, found "
+            "'nan'"},
+           {{"mass=\"0.69241\"", "mass=\"inf\""}, "inertial: mass: expected"},
+           {{"axis=\"0 -1 0\"", "axis=\"0 -NaN 0\""}, "axis: expected"},
+           {{"pos=\"0 0 -0.1\"", "pos=\"0 0 -Infinity\""}, "pos: expected"},
+           {{"ctrlrange=\"-16 16\"", "ctrlrange=\"-16 0x10\""}, "found '0x10'"}}) {
+    EXPECT_THAT(complaint_of([&] { (void)robot({one.first}); }), HasSubstr(one.second));
+  }
+  EXPECT_GT(robot({{"\"wood\"", "\"nan\""}}).wheel_radius, 0.0) << "a name is no number";
+  for (const auto& one : std::vector<std::pair<Edit, std::string>>{
+           {{"xyz=\"0 0.1 0\"", "xyz=\"0 nan 0\""}, "origin: xyz: expected"},
+           {{"xyz=\"0 0.1 0\"", "xyz=\"0 0x1 0\""}, "origin: xyz: expected"},
+           {{"xyz=\"0 0.1 0\"", "xyz=\"inf 0.1 0\""}, "origin: xyz: expected"},
+           {{"xyz=\"0 0.1 0\"", "xyz=\"\""}, "xyz: expected three numbers"},
+           {{"xyz=\"0 0.1 0\"", "xyz=\"0 0.1\""}, "found '0 0.1'"},
+           {{"xyz=\"0 0.1 0\"", "xyz=\"0, 0.1, 0\""}, "found '0, 0.1, 0'"},
+           {{"xyz=\"0 0.1 0\"", "xyz=\"0 0.1m 0\""}, "joint 'left_hip': origin: xyz: expected"},
+           {{"axis xyz=\"0 1 0\"", "axis xyz=\"0 1\""}, "axis: xyz: expected three numbers"},
+           {{"effort=\"20\"", "effort=\"20 N\""}, "limit: effort: expected a number"},
+           {{"mass value=\"1\"", "mass value=\"1kg\""}, "link 'base': mass: value: expected"},
+           {{"ixx=\".01\"", "ixx=\",01\""}, "inertia: ixx: expected a number, found ',01'"},
+           {{"radius=\".06\"", "radius=\"\""}, "sphere: radius: expected a number, found ''"}}) {
+    EXPECT_THAT(complaint_of([&] {
+                  (void)written(edited(urdf_biped(), {one.first}), "mass: 1\n", "robot.urdf");
+                }),
+                AllOf(HasSubstr("robot.urdf:1:"), HasSubstr(one.second)));
+  }
 }
 
 TEST_F(FoundFile, StandsWithinTheRangesOfItsJoints) {
