@@ -111,6 +111,14 @@ bool has_motor(const RobotModel& robot, const RobotSource& source, std::size_t s
 void set_motors(RobotModel& robot, ClosedLeg& leg, std::size_t side, const RobotSource& source) {
   mjModel& model = *robot.mj;
   std::vector<int>& motors = leg.linkage.motors;
+  const std::vector<std::string>& named = source.parts().motors[side];
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    const int joint = mj_name2id(&model, mjOBJ_JOINT, named[i].c_str());
+    if (std::ranges::count(leg.joint, joint) > 0) continue;
+    source.keys().fail(
+        fmt::format("motors.{}.{}", sides[side], i),
+        fmt::format("expected a joint of the {} leg's loops, found '{}'", sides[side], named[i]));
+  }
   const auto count = static_cast<int>(leg.joint.size());
   for (int place = 0; place < count; ++place) {
     // The knee comes after cranks.

@@ -133,14 +133,17 @@ class LegSearch {
     return axle;
   }
 
-  /// How much two hinges are like wheels; negative if they cannot be.
+  /// How much two hinges are like wheels; −∞ if they cannot be. A wheel may lack its mesh.
   double likeness(const Axle& a, const Axle& b) const {
     const Vector3d between = anchor(b.joint) - anchor(a.joint);
     const double distance = between.norm();
     const bool are_side_by_side = std::abs(axis(a.joint).dot(axis(b.joint))) > parallel &&
                                   std::abs(axis(a.joint).z()) < 0.25 && distance > 0.02 &&
                                   std::abs(between.dot(axis(a.joint))) > 0.9 * distance;
-    if (!are_side_by_side || std::abs(a.radius - b.radius) > 0.05 * a.radius) return -1.0;
+    const bool are_measured = a.radius > 0.0 && b.radius > 0.0;
+    if (!are_side_by_side || (are_measured && std::abs(a.radius - b.radius) > 0.05 * a.radius)) {
+      return -HUGE_VAL;
+    }
     double likeness = 0.0;
     for (const Axle& axle : {a, b}) {
       const int body = model_.jnt_bodyid[axle.joint];
@@ -161,16 +164,16 @@ class LegSearch {
       if (model_.jnt_type[joint] != mjJNT_HINGE || !is_leaf(joint)) continue;
       if (model_.body_rootid[model_.jnt_bodyid[joint]] == base_) axles.push_back(axle_of(joint));
     }
-    double most = -1.0;
+    double most = -HUGE_VAL;
     for (std::size_t i = 0; i < axles.size(); ++i) {
       for (std::size_t k = i + 1; k < axles.size(); ++k) {
         const double likeness_of_both = likeness(axles[i], axles[k]);
-        if (likeness_of_both < 0.0 || likeness_of_both <= most) continue;
+        if (likeness_of_both <= most) continue;
         most = likeness_of_both;
         legs_.axle = {axles[i], axles[k]};
       }
     }
-    if (most < 0.0) {
+    if (most == -HUGE_VAL) {
       throw InputError(
           "expected two wheels: hinges side by side with one axis, which move no other joint");
     }

@@ -30,11 +30,10 @@ class Draft {
     for (int joint = 0; joint < model_->njnt; ++joint) {
       if (model_->jnt_type[joint] == mjJNT_FREE) base_ = model_->jnt_bodyid[joint];
     }
-    if (base_ < 0) throw InputError(file.string() + ": expected a robot with a floating base");
     try {
       legs_ = find_legs(*model_, *data_, base_);
     } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+      source().fail(error.what());
     }
   }
 
@@ -56,7 +55,15 @@ class Draft {
   }
 
   std::string name(mjtObj type, int id) const { return name_of(*model_, type, id); }
-  std::string joint_name(int joint) const { return name(mjOBJ_JOINT, joint); }
+  RobotSource source() const { return {file_, description_, keys_, *model_}; }
+
+  /// The name by which the YAML file knows a joint.
+  std::string joint_name(int joint) const {
+    const std::string text = name(mjOBJ_JOINT, joint);
+    if (text.empty())
+      source().fail_at_hinge(joint, "expected a name, by which a YAML file knows it");
+    return text;
+  }
   Vector3d anchor(int joint) const { return vector_at(data_->xanchor, joint); }
 
   void add_base() {
@@ -111,15 +118,15 @@ class Draft {
     const std::set<int> in_loops = linked();
     JointsOfLegs legs = legs_.pitch;
     for (std::size_t i = 0; i < wheel_count; ++i) legs[i].push_back(legs_.axle[i].joint);
-    std::vector<int> held, rods;
+    std::vector<int> rods;
     for (int joint = 0; joint < model_->njnt; ++joint) {
       const bool is_servo =
           std::ranges::count(legs[0], joint) + std::ranges::count(legs[1], joint) > 0;
       if (model_->jnt_type[joint] == mjJNT_FREE || is_servo || in_loops.contains(joint)) continue;
-      (is_rod(*model_, *data_, legs, joint) ? rods : held).push_back(joint);
+      (is_rod(*model_, *data_, legs, joint) ? rods : held_).push_back(joint);
     }
-    if (!held.empty()) {
-      add("held", fmt::format("[{}]", fmt::join(names_of(held), ", ")),
+    if (!held_.empty()) {
+      add("held", fmt::format("[{}]", fmt::join(names_of(held_), ", ")),
           "all that no wheel needs to balance");
     }
     if (rods.empty()) return;
@@ -142,9 +149,11 @@ class Draft {
       return add("tyres", fmt::format("{{left: {}, right: {}}}", as_yaml(left.tyre),
                                       as_yaml(legs_.axle[1].tyre)));
     }
-    if (left.radius > 0.0) {
-      return add_radius(left.radius, left.is_mesh ? "m, of the wheel's mesh"
-                                                  : "m, of one of several round geoms");
+    // One wheel may lack its mesh.
+    const Axle& measured = left.radius > 0.0 ? left : legs_.axle[1];
+    if (measured.radius > 0.0) {
+      return add_radius(measured.radius,
+                        measured.is_mesh ? "m, of the wheel's mesh" : "m, of a wheel's round geom");
     }
     const int body = model_->jnt_bodyid[left.joint];
     double aside = 0.0;
@@ -194,24 +203,27 @@ class Draft {
   }
 
   bool has_limit(int joint) const {
-    const RobotSource source(file_, description_, keys_, *model_);
-    const int motor = source.motor_of(joint);
-    return std::isfinite(source.limit_of(joint)) ||
+    const int motor = source().motor_of(joint);
+    return std::isfinite(source().limit_of(joint)) ||
            (motor >= 0 && (model_->actuator_ctrllimited[motor] != 0 ||
                            model_->actuator_forcelimited[motor] != 0));
   }
 
-  /// Torque limits from the robot's weight, if its file has none. A joint without a limit beside
-  /// others with one has no motor, and `check` reports it.
+  /// Torque limits from the robot's weight, if its file has none. A servo without a limit beside
+  /// others with one has no motor, and `check` reports it. What is held is held by a guess anyway.
   void add_limits() {
     const std::vector<int>& pitch = legs_.pitch[0];
     const int wheel = legs_.axle[0].joint;
+    const double length = (anchor(pitch.front()) - anchor(wheel)).norm();
+    const double weight = 9.81 * model_->body_subtreemass[base_];
+    if (!std::ranges::all_of(held_, [&](int joint) { return has_limit(joint); })) {
+      add("held_servo", fmt::format("{{maximum_torque: {:.2g}}}", weight * length),
+          "N·m, guessed from the weight: give your own");
+    }
     if (has_limit(wheel) ||
         std::any_of(pitch.begin(), pitch.end(), [&](int joint) { return has_limit(joint); })) {
       return;
     }
-    const double length = (anchor(pitch.front()) - anchor(wheel)).norm();
-    const double weight = 9.81 * model_->body_subtreemass[base_];
     std::string limits;
     const auto add_limit = [&](const char* what, int joint, double torque) {
       const int dof = model_->jnt_dofadr[joint];
@@ -233,6 +245,7 @@ class Draft {
   MjDataPtr data_;
   int base_ = -1;
   FoundLegs legs_;
+  std::vector<int> held_;
   std::vector<DraftLine> lines_;
 };
 

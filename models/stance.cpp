@@ -63,6 +63,45 @@ Stance stance_within_ranges(const RobotModel& robot) {
   return {within(common_range(robot, true), above), knee};
 }
 
+/// The pose of closed legs nearest to that of the file, by their motors, whose hip and knee both
+/// legs can have, with some room to move; that of the file if there is none. Of equally near ones,
+/// it is that with the axle nearest to its place.
+Stance closed_stance(const RobotModel& robot) {
+  const Linkage& linkage = robot.closed_leg[0]->linkage;
+  const std::array ranges = {common_range(robot, true), common_range(robot, false)};
+  const auto axle = [&](const LinkageVector& q) {
+    return LinkagePose(linkage, q).place(linkage.axle).x();
+  };
+  const auto stance_of = [](const LinkageVector& q) { return Stance{q[0], -q[1]}; };
+  if (!stance_error(robot, stance_of(linkage.start))) return stance_of(linkage.start);
+  constexpr double step = 0.05;  // rad
+  constexpr int most = 30;
+  for (int ring = 1; ring <= most; ++ring) {
+    std::optional<Stance> nearest;
+    double least = HUGE_VAL;
+    const int other = linkage.motors.size() > 1 ? ring : 0;
+    for (int i = -ring; i <= ring; ++i) {
+      for (int k = -other; k <= other; ++k) {
+        if (std::max(std::abs(i), std::abs(k)) != ring) continue;
+        std::vector<double> at = {linkage.start[linkage.motors[0]] + i * step};
+        if (other > 0) at.push_back(linkage.start[linkage.motors[1]] + k * step);
+        LinkageVector q = linkage.start;
+        if (!move_linkage(linkage, linkage.motors, at, q)) continue;
+        const Stance stance = stance_of(q);
+        const double off = std::abs(axle(q) - axle(linkage.start));
+        if (off >= least || within(ranges[0], stance.hip) != stance.hip ||
+            within(ranges[1], stance.knee) != stance.knee || stance_error(robot, stance)) {
+          continue;
+        }
+        least = off;
+        nearest = stance;
+      }
+    }
+    if (nearest) return *nearest;
+  }
+  return stance_of(linkage.start);
+}
+
 /// The complaint about a stance in which the loops of a leg do not close, or its motors do not
 /// determine the wheel.
 std::optional<StanceError> loop_error(const RobotModel& robot,
@@ -106,7 +145,7 @@ Stance in_zeros_of_file(const RobotModel& robot, const Stance& stance) {
 }
 
 Stance usual_stance(const RobotModel& robot) {
-  if (const auto& leg = robot.closed_leg[0]) return {leg->linkage.start[0], -leg->linkage.start[1]};
+  if (robot.closed_leg[0]) return closed_stance(robot);
   const Stance crouch;
   const Stance mirrored = {-crouch.hip, -crouch.knee};
   if (!stance_error(robot, crouch)) return crouch;

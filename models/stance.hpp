@@ -19,7 +19,8 @@ Stance in_zeros_of_file(const RobotModel& robot, const Stance& stance);
 
 /// The stance if the file of a robot gives none: Upkie's crouch; if the joints cannot have it, its
 /// mirror image, with knees that bend forward; if they can have neither, the nearest to these
-/// within their ranges; or else the pose of the file.
+/// within their ranges; or else the pose of the file. Closed legs: the pose of the file, or the
+/// nearest to it within their ranges.
 Stance usual_stance(const RobotModel& robot);
 
 /// What is wrong with the ranges of hips and knees: too narrow to move, as radians taken for

@@ -4,6 +4,7 @@
 
 #include "estimator/force/linkage.hpp"
 #include "models/robot_model.hpp"
+#include "tests/complaint.hpp"
 #include "tests/models/parallel_robot.hpp"
 #include "tests/models/upkie.hpp"
 #include "tests/scratch_folder.hpp"
@@ -11,6 +12,7 @@
 namespace touchdown::models {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -77,6 +79,18 @@ RobotModel four_bar(const ScratchFolder& folder, const Edit& edit) {
       folder.write("four.yaml", edited(read_file(folder_of_models + "four_bar.yaml"),
                                        {{"legs/", folder_of_models + "legs/"}, edit})),
       Terrain{});
+}
+
+TEST_F(ClosedRobot, HasTheMotorsOfEachLegInItsLoops) {
+  for (const char* motor : {"right_hip", "left_axle", "right_rocker_pivot"}) {
+    EXPECT_THAT(complaint_of([&] {
+                  four_bar(folder_, {"(left: \\[)left_hip", fmt::format("$1{}", motor)});
+                }),
+                AllOf(HasSubstr("four.yaml:"),
+                      HasSubstr("motors.left: expected a joint of the left "
+                                "leg's loops, found"),
+                      HasSubstr(motor)));
+  }
 }
 
 TEST_F(ClosedRobot, HasAnchorsThatAreAlikeInBothLegs) {

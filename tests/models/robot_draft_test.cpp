@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "models/robot_model.hpp"
+#include "models/stance.hpp"
 #include "models/terrain.hpp"
 #include "tests/complaint.hpp"
 #include "tests/models/upkie.hpp"
@@ -171,6 +172,76 @@ TEST_F(RobotDraft, MeasuresWheelsWithoutRoundColliders) {
   const std::string any = "<inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\".01 .01 .01\"/>";
   EXPECT_THAT(draft_of(biped({0.2, 0.2}, "0 1 0", {"l", "r"}, any)),
               HasSubstr("# tyres: {radius: …}"));
+}
+
+TEST_F(RobotDraft, FindsWheelsWithoutMeshes) {
+  const std::string ros = read_file(TOUCHDOWN_SOURCE_DIR "/models/legs/ros_style.urdf");
+  for (const std::string side : {"left", "right"}) {
+    const Edit missing = {
+        fmt::format("(<link name=\"{}_wheel\">[\\s\\S]*?)<sphere radius=\"0.075\"/>", side),
+        "$1<mesh filename=\"package://theirs/wheel.stl\"/>"};
+    EXPECT_THAT(draft_of(edited(ros, {missing}), "theirs.urdf"),
+                HasSubstr("tyres: {radius: 0.075}  # m, of a wheel's round geom"));
+    EXPECT_NEAR(drafted().wheel_radius, 0.075, 1e-9) << side;
+  }
+  // Neither names, shapes, ranges nor places near the origin make them wheels.
+  const std::string disc = "<inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\".0018 .0032 .0018\"/>";
+  for (const char* height : {"1", "3", "20"}) {
+    EXPECT_THAT(draft_of(edited(biped({0.2, 0.2}, "0 1 0", {"l", "r"}, disc),
+                                {{"(<joint name=\"\\w+\")", "$1 range=\"-170 170\""},
+                                 {"pos=\"0 0 1\"", fmt::format("pos=\"0 0 {}\"", height)}})),
+                HasSubstr("left_wheel: l2"))
+        << height;
+  }
+}
+
+TEST_F(RobotDraft, GuessesTheTorqueOfHeldJointsWithoutALimit) {
+  const Edit no_motors = {"<actuator>[\\s\\S]*</actuator>", ""};
+  for (const std::string& robot : {rolling_upkie("", ""), edited(rolling_upkie(), {no_motors}),
+                                   rolling_upkie("", "<motor joint=\"{0}_roll\"/>")}) {
+    EXPECT_THAT(draft_of(robot), HasSubstr("held_servo: {maximum_torque: "));
+    EXPECT_GT(drafted().held[0].effort, 5.0);
+  }
+  EXPECT_THAT(draft_of(rolling_upkie()), Not(HasSubstr("held_servo")));
+}
+
+TEST_F(RobotDraft, StandsWithinTheRangesOfBothClosedLegs) {
+  const std::string five = read_file(TOUCHDOWN_SOURCE_DIR "/models/legs/five_bar.xml");
+  for (const auto& [joint, range] :
+       std::vector<std::pair<std::string, std::string>>{{"right_knee", "-1.4277 -.0777"},
+                                                        {"right_knee", ".02 1.4"},
+                                                        {"left_knee", "-1.4 -.3"},
+                                                        {"right_front_motor", ".1 1"},
+                                                        {"left_front_motor", "-1 -.2"},
+                                                        {"left_knee", "-.5 .5"}}) {
+    const std::string name = fmt::format("<joint name=\"{}\"", joint);
+    draft_of(edited(five, {{"<mujoco model=\"five_bar\">", "$&<compiler angle=\"radian\"/>"},
+                           {name, fmt::format("$& limited=\"true\" range=\"{}\"", range)}}));
+    const RobotModel robot = drafted();
+    EXPECT_FALSE(stance_error(robot, usual_stance(robot))) << joint << ' ' << range;
+  }
+}
+
+TEST_F(RobotDraft, IsRefusedAtThePartThatAYamlFileCannotName) {
+  const std::string motor = "<motor name=\"left_knee\"[^>]*>";
+  for (const auto& one : std::vector<std::pair<std::vector<Edit>, std::string>>{
+           {{{"<joint name=\"left_knee\"", "<joint"}, {motor, ""}},
+            "theirs.xml:68:11: joint without a name on body 'left_lower_leg': expected a name"},
+           {{{"<joint name=\"left_wheel\"[^>]*>", ""}, {"<motor name=\"left_wheel\"[^>]*>", ""}},
+            "theirs.xml:38:5: expected as many hinges parallel to the axles"},
+           {{{"\"left_knee\"", "\"left&#10;knee\""}},
+            "theirs.xml:68:11: joint: name: expected one without control characters, found "
+            "'left\\nknee'"},
+           {{{"\"imu\"", "\"im&#127;u\""}}, "theirs.xml:41:7: site: name: expected"},
+           {{{"\"left_tire\"", "\"left&#9;tire\""}}, "found 'left\\ttire'"}}) {
+    EXPECT_THAT(complaint_of([&] { draft_of(edited_upkie(one.first)); }), HasSubstr(one.second));
+  }
+  for (const char* strange : {"a: b", "'a'", "a # b", "{a}, [b]", "ü", "~", "2", " "}) {
+    draft_of(edited_upkie(
+        {{"\"(left|right)_(hip|knee|wheel|tire)\"", fmt::format("\"$01{}$2\"", strange)},
+         {"name=\"imu\"", fmt::format("name=\"{}\"", strange)}}));
+    EXPECT_EQ(drafted().joint_name[1], fmt::format("left{}knee", strange));
+  }
 }
 
 /// The five-bar robot without its loops.
