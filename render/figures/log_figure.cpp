@@ -74,13 +74,15 @@ std::string curve_commands(const Panel& panel, const std::string& file) {
   std::vector<std::string> columns;
   for (const auto& [column, name, line_type] : panel.curves) {
     const int low = low_column(column);
+    // Both wheels often agree: the first curve is seen on both sides of the second one.
+    const double width = column == panel.curves.back().column ? 1.0 : 3.0;
     // Where low and high agree, the filled band has no height and the line shows the value.
     columns.push_back(
         fmt::format("1:{}:{} with filledcurves lt {} fs transparent solid 0.35 noborder", low,
                     low + 1, line_type));
-    columns.push_back(fmt::format("1:{} with lines lt {} lw 1 dt 1", low, line_type));
-    columns.push_back(fmt::format("1:{} with lines lt {} lw 1 dt 1 title {}", low + 1, line_type,
-                                  gnuplot_text(name)));
+    columns.push_back(fmt::format("1:{} with lines lt {} lw {} dt 1", low, line_type, width));
+    columns.push_back(fmt::format("1:{} with lines lt {} lw {} dt 1 title {}", low + 1, line_type,
+                                  width, gnuplot_text(name)));
   }
   return fmt::format("set ylabel {} offset -0.5,0\nset yrange {}\nset key maxrows {}\n",
                      gnuplot_text(panel.label), panel.y_range, panel.curves.size()) +
