@@ -151,8 +151,9 @@ CheckedStand stand(const Scene& scene, const std::string& engine, bool is_explai
 }
 
 /// Complaints about a stand that ended well: a robot that rolls away, wheels that carry nothing, or
-/// not the weight.
-void check_loads(const CheckedStand& stand, double weight, std::vector<std::string>& complaints) {
+/// not the weight. Wheels that carry different loads are a warning, of the first engine.
+void check_loads(const CheckedStand& stand, double weight, RobotCheck& check) {
+  std::vector<std::string>& complaints = check.complaints;
   constexpr double farthest = 0.4;  // m
   if (stand.moved > farthest) {
     complaints.push_back(fmt::format("{}: standing: rolled {:.2f} m away within two seconds",
@@ -176,6 +177,12 @@ void check_loads(const CheckedStand& stand, double weight, std::vector<std::stri
     complaints.push_back(
         fmt::format("{}: standing: {:.1f} N on the left tyre, {:.1f} N on the right", stand.engine,
                     stand.load[0], stand.load[1]));
+  } else if (std::abs(stand.load[0] - stand.load[1]) > 0.5 * tolerance * weight &&
+             check.stands.size() == 1) {
+    check.warnings.push_back(
+        fmt::format("{}: standing: the wheels carry different loads, left {:.1f} N, right {:.1f} "
+                    "N: is a place or a mass of one leg wrong?",
+                    stand.engine, stand.load[0], stand.load[1]));
   }
 }
 
@@ -378,7 +385,7 @@ RobotCheck check_robot(const std::filesystem::path& file,
             fmt::format("{}: standing: {}{}", engine, last.ending,
                         reason.empty() ? hint_about_gains(scene.scenario.robot) : ": " + reason));
       } else {
-        check_loads(last, gravity * check.mass, check.complaints);
+        check_loads(last, gravity * check.mass, check);
       }
       last.drop = drop(scene, last, check);
     }

@@ -59,6 +59,7 @@ void draw_slider(cv::Mat& image, double share, int bottom) {
 unsigned estimator_colour(std::size_t i) { return render::line_colour(i + 1); }
 
 LivePlots::LivePlots(std::size_t estimators, double period, double weight) : period_(period) {
+  // As far as usual torques reach. Larger ones widen it.
   const auto torque_range = static_cast<float>(std::max(1.0, 0.06 * weight));  // N·m
   for (const char* const title : {"P(contact), left", "P(contact), right"}) {
     render::StripRow row{.title = title, .curves = {}, .wheels_in_contact = {}, .period = period};
@@ -104,7 +105,17 @@ void LivePlots::append(const std::vector<LiveSample>& samples) {
     row(2).curves[1].values.push_back(sample.knee_torque);
     row(3).curves[0].values.push_back(sample.acceleration);
     ++count_;
+    widen(std::max(std::abs(sample.wheel_torque), std::abs(sample.knee_torque)));
   }
+}
+
+void LivePlots::widen(float torque) {
+  const float high = strip_ ? strip_->rows()[2].high : rows_[2].high;
+  if (!(torque > high) || !std::isfinite(torque)) return;
+  if (strip_) rows_ = strip_->rows();
+  strip_.reset();
+  rows_[2].high = 1.25F * torque;
+  rows_[2].low = -rows_[2].high;
 }
 
 const cv::Mat& LivePlots::draw(int width, int height) {

@@ -30,6 +30,8 @@ class LivePlots {
 
  private:
   double end() const;
+  /// Fits the range of torques to one of them (N·m).
+  void widen(float torque);
 
   double period_;
   std::size_t count_ = 0;               ///< samples

@@ -42,7 +42,7 @@ void draw_drop_details(const experiments::ExperimentResult& result, const std::a
 // engine, experiment and figure.
 
 /// Ends of the scale (%); errors beyond have the end's colour.
-inline constexpr double lowest_error = 0.3, highest_error = 30.0;
+inline constexpr double lowest_error = 0.1, highest_error = 30.0;
 /// Levels at which lines are drawn between cells (%).
 inline constexpr std::array<double, 4> error_levels = {1.0, 2.0, 5.0, 10.0};
 
@@ -80,6 +80,7 @@ struct Heatmap {
   std::vector<double> x, y;
   std::vector<HeatmapPanel> panels;
   std::string caption;  ///< the runs, the seeds, and what counts as contact
+  std::string value_label = "success rate";
   /// Lines between cells below and above (%).
   std::vector<double> levels = {error_levels.begin(), error_levels.end()};
 };

@@ -64,8 +64,10 @@ std::string line_labels(const std::vector<LevelBorder>& borders) {
   return (text.empty() ? "NaN\tNaN\t\"\"\t0\n" : text) + '\n';
 }
 
-/// The outer thirds of both diagonals of every marked cell, so that they spare its number.
-std::string crosses(const HeatmapPanel& panel) {
+/// A cross in every marked cell. With a number it is the outer thirds of both diagonals, which
+/// spare the number. With the colour alone it is in the middle, as ends would meet at the corners.
+std::string crosses(const HeatmapPanel& panel, bool has_numbers) {
+  const double from = has_numbers ? 1.0 : 0.55, to = has_numbers ? 0.64 : 0.0;
   std::string text;
   for (std::size_t row = 0; row < panel.marked.size(); ++row) {
     for (std::size_t column = 0; column < panel.marked[row].size(); ++column) {
@@ -73,8 +75,8 @@ std::string crosses(const HeatmapPanel& panel) {
       const auto x = static_cast<double>(column), y = static_cast<double>(row);
       for (const double across : {0.5, -0.5}) {
         for (const double up : {0.5, -0.5}) {
-          fmt::format_to(std::back_inserter(text), "{}\t{}\n{}\t{}\n\n", x + across, y + up,
-                         x + 0.64 * across, y + 0.64 * up);
+          fmt::format_to(std::back_inserter(text), "{}\t{}\n{}\t{}\n\n", x + from * across,
+                         y + from * up, x + to * across, y + to * up);
         }
       }
     }
@@ -116,7 +118,7 @@ std::string heatmap_data(const Heatmap& heatmap, const PanelLayout& layout) {
     text += cells(panel, layout.content == PanelLayout::Content::interval) + '\n';
     line_text += lines(borders, layout.cell) + '\n';
     label_text += line_labels(borders) + '\n';
-    cross_text += crosses(panel) + '\n';
+    cross_text += crosses(panel, layout.content != PanelLayout::Content::colour) + '\n';
   }
   return text + line_text + label_text + cross_text;
 }
@@ -198,9 +200,10 @@ std::string panel_plot(const Heatmap& heatmap, const std::string& name, std::siz
   const CellSize& cell = layout.cell;
   const auto block = [&](Block kind) { return heatmap.panels.size() * kind + i; };
   std::string text = fmt::format(
-      "plot '{}.dat' index {} using 1:2:($1-0.5):($1+0.5):($2-0.5):($2+0.5):(shown($3)) with "
+      "plot '{0}.dat' index {1} using 1:2:($1-0.5):($1+0.5):($2-0.5):($2+0.5):(shown($3)) with "
       "boxxyerror fillcolor palette, \\\n"
-      "     '' index {} using 1:2 with lines lw 1 lc rgb '#aab0b8' dt 1",
+      "     '' index {2} using 1:2 with lines lw 3.4 lc rgb '#101418' dt 1, \\\n"
+      "     '' index {2} using 1:2 with lines lw 1.4 lc rgb '#ffffff' dt 1",
       name, block(cell_block), block(cross_block));
   if (layout.content != PanelLayout::Content::colour) {
     text += fmt::format(
@@ -234,7 +237,7 @@ std::string colour_scale(const Heatmap& heatmap) {
 
 /// The alternative text: each panel's first and last cell.
 std::string described(const Heatmap& heatmap) {
-  std::string text = fmt::format("Maps of the success rate by {} (across) and {} (up).",
+  std::string text = fmt::format("Maps of the {} by {} (across) and {} (up).", heatmap.value_label,
                                  heatmap.x_label, heatmap.y_label);
   for (const HeatmapPanel& panel : heatmap.panels) {
     text += fmt::format(" {}: {} % in the lower left cell, {} % in the upper right one.",
@@ -269,7 +272,8 @@ Figure draw_heatmap(const Heatmap& heatmap, const FigureFile& target) {
         gnuplot_text(i % layout.columns == 0 ? heatmap.y_label : ""));
     commands += i == 0 ? frame.colour_bar(layout.width - scale_width + 16.0, layout.top(0), 14.0,
                                           layout.panel_height) +
-                             "set cblabel 'success rate (%)' offset 0.4,0\n"
+                             fmt::format("set cblabel {} offset 0.4,0\n",
+                                         gnuplot_text(heatmap.value_label + " (%)"))
                        : "unset colorbox\n";
     commands += panel_plot(heatmap, target.name(), i, layout) + FigureFrame::end_panel();
   }

@@ -87,7 +87,8 @@ Heatmap heatmap_of(const experiments::ExperimentResult& result, const std::strin
                   .x = maps.x.levels,
                   .y = maps.y.levels,
                   .panels = {},
-                  .caption = {}};
+                  .caption = {},
+                  .value_label = experiments::mapped_metric(experiment).title};
   for (const std::string& estimator : mapped_estimators(experiment)) {
     heatmap.panels.push_back(panel_of(result, simulator, estimator, maps));
   }

@@ -42,7 +42,10 @@ std::vector<double> held_positions(const models::GroundTruth& truth) {
 constexpr double sun_distance = 6.0;
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr double usual_reach = 0.65;    // m: of a robot that cameras are made for
-constexpr float vector_width = 0.012F;  // m
+constexpr double vector_width = 0.012;  // m
+constexpr double rod_radius = 0.012;    // m: as of bodies without a shape
+constexpr double loop_radius = 0.0115;  // m: within a rod along it, of another colour
+constexpr float rod_colour[4] = {0.5F, 0.5F, 0.5F, 1};
 constexpr float vector_colour[4] = {0.85F, 0.46F, 0.06F, 1};  // of the film's orange labels
 
 }  // namespace
@@ -139,6 +142,33 @@ std::vector<Eigen::Vector3d> smoothed(std::vector<Eigen::Vector3d> values, doubl
   return values;
 }
 
+/// Rods from the frames of bodies without a shape of their own to where their loops meet. The rods
+/// that models/mjcf/assets.cpp draws in such bodies end at joints alone.
+static std::vector<SceneVector> rods_of_loops(const mjModel& model, const mjData& data) {
+  const auto has_shape = [&](int body) {
+    for (int i = 0; i < model.body_geomnum[body]; ++i) {
+      const int geom = model.body_geomadr[body] + i;
+      const bool is_drawn = model.geom_group[geom] < mjNGROUP / 2;
+      const bool is_rod = model.geom_size[3 * geom] == rod_radius && model.geom_matid[geom] < 0 &&
+                          std::equal(rod_colour, rod_colour + 4, &model.geom_rgba[4 * geom]);
+      if (is_drawn && !is_rod) return true;
+    }
+    return false;
+  };
+  std::vector<SceneVector> rods;
+  for (int loop = 0; loop < model.neq; ++loop) {
+    for (int end = 0; end < 2; ++end) {
+      const int body = end == 0 ? model.eq_obj1id[loop] : model.eq_obj2id[loop];
+      if (has_shape(body)) continue;
+      const Eigen::Vector3d from = models::vector_at(data.xpos, body);
+      const Eigen::Vector3d anchor =
+          Eigen::Map<const Eigen::Vector3d>(model.eq_data + mjNEQDATA * loop + 3 * end);
+      rods.push_back({from, from + models::quaternion_at(data.xquat, body) * anchor});
+    }
+  }
+  return rods;
+}
+
 /// The largest distance of a part of the robot from its base (m), at the pose of its file.
 static double reach_of(const models::RobotModel& robot) {
   const models::MjDataPtr data = models::at_reference(robot);
@@ -197,7 +227,10 @@ void SceneView::draw(const mjrRect& viewport, const Eigen::Vector3d& target,
                   &scene_);
   place_sun(target);
   switch_haze_on();
-  for (const SceneVector& vector : vectors) add(vector);
+  for (const SceneVector& rod : rods_of_loops(*robot_.mj, *data_)) {
+    add(rod, mjGEOM_CAPSULE, loop_radius, rod_colour);
+  }
+  for (const SceneVector& vector : vectors) add(vector, mjGEOM_ARROW, vector_width, vector_colour);
   mjr_render(viewport, &scene_, &context_);
 }
 
@@ -229,13 +262,13 @@ void SceneView::copy(const std::uint8_t* pixels, const mjrRect& area) const {
   mjr_drawPixels(pixels, nullptr, area, &context_);
 }
 
-void SceneView::add(const SceneVector& vector) {
+void SceneView::add(const SceneVector& vector, mjtGeom shape, double width, const float* colour) {
   if (scene_.ngeom >= scene_.maxgeom) return;
   mjvGeom& geom = scene_.geoms[scene_.ngeom++];
-  mjv_initGeom(&geom, mjGEOM_ARROW, nullptr, nullptr, nullptr, vector_colour);
+  mjv_initGeom(&geom, shape, nullptr, nullptr, nullptr, colour);
   const Eigen::Vector3d& a = vector.from;
   const Eigen::Vector3d& b = vector.to;
-  mjv_makeConnector(&geom, mjGEOM_ARROW, vector_width, a.x(), a.y(), a.z(), b.x(), b.y(), b.z());
+  mjv_makeConnector(&geom, shape, width, a.x(), a.y(), a.z(), b.x(), b.y(), b.z());
   geom.category = mjCAT_DECOR;
 }
 

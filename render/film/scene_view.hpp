@@ -92,7 +92,7 @@ class SceneView {
   void copy(const std::uint8_t* pixels, const mjrRect& area) const;
 
  private:
-  void add(const SceneVector& vector);
+  void add(const SceneVector& vector, mjtGeom shape, double width, const float* colour);
   void place_sun(const Eigen::Vector3d& target);
   void switch_haze_on();
 

@@ -56,8 +56,8 @@ std::vector<float> torque(const logs::Recording& recording, models::Servo servo)
   return values;
 }
 
-/// Sets a range that is symmetric about zero and fits usual torques (N·m). Peaks at landings are
-/// clipped: they would flatten everything else.
+/// Sets a range that is symmetric about zero and fits all torques (N·m). Peaks far beyond usual
+/// torques, as of a broken sensor, are clipped, and the title has the largest.
 void fit_range(StripRow& row) {
   std::vector<float> sizes;
   for (const StripCurve& curve : row.curves) {
@@ -69,7 +69,9 @@ void fit_range(StripRow& row) {
   if (!sizes.empty()) {
     const auto at = sizes.begin() + static_cast<std::ptrdiff_t>((sizes.size() - 1) * 95 / 100);
     std::nth_element(sizes.begin(), at, sizes.end());
-    range = std::max(1.0f, 2.0f * *at);
+    const float most = *std::ranges::max_element(sizes);
+    range = std::max(1.0f, std::min(most, 10.0f * *at));
+    if (most > range) row.title += fmt::format(", peaks {:.2g}", most);
   }
   row.low = -range;
   row.high = range;
@@ -86,10 +88,12 @@ std::vector<StripRow> strip_rows(const std::vector<VideoSource>& sources,
   if (sources.size() == 1) {
     const VideoSource& source = sources.front();
     const auto contact = wheels_in_contact(source.recording, labels);
-    rows.push_back(contact_row(source, contact, "contact probability"));
+    const bool has_beliefs = !source.beliefs.empty();
+    if (has_beliefs) rows.push_back(contact_row(source, contact, "contact probability"));
     StripRow transitions = transition_row(source, contact);
     if (!transitions.curves.empty()) rows.push_back(std::move(transitions));
-    StripRow torques = empty_row("torque (N·m)", source);
+    StripRow torques =
+        empty_row("torque (N·m)", source, has_beliefs ? std::vector<std::uint8_t>{} : contact);
     torques.curves.push_back(
         {"wheel", rgb(0x009e73), torque(source.recording, models::Servo::left_wheel)});
     torques.curves.push_back(
@@ -99,9 +103,10 @@ std::vector<StripRow> strip_rows(const std::vector<VideoSource>& sources,
     return rows;
   }
   for (const VideoSource& source : sources) {
+    const std::string what = source.beliefs.empty() ? "true contact" : "P(contact)";
     rows.push_back(contact_row(source, wheels_in_contact(source.recording, labels),
-                               sources.size() > 2 ? "P(contact)"  // the curve has the name
-                                                  : "P(contact), " + label_of(source)));
+                               sources.size() > 2 ? what  // the curve has the name
+                                                  : what + ", " + label_of(source)));
   }
   if (sources.size() > 2) return rows;
   StripRow knees = empty_row("knee torque (N·m)", sources.front());

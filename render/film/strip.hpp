@@ -11,7 +11,7 @@
 namespace touchdown::render {
 
 /// The plots of the strip: all of them for one run, P(contact) and knee torques for two runs, and
-/// P(contact) alone for more.
+/// P(contact) alone for more. Without beliefs, true contact is behind the torques of one run.
 std::vector<StripRow> strip_rows(const std::vector<VideoSource>& sources,
                                  const scoring::LabelConfig& labels);
 

@@ -30,11 +30,14 @@ FigureText text_of(const fs::path& figure) {
   const fs::path script = fs::path(figure).replace_extension(".gp");
   std::error_code ignored;
   if (!fs::is_regular_file(script, ignored)) return {name, {}, name};
-  FigureText text = figure_text(read_file(script));
+  const std::string commands = read_file(script);
+  FigureText text = figure_text(commands);
   if (text.title.empty()) text.title = name;
   if (text.alt.empty()) {
     text.alt = text.caption.empty() ? text.title : text.title + ": " + text.caption;
   }
+  // Most drawings have their caption in them (FigureFrame::begin); none is printed twice.
+  if (commands.find("set label 1002 '") != commands.find("set label 1002 ''")) text.caption.clear();
   return text;
 }
 

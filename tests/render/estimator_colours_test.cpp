@@ -1,5 +1,6 @@
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -74,6 +75,28 @@ TEST(EstimatorColours, AreThoseOfTheScoresAndFilms) {
   ASSERT_EQ(rows.front().curves.size(), models::wheel_count);
   for (const StripCurve& curve : rows.front().curves) {
     EXPECT_EQ(curve.colour, rgb(line_colours[2]));
+  }
+}
+
+TEST(FilmedRun, ShowsAllTorquesOverTrueContactWithoutBeliefs) {
+  const models::RobotModel robot = models::compile_robot_model(upkie_mjcf, staged_terrain());
+  for (const auto& [servo, peak, range, title] :
+       std::vector<std::tuple<models::Servo, double, float, std::string>>{
+           {models::Servo::left_knee, 8.0, 8.0F, "torque (N·m)"},
+           {models::Servo::left_wheel, -5.0, 5.0F, "torque (N·m)"},
+           {models::Servo::left_knee, 1e4, 10.0F, "torque (N·m), peaks 1e+04"},
+           {models::Servo::right_knee, 8.0, 1.0F, "torque (N·m)"}}) {
+    logs::Recording run = staged_run(0.5);
+    for (models::Observation& row : run.observation) {
+      for (models::ServoReading& one : row.servo) one.torque = 1.0;
+    }
+    run.observation[200].servo[models::index(servo)].torque = peak;
+    const std::vector<BeliefTrack> none;
+    const std::vector<StripRow> rows = strip_rows({{robot, run, none}}, {});
+    ASSERT_EQ(rows.size(), 1U);
+    EXPECT_EQ(rows[0].title, title);
+    EXPECT_EQ(rows[0].high, range);
+    EXPECT_EQ(rows[0].wheels_in_contact.size(), run.steps());
   }
 }
 

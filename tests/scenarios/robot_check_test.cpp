@@ -102,6 +102,23 @@ TEST(ARobotCheck, NamesWhatIsReversedAndWhatIsIgnored) {
   EXPECT_THAT(check.differences, Contains(HasSubstr("armature")));
 }
 
+TEST(ARobotCheck, WarnsOfWheelsThatCarryDifferentLoads) {
+  const ScratchFolder folder;
+  for (const auto& [pattern, by, is_uneven] :
+       std::vector<std::tuple<const char*, const char*, bool>>{
+           {"left_upper_leg\" pos=\"0 0.1142", "left_upper_leg\" pos=\"0 0.04", true},
+           {"right_upper_leg\" pos=\"0 -0.1142", "right_upper_leg\" pos=\"0 -0.05", true},
+           {"inertial pos=\"-0.011451 0 ", "inertial pos=\"-0.011451 0.07 ", true},
+           {"inertial pos=\"-0.011451 0 ", "inertial pos=\"-0.011451 0.01 ", false}}) {
+    const RobotCheck check = check_robot(folder.write("robot.xml", edited_upkie({{pattern, by}})));
+    EXPECT_THAT(check.complaints, IsEmpty());
+    EXPECT_THAT(check.warnings,
+                Contains(AllOf(HasSubstr("different loads, left "), HasSubstr(" N, right ")))
+                    .Times(is_uneven ? 1 : 0))
+        << by;
+  }
+}
+
 TEST(ARobotCheck, ComplainsOfRobotsThatCannotBeUsed) {
   const ScratchFolder folder;
   const auto complaints = [&](const std::vector<Edit>& edits) {

@@ -77,10 +77,27 @@ TEST_F(FigureFiles, HeatmapCrossesTheMarkedCellsOnly) {
   EXPECT_EQ(data.find("2.5\t1.5\n"), data.rfind("2.5\t1.5\n"));
 }
 
+/// Ends of crosses meet at the corners of small cells: there they are in the middle.
+TEST_F(FigureFiles, HeatmapCrossesFineCellsInTheirMiddle) {
+  Heatmap heatmap = error_heatmap();
+  heatmap.levels.clear();
+  heatmap.x.assign(13, 0.0);
+  heatmap.y.assign(13, 0.0);
+  heatmap.value_label = "balanced accuracy";
+  heatmap.panels = {{.title = "fine", .value = {13, std::vector<double>(13, 0.5)}}};
+  heatmap.panels[0].marked.assign(13, std::vector<bool>(13, false));
+  heatmap.panels[0].marked[2][4] = true;
+  const Figure figure = draw_heatmap(heatmap, folder_ / "fine");
+  const std::string data = read_file(folder_ / "fine.dat");
+  EXPECT_THAT(data, HasSubstr("4.275\t2.275\n4\t2\n"));
+  EXPECT_EQ(data.find("2.5\t1.5\n"), std::string::npos) << "no corner";
+  EXPECT_THAT(read_file(figure.svg), HasSubstr("balanced accuracy (%)"));
+}
+
 /// An unknown cell must stay white, and must not move the cells after it.
 TEST_F(FigureFiles, HeatmapCellsHaveTheirOwnColours) {
   Heatmap heatmap = error_heatmap();
-  heatmap.panels = {{.title = "", .value = {{30.0, NAN, 0.3}, {0.0, 100.0, 0.3}}}};
+  heatmap.panels = {{.title = "", .value = {{30.0, NAN, 0.1}, {0.0, 100.0, 0.1}}}};
   heatmap.levels.clear();
   const Figure figure = draw_heatmap(heatmap, folder_ / "cells");
   const cv::Mat image = cv::imread(figure.png.string());
@@ -130,11 +147,11 @@ TEST_F(FigureFiles, FineMapsLeaveTheNumbersToTheDataFile) {
 }
 
 /// Four estimators that would look alike on a linear scale.
-TEST_F(FigureFiles, HeatmapColoursDistinguishSuccessRatesAbove98Percent) {
+TEST_F(FigureFiles, HeatmapColoursDistinguishVeryGoodSuccessRates) {
   Heatmap heatmap = error_heatmap();
   heatmap.x = {0, 1, 2, 3};
   heatmap.y = {0};
-  heatmap.panels = {{.title = "", .value = {{0.4, 0.6, 1.1, 1.7}}}};
+  heatmap.panels = {{.title = "", .value = {{0.15, 0.25, 0.7, 1.7}}}};
   heatmap.levels.clear();
   const Figure figure = draw_heatmap(heatmap, folder_ / "good");
   const cv::Mat image = cv::imread(figure.png.string());
@@ -143,8 +160,8 @@ TEST_F(FigureFiles, HeatmapColoursDistinguishSuccessRatesAbove98Percent) {
     EXPECT_GT(cv::norm(colour(column), colour(column + 1)), 40.0) << column;
   }
   EXPECT_THAT(read_file(figure.svg),
-              AllOf(HasSubstr(">99.60<"), HasSubstr(">99.40<"), HasSubstr(">98.90<"),
-                    HasSubstr("≤ 70"), HasSubstr("≥ 99.7")));
+              AllOf(HasSubstr(">99.85<"), HasSubstr(">99.75<"), HasSubstr(">99.30<"),
+                    HasSubstr("≤ 70"), HasSubstr("≥ 99.9")));
 }
 
 TEST_F(FigureFiles, HeatmapLinesAreLabelledAndStayOutOfTheCells) {

@@ -87,6 +87,15 @@ TEST_F(Report, ShowsFiguresWithTheTextsOfTheirScripts) {
                             HasSubstr("4 runs &amp; 2 seeds."), HasSubstr("class=\"wide\""),
                             HasSubstr("href=\"figures/a.dat\""),
                             HasSubstr("src=\"data:image/svg+xml;base64,")));
+  // What is in the picture is not repeated below it.
+  folder_.write("figures/b.svg", "<svg viewBox=\"0 0 300 100\"></svg>");
+  folder_.write(
+      "figures/b.gp",
+      "# Title: Maps\n# Caption: 5 runs.\n# Alt: A map\nset label 1002 '5 runs.' at 0, 0\n");
+  folder_.write("figures/c.svg", "<svg viewBox=\"0 0 300 100\"></svg>");
+  folder_.write("figures/c.gp",
+                "# Title: Print\n# Caption: 6 runs.\n# Alt: Maps\nset label 1002 '' at 0, 0\n");
+  EXPECT_THAT(page(), AllOf(Not(HasSubstr("5 runs.")), HasSubstr("6 runs.")));
 }
 
 /// What the page lays over a drawn map.
