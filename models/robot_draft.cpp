@@ -59,7 +59,7 @@ class Draft {
 
   /// The name by which the YAML file knows a joint.
   std::string joint_name(int joint) const {
-    const std::string text = name(mjOBJ_JOINT, joint);
+    std::string text = name(mjOBJ_JOINT, joint);
     if (text.empty())
       source().fail_at_hinge(joint, "expected a name, by which a YAML file knows it");
     return text;
