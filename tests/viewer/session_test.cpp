@@ -260,7 +260,7 @@ TEST(WatchSession, RefusesWhatCannotBeWatched) {
                          {"experiments/stairs.yaml", "an experiment"},
                          {quoted(folder / "empty.mpack"), "empty.mpack"},
                          {"scenarios/flat.yaml --estimator lode_filter", "load_filter"},
-                         {"scenarios/flat.yaml --estimator robust", "--model"},
+                         {"scenarios/flat.yaml --estimator robust", "robust=MODEL.npz"},
                          {"scenarios/flat.yaml --estimator oracle", "oracle"},
                          {"scenarios/flat.yaml --simulator bulet", "bulet"},
                          {"scenarios/flat.yaml --set end.durations=3", "duration"},
