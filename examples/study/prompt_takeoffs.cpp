@@ -5,7 +5,7 @@
 
 namespace touchdown::experiments {
 
-constexpr const char* study_name = "prompt_takeoffs";
+static constexpr const char* study_name = "prompt_takeoffs";
 
 struct PromptTakeoffs {
   double within = 0.02;  ///< s
