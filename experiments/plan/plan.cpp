@@ -233,6 +233,12 @@ void plan_tasks(const Experiment& experiment, std::size_t first, Plan& plan) {
 }
 
 void require_distinct_runs(const Plan& plan, const Experiment& experiment) {
+  std::set<std::string_view> names;  // results are found by them
+  for (const RunGroup& group : plan.groups) {
+    if (names.insert(group.name).second) continue;
+    throw InputError(
+        fmt::format("the runs of '{}' are planned twice: expected each of them once", group.name));
+  }
   RobotDigests digests;
   std::map<std::string, std::vector<const PlannedRun*>> same;
   for (const PlannedRun& run : plan.runs) {

@@ -199,7 +199,8 @@ void keep_recordings(const Experiment& experiment, Plan& plan);
 void plan_tasks(const Experiment& experiment, std::size_t first, Plan& plan);
 
 /// Errors: `InputError` for a test run that is also a fitted run of the models it tests, and for a
-/// run that would count twice, whatever the names of its scenario and of its robot's file.
+/// run that would count twice, whatever the names of its scenario and of its robot's file; for two
+/// groups of one name.
 void require_distinct_runs(const Plan& plan, const Experiment& experiment);
 
 }  // namespace touchdown::experiments

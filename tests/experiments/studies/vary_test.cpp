@@ -9,6 +9,7 @@
 #include "core/table.hpp"
 #include "experiments/config/experiment_yaml.hpp"
 #include "experiments/run_experiment.hpp"
+#include "tests/complaint.hpp"
 #include "tests/experiments/small_step_scene.hpp"
 #include "tests/experiments/studies/study_test.hpp"
 #include "tests/scratch_folder.hpp"
@@ -97,6 +98,16 @@ TEST(AVariedQuantity, OfTheSceneChangesItsRunsAndCountsThoseThatFell) {
   EXPECT_EQ(number(2, "runs"), 0.0);
   EXPECT_TRUE(std::isnan(number(2, "success")));
   EXPECT_THAT(result.studies.back(), HasSubstr("(2 fell)"));
+}
+
+TEST(AVariedQuantity, HasEachValueOnce) {
+  const ScratchFolder folder;
+  for (const char* keys :
+       {"{sensors.dropout: [0.1, 0.2, 0.1]}", "{terrain.friction: [0.5, .50]}"}) {
+    EXPECT_THAT(complaint_of([&] { (void)outline_of(varied(folder, keys), {}); }),
+                HasSubstr("are planned twice"))
+        << keys;
+  }
 }
 
 }  // namespace
