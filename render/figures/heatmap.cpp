@@ -6,7 +6,6 @@
 
 #include "core/error.hpp"
 #include "render/figures/figures.hpp"
-#include "render/figures/level_borders.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/palette.hpp"
 
@@ -40,30 +39,6 @@ std::string cells(const HeatmapPanel& panel, bool has_intervals) {
   return lines + '\n';
 }
 
-std::string lines(const std::vector<LevelBorder>& borders, const CellSize& cell) {
-  std::string text;
-  for (const LevelBorder& border : borders) {
-    for (const BorderLine& part : without_label(border, cell)) {
-      for (const auto& point : part) {
-        fmt::format_to(std::back_inserter(text), "{}\t{}\n", point[0], point[1]);
-      }
-      text += '\n';
-    }
-  }
-  return text.empty() ? nothing : text;
-}
-
-std::string line_labels(const std::vector<LevelBorder>& borders) {
-  std::string text;
-  for (const LevelBorder& border : borders) {
-    if (!border.labelled) continue;
-    const LabelPlace place = label_place(border);
-    fmt::format_to(std::back_inserter(text), "{}\t{}\t\"{}\"\t{}\n", place.x, place.y,
-                   label_of(border), place.upright ? 90 : 0);
-  }
-  return (text.empty() ? "NaN\tNaN\t\"\"\t0\n" : text) + '\n';
-}
-
 /// A cross in every marked cell. With a number it is the outer thirds of both diagonals, which
 /// spare the number. With the colour alone it is in the middle, as ends would meet at the corners.
 std::string crosses(const HeatmapPanel& panel, bool has_numbers) {
@@ -87,6 +62,11 @@ std::string crosses(const HeatmapPanel& panel, bool has_numbers) {
 constexpr double map_gap_x = 74.0, map_gap_y = 72.0,
                  scale_width = 104.0;  ///< between panels, for the scale (px)
 
+/// px
+struct CellSize {
+  double width, height;
+};
+
 /// Where panels are in the body of the frame (px). Their cells have the same size.
 struct PanelLayout {
   enum class Content : int { colour, number, interval } content;
@@ -105,22 +85,18 @@ struct PanelLayout {
 };
 
 /// Kinds of blocks (gnuplot's `index`) of the data file; each kind has one block per panel.
-enum Block : std::size_t { cell_block, line_block, label_block, cross_block };
+enum Block : std::size_t { cell_block, cross_block };
 
 /// A heatmap's data file. Its blocks, each for every panel: the cells (column, row, success rate,
-/// text, the text's colour), the lines, their labels (x, y, text, degrees), the crosses.
+/// text, the text's colour), the crosses.
 std::string heatmap_data(const Heatmap& heatmap, const PanelLayout& layout) {
   std::string text = "#column\trow\tsuccess_percent\tlabel\tlabel_colour\n";
-  std::string line_text, label_text, cross_text;
+  std::string cross_text;
   for (const HeatmapPanel& panel : heatmap.panels) {
-    const std::vector<LevelBorder> borders =
-        level_borders(panel.value, heatmap.levels, layout.cell);
     text += cells(panel, layout.content == PanelLayout::Content::interval) + '\n';
-    line_text += lines(borders, layout.cell) + '\n';
-    label_text += line_labels(borders) + '\n';
     cross_text += crosses(panel, layout.content != PanelLayout::Content::colour) + '\n';
   }
-  return text + line_text + label_text + cross_text;
+  return text + cross_text;
 }
 
 /// A cell for its number, with or without an interval, or for its colour alone: as it fits.
@@ -180,24 +156,10 @@ std::string tics(const std::vector<double>& values, double space) {
   return "(" + text + ")";
 }
 
-/// The lines' labels, with a white outline that makes them legible on every colour.
-std::string line_labels_plot(std::size_t block, const CellSize& cell) {
-  constexpr double reach = 1.6;  // pixels
-  constexpr const char* with = "with labels rotate variable font ',8' textcolor rgb";
-  std::string text;
-  for (int turn = 0; turn < 8; ++turn) {
-    text += fmt::format(", \\\n     '' index {} using ($1+({:.4f})):($2+({:.4f})):3:4 {} '#ffffff'",
-                        block, reach * std::cos(turn * M_PI / 4) / cell.width,
-                        reach * std::sin(turn * M_PI / 4) / cell.height, with);
-  }
-  return text + fmt::format(", \\\n     '' index {} using 1:2:3:4 {} '#101418'", block, with);
-}
-
 /// The commands that draw panel `i` from the blocks of `<name>.dat` (`heatmap_data`): cells,
-/// crosses, numbers, lines and labels.
+/// crosses and numbers.
 std::string panel_plot(const Heatmap& heatmap, const std::string& name, std::size_t i,
                        const PanelLayout& layout) {
-  const CellSize& cell = layout.cell;
   const auto block = [&](Block kind) { return heatmap.panels.size() * kind + i; };
   std::string text = fmt::format(
       "plot '{0}.dat' index {1} using 1:2:($1-0.5):($1+0.5):($2-0.5):($2+0.5):(shown($3)) with "
@@ -210,21 +172,17 @@ std::string panel_plot(const Heatmap& heatmap, const std::string& name, std::siz
         ", \\\n     '' index {} using 1:2:4:5 with labels font ',8.5' textcolor rgb variable",
         block(cell_block));
   }
-  text += fmt::format(
-      ", \\\n     '' index {0} using 1:2 with lines lw 3.4 lc rgb '#ffffff' dt 1"
-      ", \\\n     '' index {0} using 1:2 with lines lw 1.5 lc rgb '#101418' dt 1",
-      block(line_block));
-  return text + line_labels_plot(block(label_block), cell) + '\n';
+  return text + '\n';
 }
 
 /// gnuplot's palette and ticks: logarithmic in the distance from a success rate of 100 %.
-std::string colour_scale(const Heatmap& heatmap) {
+std::string colour_scale() {
   std::string stops, ticks;
   for (std::size_t i = 0; i < viridis.size(); ++i) {
     stops += fmt::format("{}{} '#{:06x}'", i == 0 ? "" : ", ", i, viridis[i]);
   }
-  for (const double level : heatmap.levels) {
-    ticks += fmt::format("'{}' {:.6f}, ", success_of(level), -std::log10(level));
+  for (const double error : error_ticks) {
+    ticks += fmt::format("'{}' {:.6f}, ", success_of(error), -std::log10(error));
   }
   return fmt::format(
       "set palette defined ({2})\nset cbrange [{0:.6f}:{1:.6f}]\n"
@@ -261,7 +219,7 @@ Figure draw_heatmap(const Heatmap& heatmap, const FigureFile& target) {
       "unset grid\nset border 0\nset tics scale 0\n"
       "{}set xrange [-0.5:{}]\nset yrange [-0.5:{}]\n"
       "set xtics {}\nset ytics {}\nunset key\n",
-      colour_scale(heatmap), static_cast<double>(heatmap.x.size()) - 0.5,
+      colour_scale(), static_cast<double>(heatmap.x.size()) - 0.5,
       static_cast<double>(heatmap.y.size()) - 0.5, tics(heatmap.x, cell.width),
       tics(heatmap.y, 2.0 * cell.height));
   for (std::size_t i = 0; i < heatmap.panels.size(); ++i) {

@@ -63,13 +63,6 @@ double widest_interval(const Heatmap& heatmap) {
   return widest;
 }
 
-/// "99 %, 98 % and 95 %": a comma alone would read as a decimal one.
-std::string levels_text(const std::vector<double>& errors) {
-  std::vector<std::string> texts;
-  for (const double error : errors) texts.push_back(fmt::format("{:g} %", success_of(error)));
-  return in_words(texts);
-}
-
 double always_contact(const experiments::ExperimentResult& result, const std::string& simulator) {
   for (const TableRow& cell : result.tables.cells.all()) {
     if (cell.text("simulator") == simulator) return cell.number("always_contact_success");
@@ -99,15 +92,13 @@ Heatmap heatmap_of(const experiments::ExperimentResult& result, const std::strin
                         success_text(error_percent(always_contact(result, simulator))))
           : "";
   heatmap.caption = fmt::format(
-      "{}{}; {}. {}Lines run between cells below and above {}. The colour scale "
-      "ends at {} and {} % and is the same in every map. The widest {:.0f} % interval over {}s "
-      "spans {:.1f} percentage points.",
+      "{}{}; {}. {}The colour scale ends at {} and {} % and is the same in every map. The widest "
+      "{:.0f} % interval over {}s spans {:.1f} percentage points.",
       capitalised(metric.title),
       is_success(metric) ? ": the share of steps with a correct decision" : "",
-      experiments::scored_text(result, simulator), always, levels_text(heatmap.levels),
-      success_of(highest_error), success_of(lowest_error),
-      100.0 * experiment.intervals.bootstrap.level, experiments::sample_text(experiment),
-      widest_interval(heatmap));
+      experiments::scored_text(result, simulator), always, success_of(highest_error),
+      success_of(lowest_error), 100.0 * experiment.intervals.bootstrap.level,
+      experiments::sample_text(experiment), widest_interval(heatmap));
   return heatmap;
 }
 

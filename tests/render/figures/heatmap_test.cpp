@@ -28,8 +28,7 @@ Heatmap error_heatmap() {
                   .x = {0, 1, 5},
                   .y = {0, 0.5},
                   .panels = {},
-                  .caption = "2 runs",
-                  .levels = {5.0}};
+                  .caption = "2 runs"};
   heatmap.panels.push_back({.title = "MuJoCo", .value = {{1.0, 2.0, 10.0}, {3.0, 4.0, 20.0}}});
   heatmap.panels.push_back({.title = "Bullet", .value = {{1.0, 3.0, NAN}, {3.0, 6.0, 30.0}}});
   return heatmap;
@@ -69,7 +68,6 @@ TEST_F(FigureFiles, AreDrawnAgainByTheScriptBesideThem) {
 
 TEST_F(FigureFiles, HeatmapCrossesTheMarkedCellsOnly) {
   Heatmap heatmap = error_heatmap();
-  heatmap.levels.clear();
   heatmap.panels[1].marked = {{false, false, false}, {false, false, true}};
   draw_heatmap(heatmap, folder_ / "heatmap");
   const std::string data = read_file(folder_ / "heatmap.dat");
@@ -80,7 +78,6 @@ TEST_F(FigureFiles, HeatmapCrossesTheMarkedCellsOnly) {
 /// Ends of crosses meet at the corners of small cells: there they are in the middle.
 TEST_F(FigureFiles, HeatmapCrossesFineCellsInTheirMiddle) {
   Heatmap heatmap = error_heatmap();
-  heatmap.levels.clear();
   heatmap.x.assign(13, 0.0);
   heatmap.y.assign(13, 0.0);
   heatmap.value_label = "balanced accuracy";
@@ -98,7 +95,6 @@ TEST_F(FigureFiles, HeatmapCrossesFineCellsInTheirMiddle) {
 TEST_F(FigureFiles, HeatmapCellsHaveTheirOwnColours) {
   Heatmap heatmap = error_heatmap();
   heatmap.panels = {{.title = "", .value = {{30.0, NAN, 0.1}, {0.0, 100.0, 0.1}}}};
-  heatmap.levels.clear();
   const Figure figure = draw_heatmap(heatmap, folder_ / "cells");
   const cv::Mat image = cv::imread(figure.png.string());
   // Cells are 78.7 x 95 pixels from (66, 60); the first row of values is the lower one.
@@ -152,7 +148,6 @@ TEST_F(FigureFiles, HeatmapColoursDistinguishVeryGoodSuccessRates) {
   heatmap.x = {0, 1, 2, 3};
   heatmap.y = {0};
   heatmap.panels = {{.title = "", .value = {{0.15, 0.25, 0.7, 1.7}}}};
-  heatmap.levels.clear();
   const Figure figure = draw_heatmap(heatmap, folder_ / "good");
   const cv::Mat image = cv::imread(figure.png.string());
   for (int column = 0; column + 1 < 4; ++column) {
@@ -162,15 +157,6 @@ TEST_F(FigureFiles, HeatmapColoursDistinguishVeryGoodSuccessRates) {
   EXPECT_THAT(read_file(figure.svg),
               AllOf(HasSubstr(">99.85<"), HasSubstr(">99.75<"), HasSubstr(">99.30<"),
                     HasSubstr("≤ 70"), HasSubstr("≥ 99.9")));
-}
-
-TEST_F(FigureFiles, HeatmapLinesAreLabelledAndStayOutOfTheCells) {
-  draw_heatmap(error_heatmap(), folder_ / "heatmap");
-  // Block 2 of the data, the first panel's lines: between columns 1 and 2, with room for "95 %".
-  const std::string data = read_file(folder_ / "heatmap.dat");
-  EXPECT_THAT(data, HasSubstr("1.5\t-0.5\n1.5\t0.5\n"));
-  EXPECT_THAT(data, HasSubstr("1.5\t1\t\"95 %\"\t90\n"));
-  EXPECT_THAT(read_file(folder_ / "heatmap.svg"), HasSubstr(">95 %<"));
 }
 
 TEST_F(FigureFiles, LeaveNothingAfterAnErrorOfGnuplot) {

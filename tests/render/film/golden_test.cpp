@@ -20,8 +20,7 @@ Heatmap heatmap() {
               .x = {0, 1, 3, 5, 7},
               .y = {0, 0.5, 1, 2},
               .panels = {{.title = "an estimator", .value = {}}},
-              .caption = "4 runs; crossed cells do not beat a constant answer.",
-              .levels = {2.0, 5.0, 10.0}};
+              .caption = "4 runs; crossed cells do not beat a constant answer."};
   for (const double y : map.y) {
     map.panels[0].value.emplace_back();
     map.panels[0].marked.emplace_back();
@@ -119,12 +118,9 @@ TEST_F(Golden, FiguresLookLikeTheirCopies) {
   expect_same("latency", draw_latency_figure(latencies(), stem("latency")));
 }
 
-/// The comparison above must be able to fail: each figure is drawn once without its main content.
-TEST_F(Golden, MissingLinesAreNoticed) {
+/// The comparison above must be able to fail: each figure is drawn once with other content.
+TEST_F(Golden, OtherContentIsNoticed) {
   if (std::getenv("TOUCHDOWN_UPDATE_GOLDEN") != nullptr) GTEST_SKIP() << "copies are being made";
-  Heatmap without_a_line = heatmap();
-  without_a_line.levels = {2.0, 10.0};
-  EXPECT_FALSE(same_picture(compared("heatmap", draw_heatmap(without_a_line, stem("line")))));
   Heatmap another_cell = heatmap();
   another_cell.panels[0].value[1][1] = 4.5;
   EXPECT_FALSE(same_picture(compared("heatmap", draw_heatmap(another_cell, stem("cell")))));

@@ -114,8 +114,7 @@ TEST_F(Report, LaysEveryCellsNumbersOverItsPlaceInTheDrawnMap) {
               .x = {0, 5},
               .y = {0, 1},
               .panels = {{.title = "robust", .value = {{30, 0.3}, {0.3, 0.3}}}},
-              .caption = caption,
-              .levels = {}};
+              .caption = caption};
   map.panels[0].low = map.panels[0].high = map.panels[0].value;
   std::filesystem::create_directory(folder_ / "figures");
   const Figure figure = draw_heatmap(map, folder_ / "figures/error_mujoco");
