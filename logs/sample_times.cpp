@@ -108,6 +108,13 @@ std::string unit_between(double shortest, double longest, double step) {
 
 }  // namespace
 
+std::int64_t nanoseconds(double seconds) {
+  const double whole = std::floor(seconds);
+  constexpr double furthest = 9e9;  // s, whose nanoseconds an integer holds
+  if (!(std::abs(whole) < furthest)) return 0;
+  return 1'000'000'000 * static_cast<std::int64_t>(whole) + std::llround(1e9 * (seconds - whole));
+}
+
 std::optional<double> typical_step(std::span<const double> times) {
   const std::vector<double> steps = steps_of(times);
   std::vector<double> forward;

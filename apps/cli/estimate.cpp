@@ -68,11 +68,11 @@ class BeliefWriter {
     const double time = step.signals.time;
     summary_->add(time, belief);
     score_->add(step.normal_force, step.truth, belief);
-    if (bag_) bag_->write(time, reader.start_time(), belief);
+    if (bag_) bag_->write(reader.stamp(), belief);
     if (csv_ == nullptr && !annotator_ && !drawn_) return;
     const Evidence evidence = estimator.evidence();
     if (csv_ != nullptr) {
-      experiments::write_csv(*csv_, time, reader.start_time(), belief, evidence);
+      experiments::write_csv(*csv_, time, reader.stamp(), belief, evidence);
       require_written();
     }
     if (annotator_) {

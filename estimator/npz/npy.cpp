@@ -47,11 +47,18 @@ std::vector<std::size_t> shape_of(std::string_view text) {
 }
 
 template <typename T>
-void copy_numbers(std::string_view bytes, std::vector<double>& numbers) {
+double rest_of(T number) {
+  const long double exact = number;  // 64 bits of mantissa
+  return static_cast<double>(exact - static_cast<long double>(static_cast<double>(number)));
+}
+
+template <typename T>
+void copy_numbers(std::string_view bytes, NpyPart part, std::vector<double>& numbers) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     T number;
     std::memcpy(&number, bytes.data() + i * sizeof(T), sizeof(T));
     numbers[i] = static_cast<double>(number);
+    if (part == NpyPart::rest) numbers[i] = rest_of(number);
   }
 }
 
@@ -59,7 +66,7 @@ void copy_numbers(std::string_view bytes, std::vector<double>& numbers) {
 struct NumberType {
   std::string_view name;
   std::size_t size;
-  void (*copy)(std::string_view bytes, std::vector<double>& numbers);
+  void (*copy)(std::string_view bytes, NpyPart part, std::vector<double>& numbers);
 };
 template <typename T>
 constexpr NumberType number_type(std::string_view name) {
@@ -86,7 +93,7 @@ std::size_t count_of(const std::vector<std::size_t>& shape) {
 
 }  // namespace
 
-ModelArray from_npy(std::string_view bytes, const std::string& name) {
+ModelArray from_npy(std::string_view bytes, const std::string& name, NpyPart part) {
   if (!bytes.starts_with(npy_magic)) throw InputError(name + ": is not a NumPy array");
   const auto byte = [&](std::size_t i) {
     return i < bytes.size() ? std::size_t{static_cast<unsigned char>(bytes[i])} : 0;
@@ -123,7 +130,7 @@ ModelArray from_npy(std::string_view bytes, const std::string& name) {
                      std::to_string(numbers.size()));
   }
   array.data.resize(count_of(array.shape));
-  known->copy(numbers, array.data);
+  known->copy(numbers, part, array.data);
   return array;
 }
 

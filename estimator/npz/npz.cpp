@@ -42,7 +42,7 @@ Zip open_zip(const std::filesystem::path& path, int flags) {
 }
 
 /// Takes the array's bytes from those that are `left` to read.
-ModelArray read_member(zip_t& archive, zip_uint64_t index, const std::string& where,
+ModelArray read_member(zip_t& archive, zip_uint64_t index, const std::string& where, NpyPart part,
                        std::size_t& left) {
   zip_stat_t status;
   if (zip_stat_index(&archive, index, 0, &status) != 0 || (status.valid & ZIP_STAT_SIZE) == 0 ||
@@ -60,7 +60,7 @@ ModelArray read_member(zip_t& archive, zip_uint64_t index, const std::string& wh
   }
   bytes.resize(static_cast<std::size_t>(size));
   left -= bytes.size();
-  return from_npy(bytes, where);
+  return from_npy(bytes, where, part);
 }
 
 /// Calls `visit(index, name)` for every array of the file.
@@ -141,13 +141,13 @@ void add_member(zip_t& archive, const std::string& name, const std::string& byte
 
 }  // namespace
 
-ModelArrays read_npz(const std::filesystem::path& path, const NpzNeeds& needs) {
+ModelArrays read_npz(const std::filesystem::path& path, const NpzNeeds& needs, NpyPart part) {
   const Zip archive = open_npz(path);
   ModelArrays arrays;
   std::size_t left = most_bytes;
   for_each_array(*archive, path, [&](zip_uint64_t index, const std::string& name) {
     if (needs && !needs(name)) return;
-    arrays[name] = read_member(*archive, index, path.string() + ": " + name, left);
+    arrays[name] = read_member(*archive, index, path.string() + ": " + name, part, left);
   });
   return arrays;
 }

@@ -11,10 +11,14 @@
 
 namespace touchdown {
 
-/// Reads the content of a `.npy` file as NumPy writes it: float64, float32, whole numbers (those
-/// beyond 2^53 rounded) or bool, C order, one or two axes. Errors: `InputError` for anything else,
-/// with the line of NumPy that converts it, and when bytes are missing; `name` starts the message.
-ModelArray from_npy(std::string_view bytes, const std::string& name);
+/// Numbers as float64, or what float64 does not hold of them: a part of whole ones beyond 2^53.
+enum class NpyPart { rounded, rest };
+
+/// Reads the content of a `.npy` file as NumPy writes it: float64, float32, whole numbers or bool,
+/// C order, one or two axes. Errors: `InputError` for anything else, with the line of NumPy that
+/// converts it, and when bytes are missing; `name` starts the message.
+ModelArray from_npy(std::string_view bytes, const std::string& name,
+                    NpyPart part = NpyPart::rounded);
 
 /// The inverse: float64, little endian, format 1.0.
 std::string to_npy(const ModelArray& array);
@@ -24,7 +28,8 @@ using NpzNeeds = std::function<bool(std::string_view name)>;
 
 /// Reads the needed arrays of a `.npz`, deflated or not; without `needs`, all. Errors:
 /// `InputError`, one line that names the file and, where it matters, the array.
-ModelArrays read_npz(const std::filesystem::path& path, const NpzNeeds& needs = {});
+ModelArrays read_npz(const std::filesystem::path& path, const NpzNeeds& needs = {},
+                     NpyPart part = NpyPart::rounded);
 
 /// Names of the arrays in a file. Errors: as above.
 std::vector<std::string> npz_names(const std::filesystem::path& path);

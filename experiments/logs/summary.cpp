@@ -87,11 +87,6 @@ std::string score_text(const scoring::Score& score, std::int64_t takeoffs, std::
                                      1e3 * landing.latency_mean()));
 }
 
-/// The log's own clock (ns).
-std::int64_t stamp_of(double time, double start) {
-  return std::llround(1e9 * start) + std::llround(1e9 * time);
-}
-
 /// Appends a number to a message in CDR: aligned to its size after the four bytes in front.
 template <typename T>
 void put(std::string& message, T number) {
@@ -112,7 +107,7 @@ void put(std::string& message, const std::array<double, 2>& numbers) {
 
 }  // namespace
 
-void write_csv(std::ostream& stream, double time, double start, const Belief& belief,
+void write_csv(std::ostream& stream, double time, std::int64_t stamp, const Belief& belief,
                const Evidence& evidence) {
   const auto& [left, right] = belief.wheel;
   fmt::memory_buffer line;
@@ -121,7 +116,7 @@ void write_csv(std::ostream& stream, double time, double start, const Belief& be
                  left.p_contact, right.p_contact, left.contact, right.contact, belief.p_any_wheel,
                  belief.p_both_wheels, evidence.transition.p_takeoff, evidence.transition.p_landing,
                  to_text(belief.status), left.load.force, right.load.force, left.load.deviation,
-                 right.load.deviation, stamp_of(time, start));
+                 right.load.deviation, stamp);
   stream.write(line.data(), static_cast<std::streamsize>(line.size()));
 }
 
@@ -130,9 +125,8 @@ BeliefBag::BeliefBag(std::ostream& stream)
       topic_(writer_.add_topic("/touchdown/contact", logs::joint_state_type,
                                logs::joint_state_definition, {"ros2msg", "cdr"})) {}
 
-void BeliefBag::write(double time, double start, const Belief& belief) {
+void BeliefBag::write(std::int64_t stamp, const Belief& belief) {
   constexpr std::int64_t second = 1'000'000'000;
-  const std::int64_t stamp = stamp_of(time, start);
   const auto& [left, right] = belief.wheel;
   std::string message("\0\1\0\0", 4);  // CDR, little-endian
   put(message, static_cast<std::int32_t>(stamp / second));

@@ -27,9 +27,9 @@ inline constexpr std::string_view belief_columns =
 /// Writes the line of a step: time (s), contact probability and decision (1 or 0) of each wheel,
 /// P(any wheel in contact), P(both wheels in contact), P(takeoff) and P(landing) of the transition
 /// model, status, normal force of each wheel and its standard deviation (N), the stamp of the log's
-/// own clock (ns, to 1 µs), which is `start` at time 0 (s). Numbers are the shortest that read back
-/// to the same bits; `nan` stands for values that an estimator does not compute.
-void write_csv(std::ostream& stream, double time, double start, const Belief& belief,
+/// own clock (ns). Numbers are the shortest that read back to the same bits; `nan` stands for
+/// values that an estimator does not compute.
+void write_csv(std::ostream& stream, double time, std::int64_t stamp, const Belief& belief,
                const Evidence& evidence);
 
 /// Writes beliefs as a ROS 2 bag (MCAP), to be played beside the log: sensor_msgs/msg/JointState,
@@ -41,8 +41,8 @@ class BeliefBag {
   /// `stream` must outlive this.
   explicit BeliefBag(std::ostream& stream);
 
-  /// `start`: the log's clock at time 0 (s).
-  void write(double time, double start, const Belief& belief);
+  /// `stamp`: the log's clock (ns).
+  void write(std::int64_t stamp, const Belief& belief);
   /// Ends the file. Call it once.
   void finish() { writer_.finish(); }
 

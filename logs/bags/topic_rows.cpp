@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "logs/sample_times.hpp"
 
 namespace touchdown::logs {
 
@@ -28,20 +29,25 @@ std::size_t place_in(const std::vector<std::string>& names, const std::string& n
   return found == names.end() ? no_slot : static_cast<std::size_t>(found - names.begin());
 }
 
+/// What `seconds` does not hold of it (s).
+double rest_of(std::int64_t time) {
+  return 1e-9 * static_cast<double>(time - nanoseconds(seconds(time)));
+}
+
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return place_in(names, name) != no_slot;
 }
 
 }  // namespace
 
-TopicRows::TopicRows(SignalTopic topic, const std::vector<std::string>& columns,
-                     const Config& config)
+TopicRows::TopicRows(SignalTopic topic, std::vector<TopicColumn> columns, const Config& config)
     : topic_(std::move(topic)),
       config_(config),
       row_(columns.size()),
-      columns_(columns),
-      held_(columns.size()),
-      has_log_time_(contains(columns, log_time_column)) {}
+      columns_(std::move(columns)),
+      held_(columns_.size()),
+      has_log_time_(std::ranges::find(columns_, log_time_column, &TopicColumn::name) !=
+                    columns_.end()) {}
 
 bool TopicRows::update(const BagMessage& message) {
   try {
@@ -58,13 +64,17 @@ bool TopicRows::update(const BagMessage& message) {
   const MessageStamp stamp = numbers_.stamp();
   const double log_time = seconds(message.time);
   const bool lacks_stamp = stamp.is_zero() && std::abs(topic_.stamp_delay) < longest_delay;
-  const double stamp_time = config_.uses_log_time || lacks_stamp ? log_time : seconds(stamp.time());
+  const std::int64_t stamp_ns = config_.uses_log_time || lacks_stamp ? message.time : stamp.time();
+  const double stamp_time = seconds(stamp_ns);
   time_ = has_log_time_ ? log_time : stamp_time;
   for (std::size_t i = 0; i < row_.size(); ++i) {
+    const bool is_rest = columns_[i].is_rest;
     if (number_at_[i] == stamp_slot) {
-      row_[i] = stamp_time;
+      row_[i] = is_rest ? rest_of(stamp_ns) : stamp_time;
     } else if (number_at_[i] == log_time_slot) {
-      row_[i] = log_time;
+      row_[i] = is_rest ? rest_of(message.time) : log_time;
+    } else if (is_rest) {
+      row_[i] = 0.0;
     } else {
       row_[i] = number_at_[i] == no_slot ? std::numeric_limits<double>::quiet_NaN()
                                          : numbers_.values[number_at_[i]];
@@ -87,12 +97,12 @@ void TopicRows::find_columns() {
                                                      : place_in(paths, path));
   };
   if (topic_.type != joint_state_type) {
-    for (const std::string& column : columns_) add(column, column);
+    for (const TopicColumn& column : columns_) add(column.name, column.name);
     return;
   }
   names_.assign(numbers_.joints().begin(), numbers_.joints().end());
   std::optional<bool> has_first;
-  for (const std::string& column : columns_) {
+  for (const auto& [column, is_rest] : columns_) {
     // NAME/position, or position[2]
     const std::size_t slash = column.rfind('/');
     std::string index = column.substr(std::min(column.find('['), column.size()));

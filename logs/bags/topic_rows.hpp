@@ -128,6 +128,12 @@ struct SignalTopic {
 /// A line if the stamps of a topic are of another clock than those of the joints, else none.
 std::vector<std::string> clock_notes(const SignalTopic& topic, const SignalTopic& joints);
 
+/// A number of a message, or what a double does not hold of its time.
+struct TopicColumn {
+  std::string name;
+  bool is_rest = false;
+};
+
 /// Decodes the messages of one topic to rows of selected columns.
 class TopicRows {
  public:
@@ -136,7 +142,7 @@ class TopicRows {
     double stale_after = 0.05;   ///< s
   };
 
-  TopicRows(SignalTopic topic, const std::vector<std::string>& columns, const Config& config);
+  TopicRows(SignalTopic topic, std::vector<TopicColumn> columns, const Config& config);
 
   /// Decodes the message. Returns whether it is a row: a JointState with the first of the selected
   /// joints, or any message of another type. Values that a JointState does not give, as from a
@@ -165,7 +171,7 @@ class TopicRows {
   std::vector<double> row_;
   double time_ = 0.0;
   MessageNumbers numbers_;              ///< of the last message
-  std::vector<std::string> columns_;    ///< the selected ones; of joints, the first makes rows
+  std::vector<TopicColumn> columns_;    ///< the selected ones; of joints, the first makes rows
   std::vector<Held> held_;              ///< by column
   bool has_log_time_;                   ///< whether a column is `log_time_column`
   std::vector<std::uint32_t> lengths_;  ///< of the message's lists, …

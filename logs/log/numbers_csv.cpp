@@ -14,11 +14,13 @@ namespace touchdown::logs {
 
 namespace {
 
-std::optional<double> number_of(std::string_view text);
+template <typename Real>
+std::optional<Real> number_of(std::string_view text);
 
 /// Seconds since 1970 of a date and time as pandas and loggers write them: 2024-02-28 01:02:03.25,
 /// with T instead of the blank, with or without Z.
-std::optional<double> date_and_time(std::string_view text) {
+template <typename Real>
+std::optional<Real> date_and_time(std::string_view text) {
   constexpr std::size_t seconds_at = 17;
   constexpr std::size_t shortest = 19;
   std::string minutes(text.substr(0, seconds_at));
@@ -29,21 +31,23 @@ std::optional<double> date_and_time(std::string_view text) {
   std::tm date{};
   const char* const end = ::strptime(minutes.c_str(), "%Y-%m-%dT%H:%M:", &date);
   const int day = date.tm_mday;
-  const auto since_1970 = static_cast<double>(::timegm(&date));  // moves the 30th of February
+  const auto since_1970 = static_cast<Real>(::timegm(&date));  // moves the 30th of February
   if (text.ends_with('Z')) text.remove_suffix(1);
-  const auto second = number_of(text.substr(seconds_at));
+  const auto second = number_of<Real>(text.substr(seconds_at));
   if (end != minutes.c_str() + seconds_at || day != date.tm_mday || !second) return std::nullopt;
   return since_1970 + *second;
 }
 
-std::optional<double> number_of(std::string_view text) {
-  if (text == "true" || text == "True") return 1.0;
-  if (text == "false" || text == "False") return 0.0;
+template <typename Real>
+std::optional<Real> number_of(std::string_view text) {
+  if (text == "true" || text == "True") return Real{1};
+  if (text == "false" || text == "False") return Real{0};
   const bool has_plus = text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+';
   const std::string_view digits = text.substr(has_plus ? 1 : 0);
-  double value = 0.0;
+  Real value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc{} || end != digits.data() + digits.size()) return date_and_time(text);
+  if (error != std::errc{} || end != digits.data() + digits.size())
+    return date_and_time<Real>(text);
   return value;
 }
 
@@ -67,12 +71,13 @@ char separator_of(std::string_view header) {
 bool is_comment(std::string_view row) { return row.starts_with('#') || row.starts_with('%'); }
 
 /// A decimal comma, as in files with semicolons between cells.
-std::optional<double> number_with_comma(std::string_view text) {
+template <typename Real>
+std::optional<Real> number_with_comma(std::string_view text) {
   std::string copy(text);
   const std::size_t comma = copy.find(',');
   if (comma == std::string::npos) return std::nullopt;
   copy[comma] = '.';
-  return number_of(copy);
+  return number_of<Real>(copy);
 }
 
 std::ifstream opened(const std::filesystem::path& path) {
@@ -106,7 +111,7 @@ void NumbersCsv::find_names(const std::string& comment) {
   rows_.separate_by(separator_);
   require_closed_quotes();
   const bool has_numbers_alone = std::ranges::all_of(
-      rows_.cells(), [](const CsvCell& cell) { return number_of(cell.text).has_value(); });
+      rows_.cells(), [](const CsvCell& cell) { return number_of<double>(cell.text).has_value(); });
   if (comment.empty() || !has_numbers_alone) return take_names(rows_.cells());
   std::istringstream text(
       comment.substr(std::min(comment.size(), comment.find_first_not_of("#% "))));
@@ -155,7 +160,7 @@ bool NumbersCsv::is_cut_off() {
   const std::vector<CsvCell>& cells = rows_.cells();
   const CsvCell& last = cells.back();
   const bool is_whole = cells.size() >= values_.size() && !last.is_open &&
-                        (last.text.empty() || !needed_.back() || number_of(last.text));
+                        (last.text.empty() || !needed_.back() || number_of<double>(last.text));
   if (is_whole) return false;
   note_ = fmt::format("{}:{}: the last row is cut off and was left out", file_, rows_.line());
   return true;
@@ -168,13 +173,24 @@ void NumbersCsv::take_values() {
                 fmt::format("expected {} values, found {}", values_.size(), cells.size()));
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (needed_[i]) values_[i] = value_of(cells[i]);
+    if (needed_[i]) values_[i] = value_of<double>(cells[i]);
   }
 }
 
-double NumbersCsv::value_of(const CsvCell& cell) const {
-  std::optional<double> value = cell.text.empty() ? config_.empty_cell : number_of(cell.text);
-  if (!value && separator_ != ',') value = number_with_comma(cell.text);
+double NumbersCsv::rest(std::size_t column) const {
+  const long double exact = value_of<long double>(rows_.cells()[column]);
+  return static_cast<double>(exact - static_cast<long double>(values_[column]));
+}
+
+template <typename Real>
+Real NumbersCsv::value_of(const CsvCell& cell) const {
+  std::optional<Real> value;
+  if (!cell.text.empty()) {
+    value = number_of<Real>(cell.text);
+  } else if (config_.empty_cell) {
+    value = *config_.empty_cell;
+  }
+  if (!value && separator_ != ',') value = number_with_comma<Real>(cell.text);
   if (!value) complain_at(cell.column, fmt::format("expected a number, found '{}'", cell.text));
   return *value;
 }

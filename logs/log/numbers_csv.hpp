@@ -40,6 +40,8 @@ class NumbersCsv {
   bool next();
   /// The numbers of the row, in the order of the names.
   std::span<const double> values() const { return values_; }
+  /// What a double does not hold of the number in this column of the row.
+  double rest(std::size_t column) const;
   std::string_view text(std::size_t column) const { return rows_.cells()[column].text; }
   std::size_t line() const { return rows_.line(); }
   /// A line about a row that was left out, if there is one.
@@ -54,7 +56,8 @@ class NumbersCsv {
   void require_closed_quotes() const;
   bool is_cut_off();
   void take_values();
-  double value_of(const CsvCell& cell) const;
+  template <typename Real>
+  Real value_of(const CsvCell& cell) const;
   [[noreturn]] void complain_at(std::size_t column, const std::string& what) const;
 
   std::string file_;

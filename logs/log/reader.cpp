@@ -352,6 +352,7 @@ void LogReader::read_entry(Entry& entry) {
       has_period_ = true;
       compare_clock_with_period(time);
     }
+    entry.stamp = records_->stamp();
     entry.record = records_->bytes();
     return;
   }

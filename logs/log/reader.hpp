@@ -53,6 +53,9 @@ class LogReader {
   /// The log's clock at time 0 (s). It is 0 for a log of touchdown, and before the first row.
   double start_time() const { return start_time_.value_or(0.0); }
 
+  /// The log's clock at the row that `next()` returned last (ns).
+  std::int64_t stamp() const { return current_.stamp; }
+
   /// Bytes of the record of the row that `next()` returned last, and of the records skipped right
   /// before it (or before the end). Valid until the next call of `next()`.
   std::string_view record() const { return current_.record; }
@@ -70,6 +73,7 @@ class LogReader {
   class Cleaning;
   struct Entry {
     std::optional<LogRow> row;
+    std::int64_t stamp = 0;
     std::string record;
     std::string skipped;
   };

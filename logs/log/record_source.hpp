@@ -9,6 +9,7 @@
 #include "logs/log/byte_source.hpp"
 #include "logs/log/row.hpp"
 #include "logs/recording.hpp"
+#include "logs/sample_times.hpp"
 
 namespace touchdown::logs {
 
@@ -26,6 +27,8 @@ class RecordSource {
   virtual bool next() = 0;
 
   virtual const LogValues& values() const = 0;
+  /// The log's clock (ns).
+  virtual std::int64_t stamp() const { return nanoseconds(values()[log_slot::time]); }
   /// A vector is present only if the record has all of its elements.
   virtual const LogPresence& present() const = 0;
   /// The record in Upkie's layout, valid until the next one; may be empty for rows that are in

@@ -167,24 +167,25 @@ class MappedRecords final : public RecordSource {
   }
 
   bool next() override {
-    while (!is_clock_checked_ && ahead_.size() < rows_for_clock && pull(values_)) {
-      ahead_.push_back(values_);
+    while (!is_clock_checked_ && ahead_.size() < rows_for_clock && pull(record_)) {
+      ahead_.push_back(record_);
     }
     if (!is_clock_checked_) check_clock();
     is_clock_checked_ = true;
     if (ahead_.empty()) {
-      if (!pull(values_)) return false;
+      if (!pull(record_)) return false;
     } else {
-      values_ = ahead_.front();
+      record_ = ahead_.front();
       ahead_.pop_front();
     }
     if (!writer_) return true;
     stream_.str({});
-    writer_->write(values_);
+    writer_->write(record_.values);
     return true;
   }
 
-  const LogValues& values() const override { return values_; }
+  const LogValues& values() const override { return record_.values; }
+  std::int64_t stamp() const override { return record_.stamp; }
   const LogPresence& present() const override { return present_; }
   std::string_view bytes() const override { return stream_.view(); }
   void read_origin(std::optional<RecordingInfo>& /*info*/, std::string& robot) const override {
@@ -198,10 +199,14 @@ class MappedRecords final : public RecordSource {
   const ConvertedLog& converted() const { return converted_; }
 
  private:
+  struct Record {
+    LogValues values{};
+    std::int64_t stamp = 0;
+  };
   static constexpr std::size_t rows_for_clock = 200;
 
   /// Converts the next row that is a record. Returns false at the end.
-  bool pull(LogValues& values) {
+  bool pull(Record& record) {
     while (!is_at_end_) {
       end_if(options_.stop);
       if (!rows_->next(row_)) {
@@ -213,10 +218,12 @@ class MappedRecords final : public RecordSource {
                                     : static_cast<double>(converted_.rows) * mapping_.period;
       const bool is_record = hold_.complete(row_, given_time, converted_);
       if (is_record) {
-        values = log_values(mapping_, converted_.rows++, row_);
-        count(values);
+        record.values = log_values(mapping_, converted_.rows++, row_);
+        record.stamp =
+            mapping_.time ? mapping_.time->stamp(row_) : nanoseconds(record.values[log_slot::time]);
+        count(record.values);
       }
-      const double time = is_record ? values[log_slot::time] : given_time;
+      const double time = is_record ? record.values[log_slot::time] : given_time;
       if (options_.with_labels && (is_record || has_time_)) {
         intervals_.add(time - converted_.start, row_, *rows_);
       }
@@ -292,9 +299,9 @@ class MappedRecords final : public RecordSource {
   RowHold hold_;
   IntervalBuilder intervals_;
   std::vector<double> row_;
-  LogValues values_{};
+  Record record_;
   std::vector<double> first_times_;
-  std::deque<LogValues> ahead_;  ///< the first rows, while their clock is checked
+  std::deque<Record> ahead_;  ///< the first rows, while their clock is checked
   bool is_clock_checked_ = false;
   bool is_at_end_ = false;
   ConvertedLog converted_;

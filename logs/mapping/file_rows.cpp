@@ -189,7 +189,9 @@ class CsvFile final : public FileSource {
     row.resize(wanted_.size());
     for (std::size_t i = 0; i < row.size(); ++i) {
       const auto position = positions_[i] ? positions_[i] : joints_.column_of(wanted_[i].name);
-      row[i] = position ? csv_.values()[*position] : std::numeric_limits<double>::quiet_NaN();
+      row[i] = !position            ? std::numeric_limits<double>::quiet_NaN()
+               : wanted_[i].is_rest ? csv_.rest(*position)
+                                    : csv_.values()[*position];
     }
     return true;
   }
@@ -256,6 +258,11 @@ class ArrayFile final : public FileSource {
     rows_ = arrays_.at(first).shape.front();
     for (const SourceColumn& column : wanted) {
       columns_.push_back(column_of(arrays_, column, path_));
+      if (column.is_rest) {
+        rest_ = read_npz(
+            path_, [&](std::string_view name) { return name == column.name; }, NpyPart::rest);
+        columns_.back() = column_of(rest_, column, path_);
+      }
       const std::size_t size = arrays_.at(column.name).shape.front();
       if (size != rows_) {
         throw InputError(fmt::format("{}: {} has {} rows, and {} has {}", names_.file, column.name,
@@ -278,6 +285,7 @@ class ArrayFile final : public FileSource {
  private:
   std::filesystem::path path_;
   ModelArrays arrays_;
+  ModelArrays rest_;  ///< of the clock
   std::vector<ArrayColumn> columns_;
   std::size_t rows_ = 0;
   std::size_t next_ = 0;

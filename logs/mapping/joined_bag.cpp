@@ -108,8 +108,10 @@ class JoinedBag final : public JoinedSource {
     lacks_stamps_ = std::any_of(topics_.begin(), topics_.end(),
                                 [](const SignalTopic& topic) { return !topic.has_stamps; });
     for (std::size_t i = 0; i < topics_.size(); ++i) {
-      std::vector<std::string> wanted;
-      for (const std::size_t column : columns()[i]) wanted.push_back(mapping.columns[column].name);
+      std::vector<TopicColumn> wanted;
+      for (const std::size_t k : columns()[i]) {
+        wanted.push_back({mapping.columns[k].name, mapping.columns[k].is_rest});
+      }
       rows_.emplace_back(topics_[i], wanted, TopicRows::Config{lacks_stamps_, stale_after()});
     }
     messages_.resize(rows_.size());

@@ -37,6 +37,7 @@ bool has_numbers(std::span<const double> row, const SourceClock& clock,
                  const std::vector<std::size_t>& columns) {
   for (std::size_t i = 0; i < row.size(); ++i) {
     const bool is_time = columns[i] == clock.time.numbers.front().column ||
+                         columns[i] == clock.rest ||
                          (clock.nanosec && columns[i] == clock.nanosec->numbers.front().column);
     if (!is_time && std::isfinite(row[i])) return true;
   }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -42,6 +43,8 @@ struct SourceColumn {
   std::string name;
   std::optional<std::size_t> index = {};
   std::size_t source = 0;  ///< index of its source, of a log with several
+  /// What a double does not hold of the column's numbers, such as nanoseconds since 1970.
+  bool is_rest = false;
 
   bool operator==(const SourceColumn&) const = default;
 };
@@ -87,12 +90,15 @@ struct MappedSignal {
 /// When a row was logged.
 struct SourceClock {
   MappedSignal time;                    ///< s
+  std::optional<std::size_t> rest;      ///< column of what a double does not hold of it
   std::optional<MappedSignal> nanosec;  ///< added to it (ns)
 
   /// s, from a row with the values of `LogMapping::columns`.
   double at(std::span<const double> row) const {
     return time.value(row, 0) + (nanosec ? 1e-9 * nanosec->value(row, 0) : 0.0);
   }
+  /// The same in ns, with every digit of the log.
+  std::int64_t stamp(std::span<const double> row) const;
 };
 
 /// Longest plausible time between two rows (s). A longer one indicates a wrong unit of time.

@@ -283,7 +283,15 @@ void describe_mapping(Fields& fields, MappingReader& reader, LogMapping& mapping
   }
   reader.enter("contact");
   if (with_labels) describe_contact(fields, reader, mapping);
-  if (!mapping.clocks.empty()) mapping.time = mapping.clocks[mapping.joint_source()];
+  const bool has_clocks = !mapping.clocks.empty();
+  if (has_clocks) mapping.time = mapping.clocks[mapping.joint_source()];
+  if (mapping.time) {
+    SourceColumn rest = mapping.columns[mapping.time->time.numbers.front().column];
+    rest.is_rest = true;
+    mapping.time->rest = mapping.columns.size();
+    mapping.columns.push_back(std::move(rest));
+    if (has_clocks) mapping.clocks[mapping.joint_source()] = *mapping.time;
+  }
 }
 
 /// Errors: `InputError` also for a robot's file: `--robot` stands beside `--mapping`.

@@ -57,6 +57,19 @@ void put_leg_targets(const MappedLegTargets& targets, std::span<const double> ro
 
 }  // namespace
 
+std::int64_t SourceClock::stamp(std::span<const double> row) const {
+  const MappedSignal::Number& number = time.numbers.front();
+  const double rounded = at(row);
+  if (!rest || number.sign != 1.0 || number.scale != 1.0 || nanoseconds(rounded) == 0) {
+    return nanoseconds(rounded);
+  }
+  const auto unit = static_cast<double>(std::llround(1e9 * time.unit));  // ns
+  const double whole = std::trunc(row[number.column]);
+  return static_cast<std::int64_t>(whole) * static_cast<std::int64_t>(unit) +
+         std::llround(unit * (row[number.column] - whole + row[*rest])) +
+         (nanosec ? std::llround(nanosec->value(row, 0)) : 0);
+}
+
 LogValues log_values(const LogMapping& mapping, std::uint64_t k, std::span<const double> row) {
   LogValues values{};
   values[log_slot::time] =

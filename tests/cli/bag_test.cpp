@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -137,7 +138,11 @@ TEST_F(Bag, OfAnotherRobotGivesBeliefsAsGoodAsTheRunsOwnLog) {
   folder_.output_of("export bag/bag_0.db3 --mapping robot.yaml -o b.mpack");
   EXPECT_EQ(folder_.text("a.mpack"), folder_.text("b.mpack"));
   folder_.output_of("estimate a.mpack -o a.csv");
-  EXPECT_EQ(folder_.text("a.csv"), folder_.text("bag.csv"));
+  // Times of an exported log are seconds, which have no nanoseconds since 1970.
+  const auto without_stamps = [&](const std::string& file) {
+    return std::regex_replace(folder_.text(file), std::regex(",[0-9]+\n"), "\n");
+  };
+  EXPECT_EQ(without_stamps("a.csv"), without_stamps("bag.csv"));
 }
 
 TEST_F(Bag, IsLabelledByItsMappingAsItsExportedLogIs) {

@@ -47,7 +47,9 @@ TOUCHDOWN_FUZZ(cdr) {
     topic.type = type;
     topic.joints = {"a", "b"};
     topic.definition = std::make_shared<const logs::MessageType>(type, "");
-    logs::TopicRows rows(topic, topic.columns(), {});
+    std::vector<logs::TopicColumn> columns{{logs::stamp_column, true}};
+    for (const std::string& name : topic.columns()) columns.push_back({name});
+    logs::TopicRows rows(topic, columns, {});
     for (const std::int64_t time : {std::int64_t{0}, std::int64_t{1'000'000}}) {
       const bool is_row = rows.update({0, time, input});
       if (is_row && rows.malformed() > 0) __builtin_trap();

@@ -164,6 +164,25 @@ np.savez('a.npz', flags=np.array([True, False]),
   EXPECT_THAT(arrays.at("u8").data, ElementsAre(0, 3, 18446744073709551.0));
 }
 
+TEST(Npz, GivesWhatFloat64DoesNotHoldOfWholeNumbers) {
+  if (python_with_numpy().empty()) GTEST_SKIP() << "python3 with NumPy is not installed";
+  const ScratchFolder folder;
+  ASSERT_TRUE(runs(R"(
+stamps = [1732540000002345679, 3, -1732540000002345679]
+np.savez('a.npz', i8=np.array(stamps, 'i8'), u8=np.array(stamps[:2], 'u8'), f8=np.array([.1]))
+)",
+                   folder));
+  const ModelArrays rounded = read_npz(folder / "a.npz");
+  const ModelArrays rest = read_npz(folder / "a.npz", {}, NpyPart::rest);
+  for (const char* name : {"i8", "u8"}) {
+    EXPECT_EQ(std::int64_t(rounded.at(name).data[0]) + std::int64_t(rest.at(name).data[0]),
+              1732540000002345679);
+    EXPECT_EQ(rest.at(name).data[1], 0.0);
+  }
+  EXPECT_EQ(rest.at("i8").data[2], -rest.at("i8").data[0]);
+  EXPECT_EQ(rest.at("f8").data[0], 0.0);
+}
+
 TEST(Npy, HeaderIsPaddedAsNumPyAsks) {
   const std::string bytes = to_npy({{1}, {2.0}});
   ASSERT_EQ(bytes.size(), 128U + 8U);

@@ -71,6 +71,46 @@ class Conversion : public test::MappedLogs {
   }
 };
 
+TEST_F(Conversion, KeepsStampsToTheNanosecond) {
+  struct Clock {
+    const char* mapping;
+    const char* first;
+    const char* second;
+    const char* separator = ",";
+  };
+  for (const Clock& clock : std::initializer_list<Clock>{
+           {"{from: t}", "1732540000.002345679", "1732540000.012345601"},
+           {"{from: t, unit: ms}", "1732540000002.345679", "1732540000012.345601"},
+           {"{from: t, unit: us}", "1732540000002345.679", "1732540000012345.601"},
+           {"{from: t, unit: ns}", "1732540000002345679", "1732540000012345601"},
+           {"{from: t}", "2024-11-25 13:06:40.002345679", "2024-11-25T13:06:40.012345601Z"},
+           {"{from: t}", "1732540000,002345679", "1732540000,012345601", ";"}}) {
+    std::string csv = with_separator(names, clock.separator) + "\n";
+    for (const char* time : {clock.first, clock.second}) {
+      csv += time + with_separator(row(""), clock.separator) + "\n";
+    }
+    LogReader reader(
+        mapped_records(write("log.csv", csv),
+                       write("map.yaml", replaced(mapping_head, "{from: t}", clock.mapping))),
+        "log");
+    for (const std::int64_t stamp : {1732540000002345679, 1732540000012345601}) {
+      ASSERT_TRUE(reader.next()) << clock.first;
+      EXPECT_EQ(reader.stamp(), stamp) << clock.first;
+    }
+  }
+}
+
+TEST_F(Conversion, KeepsStampsOfSecondsAndNanoseconds) {
+  const std::string csv = "sec," + replaced(names, "t,", "nsec,") + "\n1732540000," +
+                          row("2345679") + "\n1732540000," + row("999999999") + "\n";
+  const std::string mapping = replaced(mapping_head, "{from: t}", "{sec: sec, nanosec: nsec}");
+  LogReader reader(mapped_records(write("log.csv", csv), write("map.yaml", mapping)), "log");
+  for (const std::int64_t stamp : {1732540000002345679, 1732540000999999999}) {
+    ASSERT_TRUE(reader.next());
+    EXPECT_EQ(reader.stamp(), stamp);
+  }
+}
+
 TEST_F(Conversion, NumbersOfARowAreThoseOfTheRecord) {
   const auto rows = convert(names + "\n" + row("7.25") + "\n" + row("7.5") + "\n");
   ASSERT_EQ(rows.size(), 2U);
