@@ -300,6 +300,11 @@ RunRequest read_request(const fs::path& directory) {
   RunRequest request;
   request.experiment = experiment_from_yaml(YamlDocument::load(directory / "config.yaml"),
                                             written_estimators(directory));
+  if (const fs::path manifest = directory / "manifest.json"; is_there(manifest)) {
+    // Of a finished run. It changes no result, so that config.yaml lacks it.
+    std::string& heatmap = request.experiment.figures.heatmap;
+    heatmap = YamlDocument::load(manifest).root()["heatmap"].as<std::string>(heatmap);
+  }
   request.sensors = read_sensors(request.experiment, directory);
   request.scenarios = scenarios_of(
       request.experiment,

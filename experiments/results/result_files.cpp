@@ -163,6 +163,7 @@ void write_manifest(const ExperimentResult& result) {
   json["experiment"] = experiment.name;
   json["id"] = result.id;
   json["command"] = result.provenance.command;
+  json["heatmap"] = experiment.figures.heatmap;
   json["finished_at"] = fmt::format("{:%FT%TZ}", fmt::gmtime(std::chrono::system_clock::now()));
   json["host"] = {{"name", host_name()},
                   {"cores", std::thread::hardware_concurrency()},

@@ -40,6 +40,14 @@ TEST_F(PrintedFigure, IsAskedForByAnExperimentOfTheSameId) {
   EXPECT_EQ(folder_.text("a/config.yaml"), config);
 }
 
+TEST_F(PrintedFigure, KeepsTheMetricOfItsRun) {
+  write_finished_run(folder_, "--no-video --set figures.heatmap=balanced_accuracy");
+  for (const char* width : {"88mm", "80mm"}) {
+    EXPECT_THAT(folder_.output_of(std::string("figure a error_mujoco --width ") + width),
+                HasSubstr("Balanced accuracy"));
+  }
+}
+
 TEST_F(PrintedFigure, IsRefusedInOneLineWithTheNearestName) {
   write_finished_run(folder_, "--no-video");
   const char* const range = "expected 40 to 400 mm with the unit mm, cm or in, as in 88mm";
