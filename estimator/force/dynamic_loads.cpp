@@ -28,6 +28,13 @@ constexpr double dynamic_error = 0.1;     // of the force that accelerates a leg
 constexpr double forward_error = 0.0095;  // share of the weight: F_x of a leg without a hip
 constexpr double largest_share = 0.25;    // of the weight: the largest known deviation
 
+// Errors of both loads' sum by the accelerometer. Where the torques contradict it for less than
+// `contradiction`, the accelerometer is wrong; for longer, a hand carries the robot.
+constexpr double sum_error = 0.05;        // a share of the weight
+constexpr double carried_share = 0.1;     // of the sum
+constexpr double contradiction = 0.02;    // s
+constexpr double carried_variance = 2.0;  // per squared contradiction
+
 // Limits of the noise estimates; they are those of sensors, whatever the robot.
 constexpr double noise_gain = 0.01;
 constexpr double warm_up = 0.1;  // s
@@ -47,6 +54,14 @@ struct DynamicLoads::LegTorques {
   [[nodiscard]] bool is_known() const noexcept { return std::isfinite(hip + knee + wheel); }
 };
 
+/// A load by the leg's own joints, and the leg's part in the sum of both loads.
+struct DynamicLoads::LegLoad {
+  double force = std::numeric_limits<double>::quiet_NaN();  ///< N
+  double variance = 0.0;         ///< N², without what the vertical accelerometer's error adds
+  double by_acceleration = 0.0;  ///< the error's factor (kg)
+  double required = 0.0;  ///< N, by half of the robot that moves as the hip, and the leg's motion
+};
+
 DynamicLoads::DynamicLoads(const LegGeometry& geometry, double sample_rate,
                            const SignalGuardConfig& guard)
     : geometry_(geometry),
@@ -55,6 +70,7 @@ DynamicLoads::DynamicLoads(const LegGeometry& geometry, double sample_rate,
       rate_(sample_rate),
       gain_(exact_low_pass_gain(time_constant, sample_rate)),
       alignment_gain_(exact_low_pass_gain(alignment, sample_rate)),
+      contradiction_gain_(exact_low_pass_gain(contradiction, sample_rate)),
       white_(gain_ / (2.0 - gain_)),
       white_of_change_(2.0 * gain_ * white_ * square(sample_rate)),
       weight_(gravity * geometry.robot_mass),
@@ -110,6 +126,7 @@ void DynamicLoads::reset() noexcept {
 void DynamicLoads::restart() noexcept {
   torso_ = {};
   leg_ = {};
+  balance_ = {};
   torque_noise_.reset_signals();
   servo_noise_.reset_signals();
   velocity_noise_.reset_signals();
@@ -141,7 +158,7 @@ DynamicLoads::Loads DynamicLoads::update(const Signals& signals, bool has_accele
     by_servos[side] = servo_torques(leg, signals.target[side]);
   }
   has_targets_ = by_servos[0].is_known() && by_servos[1].is_known();
-  Loads loads;
+  std::array<LegLoad, 2> by_leg;
   if (has_imu) {
     update_torso(signals);
     for (std::size_t side = 0; side < 2; ++side) {
@@ -149,9 +166,10 @@ DynamicLoads::Loads DynamicLoads::update(const Signals& signals, bool has_accele
       const double elapsed = signals.time - leg_[side].time;
       if (!(elapsed >= 0.0 && elapsed <= guard_.maximum_gap)) leg_[side] = {};
       leg_[side].time = signals.time;
-      loads[side] = update_leg(side, legs[side], by_servos[side]);
+      by_leg[side] = update_leg(side, legs[side], by_servos[side]);
     }
   }
+  const Loads loads = balanced(by_leg);
   observe_noise(signals, has_imu, has_leg, by_servos);
   return loads;
 }
@@ -166,7 +184,8 @@ void DynamicLoads::update_torso(const Signals& signals) noexcept {
   // The vertical part is that of the vertical acceleration, so that it alone is enough.
   const Eigen::Vector3d& linear = signals.linear_acceleration;
   const double vertical = gravity + signals.vertical_acceleration - signals.up.dot(linear);
-  torso_.specific_force.update(in_torso(linear + vertical * signals.up),
+  torso_.aligned.update(in_torso(linear + vertical * signals.up), alignment_gain_);
+  torso_.specific_force.update(torso_.aligned.value,
                                acceleration_gain_[acceleration_noise_.level()]);
   // Rotation is a small part: without a gyroscope, the torso is taken not to turn.
   const bool has_turn = signals.angular_velocity.allFinite();
@@ -217,7 +236,7 @@ struct DynamicLoads::Levers {
 };
 
 DynamicLoads::Levers DynamicLoads::levers(const Links& links,
-                                          const Eigen::Vector2d& force) const noexcept {
+                                          const Eigen::Vector2d& required) const noexcept {
   const Eigen::Vector2d& up = torso_.up;
   Levers levers;
   if (has_hip_) {
@@ -228,20 +247,20 @@ DynamicLoads::Levers DynamicLoads::levers(const Links& links,
         levers.upper * upper_mass_ * links.upper + levers.lower * lower_mass_ * links.lower;
     return levers;
   }
-  // One equation for two components: the forward one accelerates half of the robot.
+  // One equation for two components: both legs together take the forward one, in unknown shares.
   const Eigen::Vector2d forward(up.y(), -up.x());
   const double along = links.lower.dot(up);
   levers.lower = 1.0 / (along + std::copysign(straight, along));
   const double slope = levers.lower * links.lower.dot(forward);
   const Eigen::Vector2d carried = slope * 0.5 * geometry_.robot_mass * forward;
-  levers.offset = -carried.dot(force);
-  levers.offset_variance = square(forward_error * weight_ * slope);
+  levers.offset = -slope * forward.dot(required);
+  levers.offset_variance = square(forward_error * weight_ * slope) + square(levers.offset);
   levers.by_force = levers.lower * lower_mass_ * links.lower - carried;
   return levers;
 }
 
-WheelLoad DynamicLoads::update_leg(std::size_t side, const LegSignals& signals,
-                                   const LegTorques& by_servos) noexcept {
+DynamicLoads::LegLoad DynamicLoads::update_leg(std::size_t side, const LegSignals& signals,
+                                               const LegTorques& by_servos) noexcept {
   Leg& leg = leg_[side];
   const FootJacobian foot = foot_jacobian(geometry_, signals, side == 1);
   const double sign = side == 0 ? 1.0 : -1.0;
@@ -278,7 +297,17 @@ WheelLoad DynamicLoads::update_leg(std::size_t side, const LegSignals& signals,
       centrifugal * square(leg.rate.value[0] - turn.y()) + geometry_.knee_armature * of_knee +
       geometry_.wheel_armature * acceleration[2];
 
-  const Levers by = levers(links, force);
+  // Of the leg's masses relative to the hip: their links turn and swing.
+  const auto swung = [](const Eigen::Vector2d& link, double link_turn, double link_rate) {
+    const Eigen::Vector2d inward(-link.y(), link.x());
+    return Eigen::Vector2d(link_turn * link + square(link_rate) * inward);
+  };
+  const Eigen::Vector2d required =
+      0.5 * geometry_.robot_mass * force +
+      upper_mass_ * swung(links.upper, upper_turn, leg.rate.value[0] - turn.y()) +
+      lower_mass_ * swung(links.lower, lower_turn, leg.rate.value[1] - turn.y());
+
+  const Levers by = levers(links, required);
   const auto solved = [&](const Moments& moments) {
     return by.upper * (of_upper + moments.value.value[0]) +
            by.lower * (of_lower + moments.value.value[1]) + by.offset;
@@ -287,10 +316,10 @@ WheelLoad DynamicLoads::update_leg(std::size_t side, const LegSignals& signals,
                         by.lower * (lower_inertia_ + coupling);
   const double by_knee = by.upper * (coupling - geometry_.knee_armature) +
                          by.lower * (lower_inertia_ + geometry_.knee_armature);
-  const double gain = acceleration_gain_[acceleration_noise_.level()];
+  const double by_up = by.by_force.dot(torso_.up);
   const double lift = links.upper.y() * upper_turn + links.lower.y() * lower_turn;  // of the axle
   const double common =
-      gain / (2.0 - gain) * square(acceleration_noise_.sigma()) * by.by_force.squaredNorm() +
+      acceleration_variance() * (by.by_force.squaredNorm() - square(by_up)) +
       white_of_change_ * square(velocity_noise_.sigma()) * (square(by_hip) + square(by_knee)) +
       square(dynamic_error * leg_mass_ * lift) + model_variance_ + by.offset_variance;
   const auto of_joints = [&](const JointNoise& noise, double systematic) {
@@ -299,8 +328,8 @@ WheelLoad DynamicLoads::update_leg(std::size_t side, const LegSignals& signals,
            square(by.lower) * (white_ * square(noise.wheel.sigma()) + systematic);
   };
   const double variance = of_joints(torque_noise_, torque_variance_) + common;
-  const auto load = [](double vertical, double own) {
-    return WheelLoad{vertical, std::sqrt(own + square(scale_error * vertical))};
+  const auto load = [&](double vertical, double own) {
+    return LegLoad{vertical, own + square(scale_error * vertical), by_up, required.dot(torso_.up)};
   };
   if (!by_servos.is_known()) {
     leg.by_servos = {};
@@ -311,6 +340,64 @@ WheelLoad DynamicLoads::update_leg(std::size_t side, const LegSignals& signals,
   const double share = servo_variance / (variance + servo_variance);
   return load(share * solved(leg.by_torques) + (1.0 - share) * solved(leg.by_servos),
               std::min(variance, servo_variance));
+}
+
+double DynamicLoads::acceleration_variance() const noexcept {
+  const double gain = acceleration_gain_[acceleration_noise_.level()];
+  return gain / (2.0 - gain) * square(acceleration_noise_.sigma());
+}
+
+DynamicLoads::Loads DynamicLoads::balanced(const std::array<LegLoad, 2>& by_leg) noexcept {
+  // Unknown: both loads and the vertical accelerometer's error, which each leg's load contains.
+  Eigen::Vector3d state(0, 0, 0);
+  Eigen::Vector3d of_error(0, 0, -1);
+  Eigen::Vector3d variance(0, 0, 0);
+  for (Eigen::Index side = 0; side < 2; ++side) {
+    const LegLoad& leg = by_leg[static_cast<std::size_t>(side)];
+    // A straight leg bears any load.
+    const bool is_bent = leg.variance < square(weight_);
+    state[side] = is_bent ? leg.force : 0.5 * weight_;
+    of_error[side] = is_bent ? leg.by_acceleration : 0.0;
+    variance[side] = std::min(leg.variance, square(weight_));
+  }
+  Eigen::Matrix3d covariance = variance.asDiagonal();
+  if (std::isfinite(state.sum())) {
+    const double mass = geometry_.robot_mass;
+    const auto low_passed = [](LowPass<1>& of, double input, double gain) {
+      of.update(LowPass<1>::Values(input), gain);
+      return of.value[0];
+    };
+    const double sum = by_leg[0].required + by_leg[1].required;
+    const double difference = state[0] + state[1] - sum;
+    const double lasting = low_passed(balance_.lasting, difference, contradiction_gain_);
+    const double passing =
+        low_passed(balance_.passing, square(difference - lasting), contradiction_gain_);
+    const double by_torques = variance.sum();
+    covariance += std::max(acceleration_variance(),
+                           (passing - by_torques) / square(mass - of_error[0] - of_error[1])) *
+                  of_error * of_error.transpose();
+    const auto observe = [&](const Eigen::Vector3d& of_state, double value, double its_variance) {
+      const Eigen::Vector3d shared = covariance * of_state;
+      const Eigen::Vector3d gain = shared / (of_state.dot(shared) + its_variance);
+      state += gain * (value - of_state.dot(state));
+      covariance -= gain * shared.transpose();
+    };
+    observe({1, 1, mass}, sum,
+            square(sum_error * weight_) + square(carried_share * sum) +
+                carried_variance * std::max(0.0, square(lasting) - by_torques));
+    // Neither load is negative: they differ by no more than their sum.
+    const double both = std::max(0.0, state[0] + state[1]);
+    observe({1, -1, 0}, 0.0, square(sum_error * weight_) + 2.0 * square(both));
+  } else {
+    balance_ = {};
+    covariance += acceleration_variance() * of_error * of_error.transpose();
+  }
+  const auto load = [&](Eigen::Index side) {
+    return std::isfinite(state[side])
+               ? WheelLoad{state[side], std::sqrt(std::max(0.0, covariance(side, side)))}
+               : WheelLoad{};
+  };
+  return {load(0), load(1)};
 }
 
 void DynamicLoads::observe_noise(const Signals& signals, bool has_imu,

@@ -23,6 +23,14 @@ namespace touchdown {
 /// those by the laws of the servos; both are weighted by their variances, which contain the noise
 /// of the sensors as it is observed. Forces without a scale of their own are shares of the weight.
 ///
+/// Both loads together accelerate the robot, so that a third equation connects them,
+///
+///     F_left + F_right = m s + the motion of both legs relative to the torso,
+///
+/// with the specific force s of the hips. It gives the loads of straight legs, whose torques show
+/// none, and the accelerometer's own error, which the torques contradict. A force on the torso,
+/// such as a hand's, contradicts it for longer, and then counts as the sum's error.
+///
 /// Rolling resistance is not modelled. On a tyre the ground takes its moment; simulators have it as
 /// a torque between wheel and lower leg, which adds 1.4 % of the weight to the load of a rolling
 /// Upkie.
@@ -69,8 +77,9 @@ class DynamicLoads {
   };
   /// Of the torso: x forward, y left, z up.
   struct Torso {
-    LowPass<3> specific_force;  ///< of the IMU (m/s²)
-    LowPass<3> turn;            ///< rad/s
+    LowPass<3> aligned;  ///< specific force of the IMU (m/s²), delayed as the torques
+    LowPass<3> specific_force;
+    LowPass<3> turn;  ///< rad/s
     Eigen::Vector3d turn_acceleration = Eigen::Vector3d::Zero();
     Eigen::Vector2d up = Eigen::Vector2d::UnitY();  ///< in the leg's plane: forward, upward
   };
@@ -97,8 +106,14 @@ class DynamicLoads {
     void reset() noexcept;
     void reset_signals() noexcept;
   };
+  struct LegLoad;
   struct Links;
   struct Levers;
+  /// The sum of both loads by the torques minus that by the accelerometer.
+  struct Balance {
+    LowPass<1> lasting;  ///< N
+    LowPass<1> passing;  ///< N²
+  };
 
   void update_torso(const Signals& signals) noexcept;
   void observe_noise(const Signals& signals, bool has_imu, const std::array<bool, 2>& has_leg,
@@ -107,9 +122,13 @@ class DynamicLoads {
                                          const LegTargets& target) const noexcept;
   void update_moments(Moments& moments, const LegTorques& torque, const LegSignals& leg,
                       double sign) const noexcept;
-  [[nodiscard]] Levers levers(const Links& links, const Eigen::Vector2d& force) const noexcept;
-  WheelLoad update_leg(std::size_t side, const LegSignals& signals,
-                       const LegTorques& by_servos) noexcept;
+  [[nodiscard]] Levers levers(const Links& links, const Eigen::Vector2d& required) const noexcept;
+  LegLoad update_leg(std::size_t side, const LegSignals& signals,
+                     const LegTorques& by_servos) noexcept;
+  /// (m/s²)², low-passed
+  [[nodiscard]] double acceleration_variance() const noexcept;
+  /// Connects both loads by their sum.
+  Loads balanced(const std::array<LegLoad, 2>& by_leg) noexcept;
 
   LegGeometry geometry_;
   SignalGuardConfig guard_;
@@ -117,6 +136,7 @@ class DynamicLoads {
   double rate_;  ///< Hz
   double gain_;
   double alignment_gain_;
+  double contradiction_gain_;
   double white_;            ///< share of a white variance that the low-pass leaves …
   double white_of_change_;  ///< … and its factor in the derivative (1/s²)
   double weight_;
@@ -139,6 +159,7 @@ class DynamicLoads {
   double torso_time_ = 0.0;
   bool has_targets_ = false;
   std::array<Leg, 2> leg_;
+  Balance balance_;
 };
 
 }  // namespace touchdown

@@ -20,6 +20,7 @@ constexpr double largest_lead = 0.38;
 constexpr double lead_deviation = 0.076;  // that halves the lead
 
 constexpr double slope_time = 0.004;        // s: of the low-pass for a load's slope
+constexpr double lateness = 0.0046;         // s: of loads, behind all low-passes
 constexpr double evidence_time = 0.002;     // s: errors of the load are alike for that long
 constexpr double most_evidence = 6.0;       // nats in each evidence time
 constexpr double takeoff_rate = 5.0;        // 1/s
@@ -87,6 +88,11 @@ const Belief& LoadFilter::estimate(const Signals& signals) noexcept {
     const double evidence = evidence_of(wheel_[side], loads[side].force / loads_.weight(),
                                         loads[side].deviation / loads_.weight());
     belief.p_contact = updated(belief.p_contact, evidence);
+    // A load that changes was another one when it was measured.
+    const double change = loads[side].force - wheel_[side].smoothed * loads_.weight();
+    const double noise = loads[side].deviation;
+    const double beyond_noise = std::sqrt(std::max(0.0, change * change - noise * noise));
+    belief.load.deviation = std::hypot(belief.load.deviation, lateness / slope_time * beyond_noise);
     belief.contact =
         belief.p_contact >= (belief.contact ? config_.leave_below : config_.return_above);
   }

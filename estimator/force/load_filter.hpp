@@ -21,8 +21,8 @@ struct LoadFilterConfig {
 /// A filter with two states for each wheel, contact and air, that observes the load on it
 /// (`DynamicLoads`) with its deviation (docs/explanation/contact.md). In the air the load is zero
 /// up to its error; in contact, all loads between a fiftieth and three quarters of the weight are
-/// alike. It needs the robot's geometry and nothing else: all constants are of physics, or chosen
-/// once for all robots.
+/// alike. Beliefs have the load with the deviation of its lag, too. It needs the robot's geometry
+/// and nothing else: all constants are of physics, or chosen once for all robots.
 ///
 /// `update` never throws, allocates or locks, and never returns NaN. While a load is not known, the
 /// wheel's belief relaxes to the prior, and the status gives the reason.

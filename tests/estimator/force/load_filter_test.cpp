@@ -163,18 +163,38 @@ TEST(LoadFilter, LeavesAndReturnsAtItsThresholds) {
   EXPECT_EQ(changes, 3);
 }
 
-TEST(LoadFilter, LearnsNothingFromAStraightLeg) {
+TEST(LoadFilter, ReportsALoadThatChangesWithTheDeviationOfItsLag) {
+  const double weight = 9.81 * LegGeometry{}.robot_mass;
+  for (const double frequency : {2.0, 5.0, 10.0}) {
+    LoadFilter filter;
+    for (int k = 0; k < 1000; ++k) {
+      const double time = 0.001 * k;
+      const double left = weight * (0.5 + 0.4 * std::sin(6.283 * frequency * time));
+      const WheelLoad load = filter.update(carrying(time, left, weight - left)).wheel[0].load;
+      if (k < 200) continue;
+      EXPECT_NEAR(load.force, left, 2.0 * load.deviation) << frequency << " Hz";
+    }
+  }
+}
+
+TEST(LoadFilter, TakesForStraightLegsWhatTheAccelerometerKnows) {
   LoadFilter filter;
   Signals straight;
-  Belief belief;
-  for (int k = 0; k < 2000; ++k) {
-    straight.time = 0.001 * k;
-    straight.vertical_acceleration = 1e-9 * (k % 2);
-    belief = filter.update(straight);
-  }
-  EXPECT_NEAR(belief.wheel[0].p_contact, 10.0 / 15.0, 0.01);  // its rates of switching alone
+  const auto after = [&](double acceleration) {
+    for (int k = 0; k < 1000; ++k) {
+      straight.time += 0.001;
+      straight.vertical_acceleration = acceleration + 1e-9 * (k % 2);
+      filter.update(straight);
+    }
+    return filter.update(straight);
+  };
+  Belief belief = after(0.0);  // one wheel, or both: which is not known
+  EXPECT_TRUE(belief.wheel[0].contact);
   EXPECT_TRUE(std::isnan(belief.wheel[0].load.force));
   EXPECT_TRUE(is_used(belief.status));
+  belief = after(-9.81);
+  EXPECT_FALSE(belief.wheel[0].contact);
+  EXPECT_NEAR(belief.wheel[0].load.force, 0.0, 1.0);
 }
 
 TEST(LoadFilter, IsDegradedWithoutTheTargetsOfServos) {
