@@ -57,8 +57,7 @@ void copy_numbers(std::string_view bytes, NpyPart part, std::vector<double>& num
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     T number;
     std::memcpy(&number, bytes.data() + i * sizeof(T), sizeof(T));
-    numbers[i] = static_cast<double>(number);
-    if (part == NpyPart::rest) numbers[i] = rest_of(number);
+    numbers[i] = part == NpyPart::rest ? rest_of(number) : static_cast<double>(number);
   }
 }
 

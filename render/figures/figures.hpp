@@ -43,8 +43,6 @@ void draw_drop_details(const experiments::ExperimentResult& result, const std::a
 
 /// Ends of the scale (%); errors beyond have the end's colour.
 inline constexpr double lowest_error = 0.1, highest_error = 30.0;
-/// Ticks of the scale (%).
-inline constexpr std::array<double, 4> error_ticks = {1.0, 2.0, 5.0, 10.0};
 
 /// The error of a success rate from 0 to 1 (%), rounded to the millionth: the difference alone
 /// would be 1.0999999999999899.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -177,6 +178,7 @@ std::string panel_plot(const Heatmap& heatmap, const std::string& name, std::siz
 
 /// gnuplot's palette and ticks: logarithmic in the distance from a success rate of 100 %.
 std::string colour_scale() {
+  constexpr std::array<double, 4> error_ticks = {1.0, 2.0, 5.0, 10.0};  // %
   std::string stops, ticks;
   for (std::size_t i = 0; i < viridis.size(); ++i) {
     stops += fmt::format("{}{} '#{:06x}'", i == 0 ? "" : ", ", i, viridis[i]);
