@@ -12,7 +12,7 @@
 #include "core/files.hpp"
 #include "core/resources.hpp"
 #include "estimator/force/leg_geometry.hpp"
-#include "logs/plausibility/rules.hpp"
+#include "logs/plausibility/channels.hpp"
 #include "models/robot_description.hpp"
 #include "models/robot_draft.hpp"
 #include "models/robot_model.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "estimator/force/leg_geometry.hpp"
-#include "logs/plausibility/rules.hpp"
+#include "logs/plausibility/channels.hpp"
 #include "logs/recording.hpp"
 
 namespace touchdown::experiments {

@@ -1,3 +1,5 @@
+#include "logs/plausibility/channels.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -6,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "estimator/signal_bounds.hpp"
-#include "logs/plausibility/rules.hpp"
 
 namespace touchdown::logs {
 

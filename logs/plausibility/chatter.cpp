@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "logs/plausibility/rules.hpp"
+#include "logs/plausibility/channels.hpp"
 
 namespace touchdown::logs {
 

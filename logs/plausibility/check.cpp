@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "logs/plausibility/rules.hpp"
-
 namespace touchdown::logs {
 
 void Findings::add(std::string_view subject, const std::string& finding) {
@@ -29,6 +27,7 @@ PlausibilityCheck::PlausibilityCheck(double period, const CheckedRobot& robot, d
       clock_(period, start),
       held_(period),
       joint_range_(robot),
+      lateness_(period),
       load_(robot.legs.value_or(LegGeometry{}), robot.legs.has_value()) {}
 
 void PlausibilityCheck::add(const models::Observation& reported, const ServoTargets& targets) {
@@ -40,15 +39,13 @@ void PlausibilityCheck::add(const models::Observation& reported, const ServoTarg
   const models::Observation record = sensor_range_.add(reported);
   joint_range_.add(record);
   chatter_.add(record);
+  lateness_.add(record);
   const std::optional<CheckedWindow> window = windows_.add(record, targets);
   if (!window) return;
-  motion_.add(*window);
-  servo_law_.add(*window);
-  turning_.add(*window);
-  driving_.add(*window);
+  relations_.add(*window);
   load_.add(*window);
   if (const std::optional<CheckedWindow> stretch = still_.add(*window)) {
-    gravity_.add_still(*stretch);
+    relations_.add_still(*stretch);
     load_.add_still(*stretch);
   }
 }
@@ -62,14 +59,13 @@ std::vector<std::string> PlausibilityCheck::findings() const {
   sensor_range_.report(findings);
   chatter_.report(findings);
   const bool has_positions = joint_range_.report(findings);
-  motion_.report(findings);
-  servo_law_.report(findings);
-  turning_.report(findings);
-  const std::size_t before = findings.lines().size();
-  gravity_.report(findings);
-  driving_.report(findings, findings.lines().size() == before);
-  // A leg's load follows from its pose.
-  if (has_positions && !constant_.lacks_hips()) load_.report(findings, driving_.drives());
+  relations_.report(findings);
+  // The wheels of a robot that hangs follow its swinging.
+  if (!load_.hangs()) lateness_.report(findings);
+  // A leg's load follows from its pose, and from the vertical.
+  if (has_positions && relations_.is_upright() && !constant_.lacks_hips()) {
+    load_.report(findings, relations_.drives());
+  }
   return findings.lines();
 }
 

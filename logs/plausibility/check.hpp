@@ -6,7 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "logs/plausibility/rules.hpp"
+#include "logs/plausibility/channels.hpp"
+#include "logs/plausibility/lateness.hpp"
+#include "logs/plausibility/load.hpp"
+#include "logs/plausibility/relations.hpp"
 #include "logs/sample_times.hpp"
 
 namespace touchdown::logs {
@@ -125,12 +128,9 @@ class PlausibilityCheck {
   StoppedChannels stopped_;
   SensorRangeCheck sensor_range_;
   JointRangeCheck joint_range_;
-  JointMotionCheck motion_;
-  ServoLawCheck servo_law_;
-  TurningCheck turning_;
-  DrivingCheck driving_;
-  GravityCheck gravity_;
-  LoadCheck load_;
+  Relations relations_;
+  Lateness lateness_;
+  LoadRelation load_;
   ChatterCheck chatter_;
 };
 

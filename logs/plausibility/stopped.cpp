@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "logs/plausibility/rules.hpp"
+#include "logs/plausibility/channels.hpp"
 #include "logs/signals_from.hpp"
 
 namespace touchdown::logs {

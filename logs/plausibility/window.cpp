@@ -1,9 +1,10 @@
+#include "logs/plausibility/window.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "estimator/force/servo_law.hpp"
-#include "logs/plausibility/rules.hpp"
 
 namespace touchdown::logs {
 

@@ -175,7 +175,7 @@ TEST_F(Bag, IsCheckedByAMapping) {
            {mapping.substr(0, mapping.find("[1, 1, 1")) + "1\n",
             "wheels: turn in opposite directions"},
            {mapping + "imu: {orientation: {reference: z_down}}\n",
-            "gravity was removed by a wrong orientation"},
+            "orientation: has the robot upside down"},
            {gravity, "linear_acceleration: holds gravity"},
            {mapping + "  torque: {unit: mNm}\n", "torques in N·m mapped as mNm"}}) {
     folder_.write("wrong.yaml", wrong);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <deque>
 #include <functional>
 #include <map>
 #include <numbers>
@@ -65,10 +66,11 @@ std::vector<std::string> findings(const Records& records) {
 }
 
 TEST(PlausibilityCheck, IsSilentOnSimulatedRecordings) {
-  std::vector<std::string> scenarios = {"stairs", "push_off", "lift_slowly", "hang_crouching"};
+  std::vector<std::string> scenarios = {"stairs", "push_off", "lift_slowly", "lift_drive",
+                                        "hang_crouching"};
   if (draws_all()) {
-    for (const char* more : {"hop", "hang", "roam", "lift", "squat", "lift_drive", "put_down",
-                             "pushed", "kerb_turn"}) {
+    for (const char* more :
+         {"hop", "hang", "roam", "lift", "squat", "put_down", "pushed", "kerb_turn"}) {
       scenarios.emplace_back(more);
     }
   }
@@ -144,9 +146,20 @@ std::vector<Damage> damages() {
       for (const std::size_t servo : servos) change(o.servo[servo]);
     };
   };
-  // About the vertical, in all that the IMU reports.
-  const auto turned_imu = [](double angle) {
-    const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
+  const auto shifted = [](std::size_t servo, double zero) {
+    return [=](O& o, std::size_t) { o.servo[servo].position += zero; };
+  };
+  // Values of some records before, under right stamps.
+  const auto late = [](std::size_t records) {
+    return [records, last = std::deque<models::ImuReading>()](O& o, std::size_t) mutable {
+      last.push_back(o.imu);
+      if (last.size() > records + 1) last.pop_front();
+      o.imu = last.front();
+    };
+  };
+  // In all that the IMU reports; z is the vertical.
+  const auto turned_imu = [](double angle, int axis = 2) {
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(axis)));
     return [=](O& o, std::size_t) {
       o.imu.orientation = o.imu.orientation * turn.conjugate();
       o.imu.angular_velocity = turn * o.imu.angular_velocity;
@@ -163,6 +176,27 @@ std::vector<Damage> damages() {
     o.imu.orientation = Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w());
   };
   return {
+      // the whole IMU
+      {"IMU upside down", turned_imu(std::numbers::pi, 0),
+       "orientation: has the robot upside down"},
+      {"IMU on its side", turned_imu(0.5 * std::numbers::pi, 0),
+       "orientation: has the robot lie on its side"},
+      {"IMU late by 100 ms", late(100), "after the joints: are values older", false, true},
+      {"IMU late by 200 ms", late(200), "after the joints: are values older", false, true},
+      {"joints late by 200 ms",
+       [last = std::deque<std::array<models::ServoReading, 6>>()](O& o, std::size_t) mutable {
+         last.push_back(o.servo);
+         if (last.size() > 201) last.pop_front();
+         o.servo = last.front();
+       },
+       "after the IMU: are values older", false, true},
+      {"accelerations in g",
+       [](O& o, std::size_t) {
+         o.imu.raw_linear_acceleration /= 9.81;
+         o.imu.linear_acceleration = o.imu.raw_linear_acceleration -
+                                     o.imu.orientation.conjugate() * Eigen::Vector3d(0, 0, -9.81);
+       },
+       "while the robot is still, expected 9.8: is it in g"},
       // gravity in the linear acceleration
       {"gravity in it", linear_to(1.0), "linear_acceleration: holds gravity: mean 9."},
       {"gravity in it, in g", linear_to(1.0 / 9.81), "holds gravity in g"},
@@ -201,16 +235,33 @@ std::vector<Damage> damages() {
        "torques of the right leg have the other sign"},
       {"left leg negated", scaled(torque, {0, 1, 2}, -1.0),
        "torques of the left leg have the other sign"},
-      {"torques in mNm", scaled(torque, all, 1000.0), "torques are in mNm"},
-      {"torques in cNm", scaled(torque, all, 100.0), "the torques are in cNm"},
+      {"torques in mNm", scaled(torque, all, 1000.0), "are they in mN·m"},
+      {"torques in cNm", scaled(torque, all, 100.0), "are they in cN·m"},
       {"torques of hips and knees swapped",
        [](O& o, std::size_t) {
          std::swap(o.servo[0].torque, o.servo[1].torque);
          std::swap(o.servo[3].torque, o.servo[4].torque);
        },
-       "probably the torques of hips and knees are swapped", false, true},
+       "probably the torques of hips and knees are exchanged", false, true},
       {"torques divided by 1000", scaled(torque, all, 1e-3), "never exceed"},
+      {"torques times 0.1", scaled(torque, all, 0.1), "the torques are 0.", false, true},
+      {"torques in kgf·cm", scaled(torque, all, 10.197), "are they in kgf·cm"},
+      {"torques of left and right knee exchanged",
+       [](O& o, std::size_t) { std::swap(o.servo[1].torque, o.servo[4].torque); },
+       "the torques of the knees have the other sign, or are those of the other side", false, true},
       // joints
+      {"left and right knee exchanged", swapped(1, 4), "in front of the hips", false, true},
+      {"left and right hip exchanged", swapped(0, 3), "behind the hips", false, true},
+      {"the left knee's zero", shifted(1, 0.3), "left_knee: the left wheel is", false, true},
+      {"the right hip's zero", shifted(3, -0.3), "right_hip: the left wheel is", false, true},
+      {"encoders in revolutions",
+       [](O& o, std::size_t) {
+         for (models::ServoReading& servo : o.servo) {
+           servo.position /= 2.0 * std::numbers::pi;
+           servo.velocity /= 2.0 * std::numbers::pi;
+         }
+       },
+       "probably positions are in revolutions", false, true},
       {"hips and knees swapped",
        [](O& o, std::size_t) {
          std::swap(o.servo[0], o.servo[1]);
@@ -267,6 +318,9 @@ std::vector<Damage> damages() {
        true},
       {"gyroscope mapped as deg/s", gyroscope(degree * Eigen::Matrix3d::Identity()),
        "mapped as deg/s", true},
+      {"gyroscope's y axis in deg/s",
+       gyroscope(Eigen::Vector3d(1.0, 1.0 / degree, 1.0).asDiagonal().toDenseMatrix()),
+       "angular_velocity y: is", true},
       // dead channels
       {"knees silent", scaled(torque, {1, 4}, 0.0),
        "left_knee, right_knee: torque is 0 throughout"},
@@ -400,7 +454,7 @@ TEST(PlausibilityCheck, NamesASingleValueThatNoSensorReports) {
 TEST(PlausibilityCheck, NamesALoadThatIsTooSmallForARobotThatDrives) {
   using O = models::Observation;
   const std::vector<std::pair<std::string, std::function<void(O&)>>> damages_of_load = {
-      {"probably the torques of hips and knees are swapped",
+      {"probably the torques of hips and knees are exchanged",
        [](O& o) {
          std::swap(o.servo[0].torque, o.servo[1].torque);
          std::swap(o.servo[3].torque, o.servo[4].torque);
@@ -413,7 +467,7 @@ TEST(PlausibilityCheck, NamesALoadThatIsTooSmallForARobotThatDrives) {
        [](O& o) {
          for (const std::size_t i : {3U, 4U, 5U}) o.servo[i].torque *= -1.0;
        }},
-      {"check units, gear ratios", [](O& o) {
+      {"times those that carry its weight", [](O& o) {
          for (models::ServoReading& servo : o.servo) servo.torque /= 6.0;
        }}};
   for (const std::string robot : {"upkie.xml", "upkie_straight.yaml"}) {
