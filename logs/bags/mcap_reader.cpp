@@ -1,18 +1,95 @@
 #include "logs/bags/mcap_reader.hpp"
 
 #include <algorithm>
+#include <boost/crc.hpp>
+#include <cstring>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "logs/bags/compression.hpp"
 
 namespace touchdown::logs {
 
 namespace {
 
-/// Largest size of the chunks in memory, which is that of the chunks that overlap in time.
-constexpr std::uint64_t most_loaded_bytes = std::uint64_t{1} << 30U;
+/// Opcode and length.
+constexpr std::uint64_t head_bytes = 9;
+constexpr std::uint64_t most_chunk_bytes = std::uint64_t{1} << 30U;
+/// Definitions are read whole; no schema is as large as this.
+constexpr std::uint64_t most_definition_bytes = std::uint64_t{1} << 26U;
+
+/// Reads little-endian numbers and texts from bytes. Errors: `InputError` when the bytes end before
+/// a value does; no size that the bytes declare is trusted.
+class ByteReader {
+ public:
+  explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
+
+  template <typename T>
+  T number() {
+    T value{};
+    const std::string_view from = take(sizeof(T));
+    std::memcpy(&value, from.data(), sizeof(T));
+    return value;
+  }
+  std::string_view take(std::uint64_t size) {
+    if (size > bytes_.size()) throw InputError("a value ends beyond its record");
+    const std::string_view taken = bytes_.substr(0, size);
+    bytes_.remove_prefix(size);
+    return taken;
+  }
+  /// A text or an array: its size as `std::uint32_t`, then its bytes.
+  std::string_view text() { return take(number<std::uint32_t>()); }
+
+  std::string_view rest() const { return bytes_; }
+
+ private:
+  std::string_view bytes_;
+};
+
+/// Adds a definition, or checks that it repeats the earlier one.
+template <typename T>
+void define(std::map<std::uint16_t, T>& known, std::uint16_t id, T value, const char* what) {
+  const auto [at, is_new] = known.try_emplace(id, value);
+  if (!is_new && !(at->second == value)) {
+    throw InputError(fmt::format("{} {} is defined twice, differently", what, id));
+  }
+}
+
+Compression compression_of(std::string_view name) {
+  if (name == "lz4") return Compression::lz4;
+  if (name == "zstd") return Compression::zstd;
+  if (name.empty()) return Compression::none;
+  throw InputError(fmt::format("compression '{}': expected none, lz4 or zstd", name.substr(0, 32)));
+}
+
+/// The uncompressed records of a chunk. Of one that is cut off, those that are there.
+std::string records_of(std::string_view content, bool is_cut) {
+  ByteReader reader(content);
+  (void)reader.number<std::uint64_t>();  // start
+  (void)reader.number<std::uint64_t>();  // end
+  const auto size = reader.number<std::uint64_t>();
+  const auto crc = reader.number<std::uint32_t>();
+  const Compression compression = compression_of(reader.text());
+  const auto stored_size = reader.number<std::uint64_t>();
+  const std::string_view stored = reader.rest().substr(0, stored_size);
+  if (!is_cut && stored.size() < stored_size) {
+    throw InputError(
+        fmt::format("expected {} bytes of messages, found {}", stored_size, stored.size()));
+  }
+  Decompressed result = decompress(compression, stored, std::min(size, most_chunk_bytes));
+  if (is_cut) return std::move(result.bytes);
+  if (!result.fault.empty()) throw InputError(result.fault);
+  if (result.bytes.size() < size) {
+    throw InputError(
+        fmt::format("expected {} bytes of messages, found {}", size, result.bytes.size()));
+  }
+  if (crc != 0 && mcap_crc(result.bytes) != crc) {
+    throw InputError("its checksum differs: the file is damaged");
+  }
+  return std::move(result.bytes);
+}
 
 }  // namespace
 
@@ -20,150 +97,174 @@ McapReader::McapReader(const std::filesystem::path& path, TopicFilter wanted,
                        const std::string& name, const std::atomic<bool>* stop)
     : file_(path, name.empty() ? path.string() : name, stop),
       wanted_(std::move(wanted)),
-      layout_(mcap_layout(file_)) {
-  if (layout_.is_in_file_order) return;
-  // The definition of a channel can be in a later part than its first message.
-  std::vector<McapPart> parts = layout_.parts;
-  std::sort(parts.begin(), parts.end(),
-            [](const McapPart& a, const McapPart& b) { return a.offset < b.offset; });
-  for (const McapPart& part : parts) {
-    with_place(part, [&] {
-      for_each_mcap_record(records_of(part), [&](McapOp op, std::string_view content) {
-        if (op == McapOp::schema) layout_.channels.add_schema(content);
-        if (op == McapOp::channel) layout_.channels.add_channel(content);
-      });
-    });
-  }
-}
-
-/// Names the part in errors.
-void McapReader::with_place(const McapPart& part, const std::function<void()>& use) const {
-  try {
-    use();
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: byte {}: {}: {}", file_.name(), part.offset,
-                                 part.is_chunk ? "chunk" : "records", error.what()));
-  }
-}
-
-/// The uncompressed records of a part.
-std::string McapReader::records_of(const McapPart& part) {
-  std::string bytes;
-  file_.read(part.offset, part.size, bytes);
-  if (!part.is_chunk) return bytes;
-  McapChunk chunk;
-  try {
-    chunk = mcap_chunk(bytes);
-  } catch (const InputError&) {
-    if (part.is_cut) return {};
-    throw;
-  }
-  if (!part.is_cut && chunk.records.size() < chunk.size) {
+      offset_(mcap_magic.size()) {
+  file_.read(0, mcap_magic.size(), content_);
+  if (content_ != mcap_magic) {
     throw InputError(
-        fmt::format("expected {} bytes of messages, found {}", chunk.size, chunk.records.size()));
+        fmt::format("{}: is no MCAP file: it does not begin with \\x89MCAP0", file_.name()));
   }
-  Decompressed result = decompress(chunk.compression, chunk.records,
-                                   std::min(chunk.uncompressed_size, most_loaded_bytes));
-  if (part.is_cut) return std::move(result.bytes);
-  if (!result.fault.empty()) throw InputError(result.fault);
-  if (result.bytes.size() < chunk.uncompressed_size) {
-    throw InputError(fmt::format("expected {} bytes of messages, found {}", chunk.uncompressed_size,
-                                 result.bytes.size()));
+}
+
+bool McapReader::next(BagMessage& message) {
+  while (next_ == messages_.size()) {
+    if (is_at_end_) return false;
+    messages_.clear();
+    next_ = 0;
+    try {
+      read_record();
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: byte {}: {}", file_.name(), offset_, error.what()));
+    }
   }
-  if (chunk.crc != 0 && mcap_crc(result.bytes) != chunk.crc) {
-    throw InputError("its checksum differs: the file is damaged");
+  message = messages_[next_++];
+  ++topics_[message.topic].messages;
+  return true;
+}
+
+void McapReader::read_record() {
+  file_.read(offset_, head_bytes, content_);
+  if (content_.size() < head_bytes) return end("the end of the file is missing");
+  ByteReader head(content_);
+  const auto op = static_cast<McapOp>(head.number<std::uint8_t>());
+  const auto size = head.number<std::uint64_t>();
+  if (op == McapOp::invalid) {
+    return end(fmt::format("from byte {} on it holds no records", offset_));
   }
-  return std::move(result.bytes);
+  const std::uint64_t content = offset_ + head_bytes;
+  const bool is_cut = size > file_.size() - content;
+  const bool is_definition = op == McapOp::schema || op == McapOp::channel;
+  if (is_definition && size > most_definition_bytes && !is_cut) {
+    throw InputError("a definition is too large");
+  }
+  const bool is_used = is_definition || op == McapOp::message || op == McapOp::data_end ||
+                       op == McapOp::footer || op == McapOp::chunk;
+  // Attachments can be large.
+  file_.read(content, is_used ? size : 0, content_);
+  if (op == McapOp::chunk) {
+    try {
+      read_chunk(content_, is_cut);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("chunk: {}", error.what()));
+    }
+  } else if (is_cut) {
+    return end("the rest of a record is missing");
+  } else if (op == McapOp::data_end) {
+    check(ByteReader(content_).number<std::uint32_t>(), 0, offset_, "the data section");
+  } else if (op == McapOp::footer) {
+    return finish(content, content_);
+  } else {
+    use(op, content_, false);
+  }
+  if (is_cut) return end("the rest of a chunk is missing");
+  offset_ = content + size;
+}
+
+/// A record of the file, or of a chunk.
+void McapReader::use(McapOp op, std::string_view content, bool is_cut) {
+  ByteReader reader(content);
+  if (op == McapOp::schema) {
+    const auto id = reader.number<std::uint16_t>();
+    if (id == 0) throw InputError("a schema has the id 0");
+    Schema schema;
+    schema.name = reader.text();
+    schema.encoding = reader.text();
+    schema.text = reader.text();
+    define(schemas_, id, std::move(schema), "schema");
+  } else if (op == McapOp::channel) {
+    const auto id = reader.number<std::uint16_t>();
+    Channel channel;
+    channel.schema = reader.number<std::uint16_t>();
+    channel.topic = reader.text();
+    channel.encoding = reader.text();
+    define(channels_, id, std::move(channel), "channel");
+  } else if (op == McapOp::message) {
+    const std::size_t topic = topic_of(reader.number<std::uint16_t>());
+    (void)reader.number<std::uint32_t>();  // sequence
+    const auto time = static_cast<std::int64_t>(reader.number<std::uint64_t>());
+    (void)reader.number<std::uint64_t>();  // publish time
+    if (is_cut) ++cut_messages_;
+    if (wanted_ && !wanted_(topics_[topic].name)) {
+      ++topics_[topic].messages;
+    } else {
+      messages_.push_back({topic, time, reader.rest()});
+    }
+  }
+}
+
+void McapReader::read_chunk(std::string_view content, bool is_cut) {
+  try {
+    chunk_ = records_of(content, is_cut);
+  } catch (const InputError&) {
+    if (!is_cut) throw;
+    chunk_.clear();
+  }
+  std::string_view rest = chunk_;
+  while (rest.size() >= head_bytes) {
+    ByteReader record(rest);
+    const auto op = static_cast<McapOp>(record.number<std::uint8_t>());
+    const auto size = record.number<std::uint64_t>();
+    if (size > record.rest().size()) break;
+    use(op, record.take(size), is_cut);
+    rest = record.rest();
+  }
+  if (!rest.empty() && !is_cut) throw InputError("its last record ends beyond it");
+  std::ranges::stable_sort(messages_, {}, &BagMessage::time);
 }
 
 std::size_t McapReader::topic_of(std::uint16_t channel) {
   const auto known = topic_of_channel_.find(channel);
   if (known != topic_of_channel_.end()) return known->second;
-  const auto defined = layout_.channels.channel.find(channel);
-  if (defined == layout_.channels.channel.end()) {
+  const auto defined = channels_.find(channel);
+  if (defined == channels_.end()) {
     throw InputError(fmt::format("a message is of channel {}, which is not defined", channel));
   }
-  const McapChannels::Channel& of = defined->second;
-  const auto schema = layout_.channels.schema.find(of.schema);
+  const Channel& of = defined->second;
+  const auto schema = schemas_.find(of.schema);
   BagTopic topic{of.topic, "", of.encoding};
-  if (schema != layout_.channels.schema.end()) {
+  if (schema != schemas_.end()) {
     topic.type = schema->second.name;
     if (schema->second.encoding == "ros2msg") topic.definition = schema->second.text;
   }
   return topic_of_channel_[channel] = topics_.index_of(topic);
 }
 
-void McapReader::load(const McapPart& part) {
-  Loaded loaded;
-  const auto use = [&](McapOp op, std::string_view content) {
-    if (op == McapOp::schema) layout_.channels.add_schema(content);
-    if (op == McapOp::channel) layout_.channels.add_channel(content);
-    if (op != McapOp::message) return;
-    const McapMessage message = mcap_message(content);
-    const std::size_t topic = topic_of(message.channel);
-    if (part.is_cut) ++cut_messages_;
-    if (wanted_ && !wanted_(topics_[topic].name)) {
-      ++topics_[topic].messages;
-      return;
-    }
-    loaded.entries.push_back({message.log_time, topic,
-                              static_cast<std::size_t>(message.data.data() - loaded.bytes.data()),
-                              message.data.size()});
-  };
-  with_place(part, [&] {
-    loaded.bytes = records_of(part);
-    const std::size_t whole = for_each_mcap_record(loaded.bytes, use);
-    if (whole < loaded.bytes.size() && !part.is_cut) {
-      throw InputError("its last record ends beyond it");
-    }
-  });
-  std::stable_sort(loaded.entries.begin(), loaded.entries.end(),
-                   [](const Entry& a, const Entry& b) { return a.time < b.time; });
-  if (loaded.is_done()) return;
-  loaded_bytes_ += loaded.bytes.size();
-  if (loaded_bytes_ > most_loaded_bytes) {
-    throw InputError(fmt::format(
-        "{}: more than {} MiB of messages overlap in time: sort the bag with `mcap sort`",
-        file_.name(), most_loaded_bytes >> 20U));
-  }
-  const Place place(loaded.entries.front().time, part.offset);
-  loaded_.emplace(place, std::move(loaded));
+/// The checksum of the summary includes the footer up to the checksum.
+void McapReader::finish(std::uint64_t footer, std::string_view content) {
+  ByteReader reader(content);
+  const auto summary = reader.number<std::uint64_t>();
+  (void)reader.number<std::uint64_t>();
+  const std::uint64_t start = summary == 0 ? offset_ : summary;
+  check(reader.number<std::uint32_t>(), start, footer + 16, "the summary");
+  std::string magic;
+  file_.read(footer + 20, mcap_magic.size(), magic);
+  end(magic == mcap_magic ? "" : "the magic bytes at its end are missing");
 }
 
-/// The message that was read last is valid until now.
-void McapReader::leave_last_message() {
-  if (!std::exchange(is_first_read_, false)) return;
-  auto part = loaded_.extract(loaded_.begin());
-  const Loaded& loaded = part.mapped();
-  if (loaded.is_done()) {
-    loaded_bytes_ -= loaded.bytes.size();
-    return;
+void McapReader::check(std::uint32_t expected, std::uint64_t from, std::uint64_t to,
+                       const char* what) const {
+  if (expected == 0) return;
+  if (from > to) throw InputError("the footer names a summary behind it");
+  boost::crc_32_type crc;
+  std::string bytes;
+  constexpr std::uint64_t at_once = std::uint64_t{1} << 20U;
+  for (std::uint64_t at = from; at < to; at += bytes.size()) {
+    file_.read(at, std::min(at_once, to - at), bytes);
+    crc.process_bytes(bytes.data(), bytes.size());
   }
-  part.key().first = loaded.entries[loaded.next].time;
-  loaded_.insert(std::move(part));
+  if (crc.checksum() != expected) {
+    throw InputError(fmt::format("the checksum of {} differs: the file was changed", what));
+  }
 }
 
-bool McapReader::next(BagMessage& message) {
-  leave_last_message();
-  const std::vector<McapPart>& parts = layout_.parts;
-  while (next_part_ < parts.size() &&
-         (loaded_.empty() || parts[next_part_].start <= loaded_.begin()->first.first)) {
-    load(parts[next_part_++]);
-  }
-  if (loaded_.empty()) return false;
-  is_first_read_ = true;
-  Loaded& first = loaded_.begin()->second;
-  const Entry& entry = first.entries[first.next++];
-  ++topics_[entry.topic].messages;
-  message.topic = entry.topic;
-  message.time = static_cast<std::int64_t>(entry.time);
-  message.data = std::string_view(first.bytes).substr(entry.offset, entry.size);
-  return true;
+void McapReader::end(const std::string& missing) {
+  is_at_end_ = true;
+  if (missing.empty()) return;
+  end_missing_ = fmt::format("cut off at byte {}: {}", file_.size(), missing);
 }
 
 std::string McapReader::note() const {
-  if (layout_.end_missing.empty()) return {};
-  return fmt::format("{}: {}{}", file_.name(), layout_.end_missing,
+  if (end_missing_.empty()) return {};
+  return fmt::format("{}: {}{}", file_.name(), end_missing_,
                      cut_messages_ == 0
                          ? std::string()
                          : fmt::format("; {} messages before it were read", cut_messages_));

@@ -7,97 +7,90 @@
 
 namespace touchdown::logs {
 
-SourceJoin::SourceJoin(Config config)
-    : config_(std::move(config)), sources_(config_.columns.size()) {
-  for (const std::vector<std::size_t>& columns : config_.columns) width_ += columns.size();
-}
-
-void SourceJoin::add(std::size_t index, double arrival, double time, std::span<const double> row,
+void SourceRows::add(double arrival, double time, std::span<const double> row,
                      std::uint64_t position) {
   if (!std::isfinite(time)) return;
-  Source& source = sources_[index];
-  if (source.report.rows++ == 0) source.report.first = time;
-  source.report.last = time;
-  arrival_ = arrival;
-  latest_ = index;
-  if (index == config_.clock) {
-    insert({arrival, time, position, {row.begin(), row.end()}});
-  } else {
-    source.by_arrival.push_back(
-        source.held.insert({time, Held{arrival, {row.begin(), row.end()}}}));
+  rows.push_back({time, arrival, position, values.size()});
+  values.insert(values.end(), row.begin(), row.end());
+}
+
+SourceJoin::SourceJoin(std::vector<SourceRows> sources, Config config)
+    : config_(std::move(config)), sources_(sources.size()) {
+  for (const std::vector<std::size_t>& columns : config_.columns) width_ += columns.size();
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    Source& source = sources_[i];
+    source.all = std::move(sources[i]);
+    std::deque<SourceRows::Row>& rows = source.all.rows;
+    std::ranges::stable_sort(rows, {}, &SourceRows::Row::arrival);
+    if (!rows.empty()) source.report = {rows.size(), rows.front().time, rows.back().time, {}, 0};
+    if (i != config_.clock) std::ranges::stable_sort(rows, {}, &SourceRows::Row::time);
+  }
+  sort_joints();
+}
+
+void SourceJoin::sort_joints() {
+  std::deque<SourceRows::Row>& rows = sources_[config_.clock].all.rows;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    std::size_t at = i;
+    while (at > 0 && rows[at - 1].time > rows[i].time &&
+           rows[at - 1].time <= rows[i].time + largest_disorder) {
+      --at;
+    }
+    const auto place = [&](std::size_t k) { return rows.begin() + static_cast<std::ptrdiff_t>(k); };
+    std::rotate(place(at), place(i), place(i + 1));
   }
 }
 
-bool SourceJoin::pop(std::vector<double>& row) {
-  while (!pending_.empty() &&
-         (is_finished_ || pending_.front().arrival + arrival_window < arrival_)) {
-    const Pending pending = std::move(pending_.front());
-    pending_.pop_front();
-    if (join(pending, row)) return true;
+bool SourceJoin::next(std::vector<double>& row) {
+  const Source& joints = sources_[config_.clock];
+  while (next_ < joints.all.rows.size()) {
+    const SourceRows::Row& given = joints.all.rows[next_++];
+    row.resize(width_);
+    bool has_begun = true;
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+      if (i != config_.clock) has_begun = hold(i, given, row) && has_begun;
+    }
+    if (!has_begun) {
+      ++rows_before_;
+      continue;
+    }
+    std::size_t from = given.first;
+    for (const std::size_t column : config_.columns[config_.clock]) {
+      row[column] = joints.all.values[from++];
+    }
+    position_ = given.position;
+    ++rows_;
+    return true;
   }
-  forget_old();
   return false;
 }
 
-/// A source must not fill the memory while the joints have no rows.
-void SourceJoin::forget_old() {
-  const double oldest = (pending_.empty() ? arrival_ : pending_.front().arrival) - arrival_window -
-                        config_.stale_after;
-  Source& source = sources_[latest_];
-  while (!source.by_arrival.empty() && source.by_arrival.front()->second.arrival < oldest) {
-    source.held.erase(source.by_arrival.front());
-    source.by_arrival.pop_front();
+/// The source's row of this time, or the last one before it; null if it is stale.
+const SourceRows::Row* SourceJoin::latest(const SourceRows& source,
+                                          const SourceRows::Row& joints) const {
+  auto at = std::ranges::upper_bound(source.rows, joints.time, {}, &SourceRows::Row::time);
+  while (at != source.rows.begin() && joints.time - (--at)->time <= config_.stale_after) {
+    if (std::abs(at->arrival - joints.arrival) <= arrival_window + config_.stale_after) return &*at;
   }
-}
-
-void SourceJoin::insert(Pending pending) {
-  auto at = pending_.end();
-  while (at != pending_.begin()) {
-    const double before = std::prev(at)->time;
-    if (before <= pending.time || before > pending.time + largest_disorder) break;
-    --at;
-  }
-  // The arrivals stay in order, so that the front is due first.
-  if (at != pending_.end()) pending.arrival = at->arrival;
-  pending_.insert(at, std::move(pending));
+  return nullptr;
 }
 
 /// Writes the source's values into the joined row. Returns false if it has not had any so far.
-bool SourceJoin::hold(std::size_t index, double time, std::vector<double>& row) {
+bool SourceJoin::hold(std::size_t index, const SourceRows::Row& joints, std::vector<double>& row) {
   Source& source = sources_[index];
-  const std::vector<std::size_t>& columns = config_.columns[index];
-  auto latest = source.held.upper_bound(time);
-  if (latest != source.held.begin()) {
-    --latest;
-    const double age = time - latest->first;
-    if (age <= config_.stale_after) {
-      source.has_begun = true;
-      source.report.ages.add(age);
-      for (std::size_t i = 0; i < columns.size(); ++i) row[columns[i]] = latest->second.row[i];
-      return true;
-    }
+  const SourceRows::Row* const held = latest(source.all, joints);
+  if (held != nullptr) {
+    source.has_begun = true;
+    source.report.ages.add(joints.time - held->time);
+  } else if (source.has_begun) {
+    ++source.report.stale;
   }
-  for (const std::size_t column : columns) row[column] = std::numeric_limits<double>::quiet_NaN();
-  if (source.has_begun) ++source.report.stale;
+  std::size_t from = held == nullptr ? 0 : held->first;
+  for (const std::size_t column : config_.columns[index]) {
+    row[column] =
+        held == nullptr ? std::numeric_limits<double>::quiet_NaN() : source.all.values[from++];
+  }
   return source.has_begun;
-}
-
-/// Returns false for a row of the joints before another source has begun.
-bool SourceJoin::join(const Pending& pending, std::vector<double>& row) {
-  row.resize(width_);
-  bool has_begun = true;
-  for (std::size_t i = 0; i < sources_.size(); ++i) {
-    if (i != config_.clock) has_begun = hold(i, pending.time, row) && has_begun;
-  }
-  if (!has_begun) {
-    ++rows_before_;
-    return false;
-  }
-  const std::vector<std::size_t>& columns = config_.columns[config_.clock];
-  for (std::size_t i = 0; i < columns.size(); ++i) row[columns[i]] = pending.row[i];
-  position_ = pending.position;
-  ++rows_;
-  return true;
 }
 
 }  // namespace touchdown::logs

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <span>
 #include <vector>
 
@@ -32,15 +31,29 @@ class Ages {
   std::vector<float> ages_;
 };
 
-/// Joins rows of sources with clocks and rates of their own: each row of one source, the joints',
-/// gets the latest values of the others that were measured not later. Values older than
-/// `stale_after` are missing (NaN). Rows may arrive late or in another order than they were
-/// measured, by up to `arrival_window`; memory does not depend on their number, but for four bytes
-/// per row and source for the median age.
+/// All rows of a source with a clock of its own, in any order.
+struct SourceRows {
+  struct Row {
+    double time = 0.0;           ///< by the source's clock (s)
+    double arrival = 0.0;        ///< s; the clocks of arrival of all sources run alike
+    std::uint64_t position = 0;  ///< among the rows of the log, for messages
+    std::size_t first = 0;       ///< its first number in `values`
+  };
+  // Blocks: a vector that grows would need its memory twice.
+  std::deque<Row> rows;
+  std::deque<double> values;
+
+  /// A row without a finite time is left out.
+  void add(double arrival, double time, std::span<const double> row, std::uint64_t position);
+};
+
+/// Joins sources with clocks and rates of their own: each row of one source, the joints', gets the
+/// latest values of the others that were measured not later. Values older than `stale_after` are
+/// missing (NaN). Rows of one time arrive within `arrival_window` of each other, so that a clock
+/// that starts again, as that of a simulation, gives no values of its earlier times.
 class SourceJoin {
  public:
-  /// How far apart rows of one time may arrive (s).
-  static constexpr double arrival_window = 0.5;
+  static constexpr double arrival_window = 0.5;  // s
   /// Rows of the joints that arrive in another order than they were measured are sorted, if they
   /// are late by at most this (s). A larger step back is one of the clock.
   static constexpr double largest_disorder = 0.1;
@@ -61,17 +74,11 @@ class SourceJoin {
     std::uint64_t stale = 0;  ///< joined rows without a value of this source
   };
 
-  explicit SourceJoin(Config config);
+  SourceJoin(std::vector<SourceRows> sources, Config config);
 
-  /// Adds a row of a source, after all rows that are due were popped. `arrival` must not decrease
-  /// from call to call, over all sources. A row without a finite time is left out.
-  void add(std::size_t source, double arrival, double time, std::span<const double> row,
-           std::uint64_t position);
-  /// No row follows: all are due.
-  void finish() { is_finished_ = true; }
-  /// Writes the next joined row that is due. Returns false if none is.
-  bool pop(std::vector<double>& row);
-  /// That of the joints' row that was popped last.
+  /// Writes the next joined row. Returns false at the end.
+  bool next(std::vector<double>& row);
+  /// That of the joints' row that was joined last.
   std::uint64_t position() const { return position_; }
 
   const Report& report(std::size_t source) const { return sources_[source].report; }
@@ -80,36 +87,20 @@ class SourceJoin {
   std::uint64_t rows_before() const { return rows_before_; }
 
  private:
-  struct Held {
-    double arrival = 0.0;
-    std::vector<double> row;
-  };
-  using ByTime = std::multimap<double, Held>;
   struct Source {
-    ByTime held;
-    std::deque<ByTime::iterator> by_arrival;
+    SourceRows all;
     bool has_begun = false;
     Report report;
   };
-  struct Pending {
-    double arrival = 0.0;
-    double time = 0.0;
-    std::uint64_t position = 0;
-    std::vector<double> row;
-  };
 
-  void insert(Pending pending);
-  bool join(const Pending& pending, std::vector<double>& row);
-  bool hold(std::size_t source, double time, std::vector<double>& row);
-  void forget_old();
+  void sort_joints();
+  const SourceRows::Row* latest(const SourceRows& source, const SourceRows::Row& joints) const;
+  bool hold(std::size_t source, const SourceRows::Row& joints, std::vector<double>& row);
 
   Config config_;
   std::size_t width_ = 0;
   std::vector<Source> sources_;
-  std::deque<Pending> pending_;
-  double arrival_ = 0.0;    ///< of the latest row …
-  std::size_t latest_ = 0;  ///< … and its source
-  bool is_finished_ = false;
+  std::size_t next_ = 0;  ///< row of the joints
   std::uint64_t position_ = 0;
   std::uint64_t rows_ = 0;
   std::uint64_t rows_before_ = 0;

@@ -61,9 +61,8 @@ SqliteReader::SqliteReader(const std::filesystem::path& path, const TopicFilter&
   std::vector<std::int64_t> ids;
   for (const auto& [id, index] : index_of_id_) ids.push_back(id);
   const std::string where = fmt::format("WHERE topic_id IN ({})", fmt::join(ids, ","));
-  order_ = prepare("SELECT rowid FROM messages " + where + " ORDER BY timestamp, rowid");
-  row_ = prepare("SELECT topic_id, timestamp, data FROM messages WHERE rowid = ?");
-  all_ = prepare("SELECT topic_id, timestamp, data FROM messages NOT INDEXED " + where);
+  // An index may be damaged, and its order jumps between pages.
+  rows_ = prepare("SELECT topic_id, timestamp, data FROM messages NOT INDEXED " + where);
 }
 
 /// Opens the database to read it; returns SQLite's code. `salvages` accepts a file that is shorter
@@ -206,66 +205,33 @@ bool SqliteReader::step(sqlite3_stmt* statement) {
   complain_unreadable();
 }
 
-bool SqliteReader::take(sqlite3_stmt* row, BagMessage& message) {
-  const auto topic = index_of_id_.find(sqlite3_column_int64(row, 0));
-  if (topic == index_of_id_.end()) return false;
-  message.topic = topic->second;
-  message.time = sqlite3_column_int64(row, 1);
-  const void* data = sqlite3_column_blob(row, 2);
-  const int size = sqlite3_column_bytes(row, 2);
+bool SqliteReader::next(BagMessage& message) {
+  if (!rows_) return false;
+  try {
+    if (step(rows_.get())) {
+      take(message);
+      return true;
+    }
+    if (is_copy_) note_ = fmt::format("{}: cut off: {} messages were read", name_, messages_);
+  } catch (const InputError&) {
+    if (messages_ == 0) throw;
+    note_ = fmt::format("{}: damaged or cut off: {} messages were read, others are lost", name_,
+                        messages_);
+  }
+  rows_.reset();
+  return false;
+}
+
+void SqliteReader::take(BagMessage& message) {
+  message.topic = index_of_id_.at(sqlite3_column_int64(rows_.get(), 0));
+  message.time = sqlite3_column_int64(rows_.get(), 1);
+  const void* data = sqlite3_column_blob(rows_.get(), 2);
+  const int size = sqlite3_column_bytes(rows_.get(), 2);
   message.data = data == nullptr ? std::string_view()
                                  : std::string_view(static_cast<const char*>(data),
                                                     static_cast<std::size_t>(size));
   ++topics_[message.topic].messages;
   ++messages_;
-  return true;
-}
-
-bool SqliteReader::next(BagMessage& message) {
-  if (order_) {
-    try {
-      if (next_in_order(message)) return true;
-      if (is_copy_) {
-        note_ = fmt::format("{}: cut off: {} messages were read", name_, messages_);
-      }
-      return false;
-    } catch (const InputError&) {
-      if (messages_ > 0) {
-        note_ = fmt::format("{}: damaged: {} messages were read, later ones are lost", name_,
-                            messages_);
-        order_.reset();
-        all_.reset();
-        return false;
-      }
-      order_.reset();  // the order by time needs all pages; without it, the first ones suffice
-    }
-  }
-  return all_ && next_in_file(message);
-}
-
-bool SqliteReader::next_in_order(BagMessage& message) {
-  while (step(order_.get())) {
-    sqlite3_reset(row_.get());
-    sqlite3_bind_int64(row_.get(), 1, sqlite3_column_int64(order_.get(), 0));
-    if (step(row_.get()) && take(row_.get(), message)) return true;
-  }
-  return false;
-}
-
-bool SqliteReader::next_in_file(BagMessage& message) {
-  try {
-    while (step(all_.get())) {
-      if (take(all_.get(), message)) return true;
-    }
-  } catch (const InputError&) {
-    if (messages_ == 0) throw;
-  }
-  note_ = fmt::format(
-      "{}: damaged or cut off: {} messages were read, in the order of the file; "
-      "others are lost",
-      name_, messages_);
-  all_.reset();
-  return false;
 }
 
 void SqliteReader::complain_unreadable() const {

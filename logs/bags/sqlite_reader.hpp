@@ -18,10 +18,10 @@ struct sqlite3_stmt;
 
 namespace touchdown::logs {
 
-/// Reads the messages of a SQLite bag (`.db3`) by the time of recording, with or without an index
-/// of times. A damaged file is read as far as its pages are whole; `note()` describes it. Errors
-/// (`InputError`): a file that is no SQLite database, or one without a bag's tables; one with
-/// pages name each other again and again, so that it has more rows than its bytes can hold.
+/// Reads the messages of a SQLite bag (`.db3`) in the order of the file. A damaged file is read as
+/// far as its pages are whole; `note()` describes it. Errors (`InputError`): a file that is no
+/// SQLite database, or one without a bag's tables; one whose pages name each other again and again,
+/// so that it has more rows than its bytes can hold.
 class SqliteReader {
  public:
   /// A topic is read if `wanted` is empty or true for it. `name` is the file's in messages. Reading
@@ -53,9 +53,7 @@ class SqliteReader {
   void read_definitions();
   Statement prepare(const std::string& sql);
   bool step(sqlite3_stmt* statement);
-  bool take(sqlite3_stmt* row, BagMessage& message);
-  bool next_in_order(BagMessage& message);
-  bool next_in_file(BagMessage& message);
+  void take(BagMessage& message);
   [[noreturn]] void complain_unreadable() const;
   [[noreturn]] void complain(const std::string& what) const;
 
@@ -66,9 +64,7 @@ class SqliteReader {
   std::unique_ptr<sqlite3, Close> database_;
   std::vector<BagTopic> topics_;
   std::map<std::int64_t, std::size_t> index_of_id_;  ///< of the wanted topics
-  Statement order_;                                  ///< rows by time
-  Statement row_;                                    ///< the message of a row
-  Statement all_;  ///< messages in the order of the file, once the order by time cannot be read
+  Statement rows_;                                   ///< messages; null at the end
   std::string note_;
   std::uint64_t messages_ = 0;
 };

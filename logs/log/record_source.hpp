@@ -13,7 +13,7 @@
 
 namespace touchdown::logs {
 
-/// The records of a log as they are, with constant memory: MessagePack maps, the rows of another
+/// The records of a log as they are, one at a time: MessagePack maps, the rows of another
 /// robot's log (`mapped_records`), or a recording in memory. `LogReader` pulls them and cleans
 /// their values.
 class RecordSource {

@@ -86,22 +86,49 @@ class JoinedBag final : public JoinedSource {
     if (lacks_stamps_) {
       notes.emplace_back("stamps are zero or missing: the times of recording are used instead");
     }
-    for (std::size_t i = 0; i < topics_.size() && !lacks_stamps_ && !uses_log_time_; ++i) {
-      std::ranges::move(clock_notes(topics_[i], topics_[clock()]), back_inserter(notes));
-    }
+    std::ranges::move(clock_notes(), back_inserter(notes));
     for (const TopicRows& one : rows_) std::ranges::move(one.notes(), back_inserter(notes));
     std::ranges::move(JoinedSource::notes(), back_inserter(notes));
     return notes;
   }
 
  private:
+  std::vector<std::string> clock_notes() const override {
+    std::vector<std::string> notes;
+    for (std::size_t i = 0; i < topics_.size() && !lacks_stamps_ && !uses_log_time_; ++i) {
+      std::ranges::move(logs::clock_notes(topics_[i], topics_[clock()]), back_inserter(notes));
+    }
+    return notes;
+  }
+
   void add_topics(const char* section, const std::vector<std::string>& topics) {
     for (const std::string& topic : topics) {
       names_.push_back({.file = topic, .names = {}, .section = section, .is_topic = true});
     }
   }
 
-  void open(const LogMapping& mapping) override {
+  std::vector<SourceRows> read(const LogMapping& mapping) override {
+    open(mapping);
+    std::vector<SourceRows> all(rows_.size());
+    std::vector<std::uint64_t> messages(rows_.size());
+    std::vector<double> mapped(mapping.columns.size());
+    BagMessage message;
+    while (reader_->next(message)) {
+      const std::string& name = reader_->topics()[message.topic].name;
+      for (std::size_t i = 0; i < rows_.size(); ++i) {
+        if (names_[i].file != name) continue;
+        ++messages[i];
+        if (!rows_[i].update(message)) continue;
+        const std::span<const double> row = rows_[i].row();
+        for (std::size_t k = 0; k < row.size(); ++k) mapped[columns()[i][k]] = row[k];
+        all[i].add(1e-9 * static_cast<double>(message.time), mapping.clocks[i].at(mapped), row,
+                   messages[i]);
+      }
+    }
+    return all;
+  }
+
+  void open(const LogMapping& mapping) {
     check_given(log_, mapping, topics_);
     uses_log_time_ = std::any_of(mapping.columns.begin(), mapping.columns.end(),
                                  [](const auto& one) { return one.name == log_time_column; });
@@ -114,29 +141,10 @@ class JoinedBag final : public JoinedSource {
       }
       rows_.emplace_back(topics_[i], wanted, TopicRows::Config{lacks_stamps_, stale_after()});
     }
-    messages_.resize(rows_.size());
-    clocks_ = mapping.clocks;
-    mapped_.resize(mapping.columns.size());
     const auto is_named = [this](std::string_view topic) {
       return std::ranges::any_of(names_, [&](const SourceNames& one) { return one.file == topic; });
     };
     reader_.emplace(log_, is_named, stop_);
-  }
-
-  bool add_next(SourceJoin& join) override {
-    BagMessage message;
-    if (!reader_->next(message)) return false;
-    const std::string& name = reader_->topics()[message.topic].name;
-    arrival_ = std::max(arrival_, 1e-9 * static_cast<double>(message.time));
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      if (names_[i].file != name) continue;
-      ++messages_[i];
-      if (!rows_[i].update(message)) continue;
-      const std::span<const double> row = rows_[i].row();
-      for (std::size_t k = 0; k < row.size(); ++k) mapped_[columns()[i][k]] = row[k];
-      join.add(i, arrival_, clocks_[i].at(mapped_), row, messages_[i]);
-    }
-    return true;
   }
 
   const std::atomic<bool>* stop_;
@@ -144,11 +152,7 @@ class JoinedBag final : public JoinedSource {
   bool uses_log_time_ = false;
   bool lacks_stamps_ = false;
   std::vector<TopicRows> rows_;
-  std::vector<std::uint64_t> messages_;  ///< of each topic so far
-  std::vector<SourceClock> clocks_;      ///< of each topic
-  std::vector<double> mapped_;
   std::optional<BagReader> reader_;
-  double arrival_ = -1e300;
 };
 
 }  // namespace

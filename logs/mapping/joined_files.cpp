@@ -44,59 +44,26 @@ bool has_numbers(std::span<const double> row, const SourceClock& clock,
   return false;
 }
 
-/// The rows of one file, with their times.
-class TimedFile {
- public:
-  explicit TimedFile(std::unique_ptr<RowSource> rows) : rows_(std::move(rows)) {}
-
-  const SourceNames& names() const { return rows_->names().front(); }
-  std::vector<std::string> notes() const { return rows_->notes(); }
-
-  void open(const LogMapping& mapping, const SourceClock& clock,
-            const std::vector<std::size_t>& columns) {
-    rows_->select(mapping);
-    clock_ = clock;
-    columns_ = columns;
-    mapped_.resize(mapping.columns.size());
-    proceed();
+/// `columns`: where the file's numbers are in the mapping's rows.
+SourceRows rows_of(RowSource& file, const LogMapping& mapping, const SourceClock& clock,
+                   const std::vector<std::size_t>& columns) {
+  SourceRows rows;
+  Arrival arrival;
+  std::vector<double> mapped(mapping.columns.size());
+  std::vector<double> row;
+  std::uint64_t position = 0;
+  file.select(mapping);
+  while (file.next(row)) {
+    for (std::size_t i = 0; i < row.size(); ++i) mapped[columns[i]] = row[i];
+    const double time = clock.at(mapped);
+    if (!std::isfinite(time) || !has_numbers(row, clock, columns)) continue;
+    rows.add(arrival.next(time), time, row, ++position);
   }
-  bool is_at_end() const { return is_at_end_; }
-  double arrival() const { return arrival_; }
-  std::uint64_t position() const { return position_; }
-
-  /// Adds the present row, and proceeds to the next one.
-  void add_to(SourceJoin& join, std::size_t source) {
-    join.add(source, arrival_, time_, row_, position_);
-    proceed();
-  }
-
- private:
-  void proceed() {
-    while (rows_->next(row_)) {
-      for (std::size_t i = 0; i < row_.size(); ++i) mapped_[columns_[i]] = row_[i];
-      time_ = clock_.at(mapped_);
-      if (!std::isfinite(time_) || !has_numbers(row_, clock_, columns_)) continue;
-      arrival_ = arrivals_.next(time_);
-      ++position_;
-      return;
-    }
-    is_at_end_ = true;
-  }
-
-  std::unique_ptr<RowSource> rows_;
-  SourceClock clock_;
-  std::vector<std::size_t> columns_;
-  std::vector<double> mapped_;
-  std::vector<double> row_;
-  Arrival arrivals_;
-  double arrival_ = 0.0;
-  double time_ = 0.0;
-  std::uint64_t position_ = 0;
-  bool is_at_end_ = false;
-};
+  return rows;
+}
 
 /// The files of the sources, in the folder of the log.
-std::vector<TimedFile> files_of(const fs::path& log, const LogSources& sources) {
+std::vector<std::unique_ptr<RowSource>> files_of(const fs::path& log, const LogSources& sources) {
   const bool is_whole_folder = is_folder(log);
   const fs::path folder = is_whole_folder ? log : log.parent_path();
   std::vector<std::string> all = sources.joints;
@@ -109,12 +76,12 @@ std::vector<TimedFile> files_of(const fs::path& log, const LogSources& sources) 
         fmt::format("{}: the mapping's `sources` are {}: give one of them, or their folder",
                     log.string(), fmt::join(all, ", ")));
   }
-  std::vector<TimedFile> opened;
+  std::vector<std::unique_ptr<RowSource>> opened;
   for (const auto& [section, files] : {std::pair("joints", &sources.joints),
                                        {"imu", &sources.imu},
                                        {"contact", &sources.contact}}) {
     for (const std::string& file : *files) {
-      opened.emplace_back(open_file(folder / file, section, opened.size()));
+      opened.push_back(open_file(folder / file, section, opened.size()));
     }
   }
   return opened;
@@ -124,7 +91,7 @@ class JoinedFiles final : public JoinedSource {
  public:
   JoinedFiles(const fs::path& log, const LogSources& sources)
       : JoinedSource(log, sources.stale_after), files_(files_of(log, sources)) {
-    for (const TimedFile& file : files_) names_.push_back(file.names());
+    for (const auto& file : files_) names_.push_back(file->names().front());
   }
 
   std::string place() const override {
@@ -132,33 +99,23 @@ class JoinedFiles final : public JoinedSource {
   }
   std::vector<std::string> notes() const override {
     std::vector<std::string> notes = JoinedSource::notes();
-    for (const TimedFile& file : files_) std::ranges::move(file.notes(), back_inserter(notes));
+    notes.insert(notes.end(), notes_.begin(), notes_.end());
     return notes;
   }
 
  private:
-  void open(const LogMapping& mapping) override {
+  std::vector<SourceRows> read(const LogMapping& mapping) override {
+    std::vector<SourceRows> rows(files_.size());
     for (std::size_t i = 0; i < files_.size(); ++i) {
-      files_[i].open(mapping, mapping.clocks[i], columns()[i]);
+      rows[i] = rows_of(*files_[i], mapping, mapping.clocks[i], columns()[i]);
+      std::ranges::move(files_[i]->notes(), back_inserter(notes_));
+      files_[i].reset();  // and its arrays
     }
+    return rows;
   }
 
-  /// Adds the earliest row of all files; of several, that of the joints comes last.
-  bool add_next(SourceJoin& join) override {
-    std::size_t earliest = clock();
-    for (std::size_t i = 0; i < files_.size(); ++i) {
-      if (files_[i].is_at_end() || i == clock()) continue;
-      const TimedFile& before = files_[earliest];
-      const bool is_earlier = earliest == clock() ? files_[i].arrival() <= before.arrival()
-                                                  : files_[i].arrival() < before.arrival();
-      if (before.is_at_end() || is_earlier) earliest = i;
-    }
-    if (files_[earliest].is_at_end()) return false;
-    files_[earliest].add_to(join, earliest);
-    return true;
-  }
-
-  std::vector<TimedFile> files_;
+  std::vector<std::unique_ptr<RowSource>> files_;  ///< until they are read
+  std::vector<std::string> notes_;
 };
 
 }  // namespace

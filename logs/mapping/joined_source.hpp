@@ -28,20 +28,13 @@ class JoinedSource : public RowSource {
     for (std::size_t i = 0; i < mapping.columns.size(); ++i) {
       columns_[mapping.columns[i].source].push_back(i);
     }
-    join_.emplace(SourceJoin::Config{columns_, clock_, stale_after_});
-    open(mapping);
+    join_.emplace(read(mapping), SourceJoin::Config{columns_, clock_, stale_after_});
   }
 
   bool next(std::vector<double>& row) final {
-    while (!join_->pop(row)) {
-      if (is_finished_) {
-        require_joined();
-        return false;
-      }
-      is_finished_ = !add_next(*join_);
-      if (is_finished_) join_->finish();
-    }
-    return true;
+    if (join_->next(row)) return true;
+    require_joined();
+    return false;
   }
 
   /// A line for each source of which most rows of the joints have no values.
@@ -86,10 +79,11 @@ class JoinedSource : public RowSource {
   JoinedSource(std::filesystem::path log, double stale_after)
       : log_(std::move(log)), stale_after_(stale_after) {}
 
-  /// Called once, when the columns of each source are known.
-  virtual void open(const LogMapping& mapping) = 0;
-  /// Adds what was recorded next. Returns false at the end.
-  virtual bool add_next(SourceJoin& join) = 0;
+  /// All rows of each source, with the values of `columns`.
+  virtual std::vector<SourceRows> read(const LogMapping& mapping) = 0;
+
+  /// One line for each source whose clock is another one than the joints'.
+  virtual std::vector<std::string> clock_notes() const { return {}; }
 
   /// Of each source, where its columns are in the mapping's rows.
   const std::vector<std::vector<std::size_t>>& columns() const { return columns_; }
@@ -113,18 +107,22 @@ class JoinedSource : public RowSource {
                           : fmt::format("{} has {} rows from {:.3f} to {:.3f} s", names_[i].file,
                                         report.rows, report.first, report.last));
     }
+    std::vector<std::string> causes = clock_notes();
+    if (causes.empty()) {
+      causes.push_back(fmt::format(
+          "are their times of one clock and one unit?{}",
+          names_[clock_].is_topic ? " `time: {from: log_time}` takes the times of recording" : ""));
+    }
     throw InputError(fmt::format(
-        "{}: no row of {} has values of the other sources that are at most {:.0f} ms old: {}. Are "
-        "their times of one clock and one unit?{}",
+        "{}: no row of {} has values of the other sources that are at most {:.0f} ms old: {}: {}",
         log_.string(), names_[clock_].file, 1e3 * stale_after_, fmt::join(spans, ", "),
-        names_[clock_].is_topic ? " `time: {from: log_time}` takes the times of recording" : ""));
+        fmt::join(causes, "; ")));
   }
 
   double stale_after_;
   std::vector<std::vector<std::size_t>> columns_;
   std::size_t clock_ = 0;
   std::optional<SourceJoin> join_;
-  bool is_finished_ = false;
 };
 
 /// Files of one folder as sources. `log` is the folder, or one of them.

@@ -300,15 +300,16 @@ std::string LoadRelation::cause(bool carries) const {
   }
   // A cause that is only better than the log as it is comes after a factor that explains all.
   const bool is_explained = best > 0 && misfit_.at(best) < stretches_;
-  if (!is_explained && scaled_misfit_ < stretches_) return scale_text();
+  const bool has_scale = carried_ > 0.0 && to_carry_ > 0.0;
+  if (has_scale && !is_explained && scaled_misfit_ < stretches_) return scale_text();
   if (best > 0) return fmt::format("probably {}", all_causes.at(best).text);
-  if (scaled_misfit_ < explains * misfit_[0]) return scale_text();
+  if (has_scale && scaled_misfit_ < explains * misfit_[0]) return scale_text();
   return fmt::format("check signs, units, gear ratios and the order of joints{}",
                      is_known_ ? ", or whether the legs are those of --robot" : "");
 }
 
 std::string LoadRelation::scale_text() const {
-  const double factor = to_carry_ > 0.0 ? std::max(carried_ / to_carry_, 1e-4) : 1.0;
+  const double factor = carried_ / to_carry_;
   constexpr double error = 0.25;  // another robot's mass is another factor
   const std::string unit = cause_of("torque", factor, error, "");
   return fmt::format(

@@ -120,17 +120,6 @@ TEST_F(Bag, ASqliteBagIsReadWithoutAFileBesideIt) {
   EXPECT_EQ(std::distance(fs::begin(files), fs::end(files)), 1);
 }
 
-TEST_F(Bag, MessagesOfASqliteBagAreSortedByTime) {
-  TestBag bag = two_topics();
-  const std::vector<std::string> sorted = lines_of(bag);
-  std::reverse(bag.messages.begin(), bag.messages.end());
-  for (const bool has_index : {false, true}) {
-    EXPECT_EQ(
-        read_bag(write_db3(fmt::format("r{}.db3", has_index), bag, false, has_index)).messages,
-        sorted);
-  }
-}
-
 TEST_F(Bag, FilesOfAFolderAreReadInTheirOrder) {
   const std::vector<std::string> all = lines_of(two_topics());
   const std::string listed =
