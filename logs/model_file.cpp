@@ -86,7 +86,7 @@ std::string header_of_model(const Model& model, const std::string& source,
   const ModelMetadata metadata = *metadata_of(arrays);
   std::string text = fmt::format(
       "#pragma once\n\n"
-      "// {}, written by `touchdown export`: for '{}' at {:.6g} Hz on the robot '{}',\n"
+      "// {}, written by `touchdown convert`: for '{}' at {:.6g} Hz on the robot '{}',\n"
       "// fingerprint {}. touchdown::make_estimator(touchdown::compiled::{}) makes the "
       "estimator.\n\n"
       "// clang-format off\n"

@@ -320,7 +320,7 @@ void add_check(CLI::App& program, const CliSession& session) {
       .value_name("FILE")
       .required();
   verb.option("--mapping", &flags->mapping,
-              "Maps the columns or topics of the logs to signals, as for `touchdown export`")
+              "Maps the columns or topics of the logs to signals, as for `touchdown convert`")
       .value_name("FILE.yaml");
   verb.option("--robot", &flags->robot,
               "File of the robot that recorded the logs: gives weight, legs and ranges of joints\n"

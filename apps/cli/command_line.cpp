@@ -43,6 +43,8 @@ struct FormerVerb {
   const char* successor;
 };
 constexpr std::array former_verbs = {FormerVerb{"merge", "touchdown run DIR"},
+                                     FormerVerb{"figure", "touchdown report RUN --figure NAME"},
+                                     FormerVerb{"export", "touchdown convert"},
                                      FormerVerb{"keys", "touchdown list KIND"},
                                      FormerVerb{"manual", "touchdown list commands --markdown"},
                                      FormerVerb{"clean", "rm -r runs/NAME/ID"}};
@@ -86,7 +88,6 @@ int run_command_line(int argc, char** argv) {
   add_simulate(program, session);
   add_render(program, session);
   add_report(program, session);
-  add_figure(program, session);
   add_compare(program, session);
   add_train(program, session);
   add_watch(program, session);
@@ -94,7 +95,7 @@ int run_command_line(int argc, char** argv) {
   add_estimate(program, session);
   add_label(program, session);
   add_check(program, session);
-  add_export(program, session);
+  add_convert(program, session);
   add_score(program, session);
   add_list(program, session);
 

@@ -32,7 +32,7 @@ const std::vector<FileKind>& file_kinds() {
        "`noise/profiles/upkie.yaml`.",
        [] { return documented_keys(noise::SensorProfile()); }},
       {"mapping", "Mapping files",
-       "They map the columns of another robot's log to signals: `touchdown export robot.csv "
+       "They map the columns of another robot's log to signals: `touchdown convert robot.csv "
        "--mapping robot.yaml -o robot.mpack`.",
        logs::mapping_keys},
       {"training", "Training files",

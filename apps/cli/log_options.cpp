@@ -14,10 +14,10 @@ namespace touchdown::cli {
 
 void add_log_options(Verb& verb, LogOptions& options) {
   verb.option("--mapping", &options.mapping,
-              "Maps the columns or topics of the logs to signals, as for `touchdown export`")
+              "Maps the columns or topics of the logs to signals, as for `touchdown convert`")
       .value_name("FILE.yaml");
   verb.option("--model", &options.model,
-              "Model that `touchdown fit` wrote, or load_filter's that `touchdown export` wrote")
+              "Model that `touchdown fit` wrote, or load_filter's that `touchdown convert` wrote")
       .value_name("FILE.npz");
   verb.option("--estimator", &options.estimator,
               "Estimator from `touchdown list` (default: the one that the model was fitted for; "

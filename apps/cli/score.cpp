@@ -74,7 +74,7 @@ void add_score(CLI::App& program, const CliSession& session) {
   Verb verb(
       program, "score",
       "touchdown score runs/benchmark/latest --beliefs mine\n\n"
-      "Scores the beliefs of an external estimator about the signals of `touchdown export`. The\n"
+      "Scores the beliefs of an external estimator about the signals of `touchdown convert`. The\n"
       "scores are listed beside those of the benchmark's own estimators.");
   const auto flags = std::make_shared<ScoreFlags>();
   verb.option("directory", &flags->run, "Run directory of a finished benchmark")

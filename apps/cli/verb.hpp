@@ -74,7 +74,6 @@ void add_generate(CLI::App& program, const CliSession& session);
 void add_simulate(CLI::App& program, const CliSession& session);
 void add_render(CLI::App& program, const CliSession& session);
 void add_report(CLI::App& program, const CliSession& session);
-void add_figure(CLI::App& program, const CliSession& session);
 void add_compare(CLI::App& program, const CliSession& session);
 void add_train(CLI::App& program, const CliSession& session);
 void add_watch(CLI::App& program, const CliSession& session);
@@ -82,7 +81,7 @@ void add_fit(CLI::App& program, const CliSession& session);
 void add_estimate(CLI::App& program, const CliSession& session);
 void add_label(CLI::App& program, const CliSession& session);
 void add_check(CLI::App& program, const CliSession& session);
-void add_export(CLI::App& program, const CliSession& session);
+void add_convert(CLI::App& program, const CliSession& session);
 void add_score(CLI::App& program, const CliSession& session);
 void add_list(CLI::App& program, const CliSession& session);
 

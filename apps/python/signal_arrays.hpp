@@ -32,7 +32,7 @@ struct SignalNeeds {
   bool command = true;
 };
 
-/// Signals of a run, read from arrays with the names of `touchdown export`: `time`, `position`,
+/// Signals of a run, read from arrays with the names of `touchdown convert`: `time`, `position`,
 /// `velocity`, `torque` (six joints), `linear_acceleration`, `angular_velocity`,
 /// `vertical_acceleration`, `ground_velocity_command`, `orientation` (w x y z, to a frame with z
 /// down), and optionally `has_record` and the targets of six joints: `target_position`,

@@ -57,7 +57,7 @@ Model load_filter_model(const LegGeometry& legs, double sample_rate, const std::
 /// Whether both estimators use the same fit.
 bool share_fit(std::string_view estimator, std::string_view other);
 
-/// One array of a model that is compiled into a program; `touchdown export model.npz -o model.hpp`
+/// One array of a model that is compiled into a program; `touchdown convert model.npz -o model.hpp`
 /// writes them. Exactly one of the last three members is set.
 struct CompiledArray {
   const char* name;

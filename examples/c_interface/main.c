@@ -1,6 +1,6 @@
 /* Contact estimation from C, with a simulated signal in place of your robot: it stands for 0.5 s,
  * falls for 0.2 s, and stands again. Without an argument the estimator is the load filter with
- * Upkie's legs. ROBOT.npz holds those of another robot, which `touchdown export robot.yaml -o
+ * Upkie's legs. ROBOT.npz holds those of another robot, which `touchdown convert robot.yaml -o
  * ROBOT.npz` wrote, or a fitted model.
  *
  * Exit code 0 if the belief about the left wheel is right at the end of each phase. */

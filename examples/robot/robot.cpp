@@ -1,5 +1,5 @@
 // A robot's program: contact estimation takes ten lines. ROBOT.npz holds the robot's legs and
-// masses, which `touchdown export robot.yaml -o ROBOT.npz` wrote, or a fitted model.
+// masses, which `touchdown convert robot.yaml -o ROBOT.npz` wrote, or a fitted model.
 
 #include <touchdown/estimator.hpp>
 #include <touchdown/load_estimator.hpp>

@@ -3,7 +3,7 @@
 #include <touchdown/estimator.hpp>
 
 #include "made_up_robot.hpp"
-#include MODEL_HEADER  // written by `touchdown export robot.yaml -o model.hpp`
+#include MODEL_HEADER  // written by `touchdown convert robot.yaml -o model.hpp`
 
 int main() {
   const auto estimator = touchdown::make_estimator(touchdown::compiled::model,

@@ -29,7 +29,7 @@ class TouchdownObserver : public Observer {
     //! Time between two calls of read, in [s].
     double dt = 0.001;
 
-    //! File written by `touchdown export ROBOT`, or model file written by `touchdown fit`.
+    //! File written by `touchdown convert ROBOT`, or model file written by `touchdown fit`.
     std::string model;
 
     //! Robot that the file must be of; any if empty.

@@ -1,5 +1,5 @@
 // A compiled-in model, for a cross-compiled spine: without libzip, and without a file to copy. This
-// file is C++20, as the library; the observer and the spine use C only. `touchdown export
+// file is C++20, as the library; the observer and the spine use C only. `touchdown convert
 // models/upkie.xml -o model.hpp` writes the header.
 
 #include "compiled_model.h"

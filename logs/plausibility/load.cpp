@@ -313,9 +313,10 @@ std::string LoadRelation::scale_text() const {
   constexpr double error = 0.25;  // another robot's mass is another factor
   const std::string unit = cause_of("torque", factor, error, "");
   return fmt::format(
-      "the torques are {:.2g} times those that carry its weight: are they {}in mA, in percent of a "
+      "the torques are {} times those that carry its weight: are they {}in mA, in percent of a "
       "rating, or {}? `scale: {:.2g}` would carry it; or are the legs other ones{}",
-      factor, unit.empty() ? "" : fmt::format("in {}, ", unit),
+      factor < 10.0 ? fmt::format("{:.2g}", factor) : fmt::format("{:.0f}", factor),
+      unit.empty() ? "" : fmt::format("in {}, ", unit),
       factor > 1.0 ? "in another unit" : "those of motors before their gears", 1.0 / factor,
       is_known_ ? " than those of --robot" : " (--robot)");
 }

@@ -134,8 +134,8 @@ TEST_F(Bag, OfAnotherRobotGivesBeliefsAsGoodAsTheRunsOwnLog) {
   EXPECT_GT(of_bag, of_own - 0.02);
 
   // In two steps, and from SQLite: the same log.
-  folder_.output_of("export bag.mcap --mapping robot.yaml -o a.mpack");
-  folder_.output_of("export bag/bag_0.db3 --mapping robot.yaml -o b.mpack");
+  folder_.output_of("convert bag.mcap --mapping robot.yaml -o a.mpack");
+  folder_.output_of("convert bag/bag_0.db3 --mapping robot.yaml -o b.mpack");
   EXPECT_EQ(folder_.text("a.mpack"), folder_.text("b.mpack"));
   folder_.output_of("estimate a.mpack -o a.csv");
   // Times of an exported log are seconds, which have no nanoseconds since 1970.
@@ -149,7 +149,7 @@ TEST_F(Bag, IsLabelledByItsMappingAsItsExportedLogIs) {
   EXPECT_THAT(folder_.output_of("label bag.mcap --mapping robot.yaml -o bag.csv"),
               AllOf(HasSubstr("touchdown watch bag.mcap --labels bag.csv --mapping robot.yaml\n"),
                     HasSubstr("touchdown estimate bag.mcap --labels bag.csv ")));
-  folder_.output_of("export bag.mcap --mapping robot.yaml -o log.mpack");
+  folder_.output_of("convert bag.mcap --mapping robot.yaml -o log.mpack");
   folder_.output_of("label log.mpack -o log.csv");
   EXPECT_EQ(folder_.text("log.csv"), folder_.text("bag.csv"));
   folder_.output_of("fit log.mpack --labels bag.csv -o model.npz --no-accuracy");
@@ -289,7 +289,7 @@ TEST_F(Bag, ThatIsMissingOrOfAnotherFormatIsRefusedInOneLine) {
   folder_.write("old.bag", "#ROSBAG V2.0\n");
   const std::string free_fall = " --mapping robot.yaml --estimator free_fall";
   folder_.expect_refusals({{"estimate old.bag" + free_fall, {"rosbags-convert"}},
-                           {"export old.bag --mapping robot.yaml -o a.mpack", {"rosbags-convert"}},
+                           {"convert old.bag --mapping robot.yaml -o a.mpack", {"rosbags-convert"}},
                            {"estimate none.mcap" + free_fall, {"none.mcap: no such file"}},
                            {"estimate none" + free_fall, {"none: no such file"}},
                            {"estimate none.csv" + free_fall, {"none.csv: no such file"}},

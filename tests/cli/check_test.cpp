@@ -139,7 +139,7 @@ TEST_F(LogThatStatesItsPeriod, IsRefusedByEveryReaderIfItsTimesAreNoSeconds) {
     for (const std::string arguments :
          {"check stated.mpack", "fit stated.mpack -o out.npz", "estimate stated.mpack",
           "estimate stated.mpack -o out.csv", "estimate stated.mpack -o out.mpack",
-          "estimate - --estimator free_fall <stated.mpack", "export stated.mpack -o out.mcap",
+          "estimate - --estimator free_fall <stated.mpack", "convert stated.mpack -o out.mcap",
           "render stated.mpack -o out.mp4",
           "fit --contact stated.mpack --no-contact stated.mpack.2 -o out.npz"}) {
       const Ended ended = folder_.run(arguments);

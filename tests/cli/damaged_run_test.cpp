@@ -85,7 +85,7 @@ TEST_F(DamagedRun, JsonIsRefusedInOwnWords) {
 
 TEST_F(DamagedRun, YamlIsRefusedInOwnWords) {
   constexpr const char* commands[] = {"report run", "run run --no-pictures",
-                                      "export --benchmark b run", "report run"};
+                                      "convert --benchmark b run", "report run"};
   std::size_t next = 0;
   for (const std::string file : {"run/config.yaml", "run/state/scenario_000.yaml"}) {
     const std::string text = folder_.text(file);

@@ -373,7 +373,7 @@ TEST(Doors, GiveTheSameBeliefsAboutARobotWithConventionsOfItsOwn) {
   std::ofstream(folder / "robot.mcap", std::ios::binary) << test::mcap_bytes(bag_of(steps));
   EXPECT_EQ(beliefs_of_program("robot.csv --mapping robot.yaml", folder), expected);
   EXPECT_EQ(beliefs_of_program("robot.mcap --mapping robot.yaml", folder), expected);
-  folder.output_of("export robot.csv --mapping robot.yaml -o robot.mpack");
+  folder.output_of("convert robot.csv --mapping robot.yaml -o robot.mpack");
   EXPECT_EQ(beliefs_of_program("robot.mpack", folder), expected);
 
   if (!ran_python(folder, loop)) GTEST_SKIP() << without_python;
@@ -428,7 +428,7 @@ TEST(Doors, GiveTheSameBeliefsByEveryEstimatorAboutARunOfAnotherRobot) {
       folder.output_of("fit run.mpack --no-accuracy --estimator " + entry.name + " -o " + file);
     } else if (entry.name == load_filter_name) {
       file = model = "load_filter.npz";
-      folder.output_of("export models/upkie_heavy.yaml -o " + file);
+      folder.output_of("convert models/upkie_heavy.yaml -o " + file);
     }
     const Model fitted = entry.fits() ? load_model(folder / file) : Model{};
     const Beliefs& own = expected[entry.name] =

@@ -19,7 +19,7 @@ TEST_F(PrintedFigure, IsDrawnAgainAtItsWidthAndChangesNothingElse) {
   const std::string manifest = folder_.text("a/manifest.json");
   const std::string other = folder_.text("a/figures/error_bullet.svg");
   const std::string table = folder_.text("a/tables/results.csv");
-  const std::string printed = folder_.output_of("figure a error_mujoco --width 8.8cm");
+  const std::string printed = folder_.output_of("report a --figure error_mujoco --width 8.8cm");
   EXPECT_THAT(printed, AllOf(HasSubstr("Success rate"), HasSubstr("a/figures/error_mujoco.pdf")));
   EXPECT_THAT(folder_.text("a/figures/error_mujoco.svg"), HasSubstr("width=\"88mm\""));
   EXPECT_EQ(folder_.text("a/figures/error_bullet.svg"), other);
@@ -43,7 +43,7 @@ TEST_F(PrintedFigure, IsAskedForByAnExperimentOfTheSameId) {
 TEST_F(PrintedFigure, KeepsTheMetricOfItsRun) {
   write_finished_run(folder_, "--no-video --set figures.heatmap=balanced_accuracy");
   for (const char* width : {"88mm", "80mm"}) {
-    EXPECT_THAT(folder_.output_of(std::string("figure a error_mujoco --width ") + width),
+    EXPECT_THAT(folder_.output_of(std::string("report a --figure error_mujoco --width ") + width),
                 HasSubstr("Balanced accuracy"));
   }
 }
@@ -52,14 +52,17 @@ TEST_F(PrintedFigure, IsRefusedInOneLineWithTheNearestName) {
   write_finished_run(folder_, "--no-video");
   const char* const range = "expected 40 to 400 mm with the unit mm, cm or in, as in 88mm";
   folder_.expect_refusals(
-      {{"figure a error_mujoco --width 88", {"--width 88: ", range}},
-       {"figure a error_mujoco --width 5mm", {"--width 5mm: ", range}},
-       {"figure a error_mujoco --width 88cmm", {"--width 88cmm: ", range, "did you mean 'mm'?"}},
-       {"figure a error_mujoco --width wide", {"--width wide: ", range}},
-       {"figure a error_mujoco", {"--width"}},
-       {"figure a eror_mujoco --width 88mm",
+      {{"report a --figure error_mujoco --width 88", {"--width 88: ", range}},
+       {"report a --figure error_mujoco --width 5mm", {"--width 5mm: ", range}},
+       {"report a --figure error_mujoco --width 88cmm",
+        {"--width 88cmm: ", range, "did you mean 'mm'?"}},
+       {"report a --figure error_mujoco --width wide", {"--width wide: ", range}},
+       {"report a --figure error_mujoco", {"--figure: expected --width"}},
+       {"report a --figure error_mujoco --width 88mm --no-video", {"no option of the page"}},
+       {"report a --width 88mm", {"expected --figure NAME"}},
+       {"report a --figure eror_mujoco --width 88mm",
         {"a: has no figure 'eror_mujoco'", "did you mean 'error_mujoco'?"}},
-       {"figure b error_mujoco --width 88mm", {"b: no run directory of an experiment"}},
+       {"report b --figure error_mujoco --width 88mm", {"b: no run directory of an experiment"}},
        {"run tiny.yaml --set figures.widht_mm=88", {"did you mean 'width_mm'?"}},
        {"run tiny.yaml --set figures.width_mm=5", {"figures.width_mm", "40", "400"}}});
 }

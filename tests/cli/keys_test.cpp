@@ -94,6 +94,8 @@ TEST_F(Commands, AreTheDocument) {
 TEST_F(Commands, ThatWentNameTheirSuccessor) {
   folder_.expect_refusals({{"keys experiment", {"'keys' is gone: use 'touchdown list KIND'"}},
                            {"manual share", {"touchdown list commands"}},
+                           {"export a.mpack -o b.mcap", {"touchdown convert"}},
+                           {"figure a error", {"touchdown report RUN --figure NAME"}},
                            {"clean --dry-run", {"rm -r runs/NAME/ID"}}});
 }
 

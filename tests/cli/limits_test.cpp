@@ -67,7 +67,7 @@ TEST_F(Limits, SpecialFilesAreRefusedAtOnce) {
     for (const std::string arguments :
          {"estimate {} --estimator free_fall", "estimate a.mpack --model {}",
           "estimate a.mpack --estimator free_fall --labels {}", "run {}", "simulate {} -o x.mpack",
-          "fit {} -o x.npz", "export {} -o x.mcap", "render {} -o x.mp4"}) {
+          "fit {} -o x.npz", "convert {} -o x.mcap", "render {} -o x.mp4"}) {
       folder_.expect_refusals(
           {{fmt::format(fmt::runtime(arguments), special), {special + ": is not a regular file"}}});
     }
@@ -227,7 +227,7 @@ TEST_F(Limits, TooFewDescriptorsAreNamedByEveryVerb) {
                                           "estimate a.mpack --model m.npz -o b.csv",
                                           "estimate a.mpack -o b.mpack",
                                           "estimate a.mpack --estimator free_fall --figure b.png",
-                                          "export a.mpack -o b.mcap",
+                                          "convert a.mpack -o b.mcap",
                                           "fit a.mpack -o n.npz --grid 40 40",
                                           "simulate s.yaml -o b.mpack",
                                           "list",
@@ -276,7 +276,7 @@ TEST_F(Limits, AFullDiskIsNamedWithItsFileByEveryVerb) {
                {"estimate a.mpack -o b.csv", "b.csv"},
                {"estimate a.mpack -o b.mpack", "b.mpack"},
                {"estimate a.mpack --estimator free_fall --figure b.png", "b.gp"},
-               {"export a.mpack -o b.mcap", "b.mcap"},
+               {"convert a.mpack -o b.mcap", "b.mcap"},
                {"fit a.mpack -o b.npz --estimator robust", "b.npz"},
                {"render s.mpack -o b.mp4 --width 160 --height 120", "b.mp4"},
                {run, ""}};

@@ -81,7 +81,7 @@ class Mapping : public InFolder {
 };
 
 TEST_F(Mapping, LogInUpkiesUnitsGivesTheSameBeliefsAsTheRun) {
-  EXPECT_THAT(ran("export si.csv --mapping si.yaml -o si.mpack"),
+  EXPECT_THAT(ran("convert si.csv --mapping si.yaml -o si.mpack"),
               AllOf(HasSubstr(fmt::format("si.mpack, {} records", run_.steps())),
                     HasSubstr("touchdown estimate si.mpack"), Not(HasSubstr("lack"))));
   ran("fit run.mpack -o model.npz");
@@ -106,7 +106,7 @@ TEST_F(Mapping, ExampleIsTheOneInTheDocuments) {
   EXPECT_THAT(read_file(TOUCHDOWN_SOURCE_DIR "/docs/guides/map_a_log.md"),
               HasSubstr("```yaml\n" + read_file(example + ".yaml") + "```\n"));
   EXPECT_THAT(
-      ran(fmt::format("export {0}.csv --mapping {0}.yaml -o example.mpack --labels example.csv",
+      ran(fmt::format("convert {0}.csv --mapping {0}.yaml -o example.mpack --labels example.csv",
                       example)),
       AllOf(HasSubstr("10 records, from 81.000 to 81.009 s"), HasSubstr("3 intervals"),
             Not(HasSubstr("lack"))));
@@ -173,7 +173,7 @@ TEST_F(InFolder, TurnsTheMotorsOfClosedLegsIntoHipsAndKnees) {
                     " orientation: {{from: [qw, qx, qy, qz]}}\n  angular_velocity: {{from: "
                     "[gx, gy, gz]}}\n  proper_acceleration: {{from: [px, py, pz]}}\n",
                     file, list("q"), list("v"), list("tau")));
-    folder_.output_of("export log.csv --mapping log.yaml -o mapped.mpack");
+    folder_.output_of("convert log.csv --mapping log.yaml -o mapped.mpack");
     const logs::Recording mapped = logs::read_recording(folder_ / "mapped.mpack");
     ASSERT_EQ(mapped.steps(), run.steps()) << name;
     double largest = 0.0;
@@ -194,17 +194,17 @@ TEST_F(InFolder, TurnsTheMotorsOfClosedLegsIntoHipsAndKnees) {
 TEST_F(Mapping, InconsistentRequestsAreRefusedAndNothingIsWritten) {
   folder_.write("bad.csv", "t,lh_q\n0,1\n");
   folder_.expect_refusals(
-      {{"export bad.csv --mapping si.yaml -o bad.mpack", {"si.yaml:3:20: "}},
-       {"export bad.csv --mapping si.yaml -o bad.csv",
+      {{"convert bad.csv --mapping si.yaml -o bad.mpack", {"si.yaml:3:20: "}},
+       {"convert bad.csv --mapping si.yaml -o bad.csv",
         {"bad.csv: expected a log with the extension .mpack"}},
-       {"export bad.csv --mapping si.yaml --benchmark d", {"--mapping: expected -o"}},
-       {"export bad.csv --labels l.csv -o bad.mpack", {"--labels: expected --mapping"}},
-       {"export bad.csv -o bad.mpack", {"bad.mpack: expected --mapping"}},
+       {"convert bad.csv --mapping si.yaml --benchmark d", {"--mapping: expected -o"}},
+       {"convert bad.csv --labels l.csv -o bad.mpack", {"--labels: expected --mapping"}},
+       {"convert bad.csv -o bad.mpack", {"bad.mpack: expected --mapping"}},
        {"estimate bad.csv", {"bad.csv: is a CSV file, expected a log in Upkie's layout"}},
-       {"export bad.csv --mapping none.yaml -o bad.mpack", {"none.yaml"}},
-       {"export si.csv --mapping si.yaml -o bad.mpack --labels bad_labels.csv",
+       {"convert bad.csv --mapping none.yaml -o bad.mpack", {"none.yaml"}},
+       {"convert si.csv --mapping si.yaml -o bad.mpack --labels bad_labels.csv",
         {"--labels: si.csv has no contact labels"}},
-       {"export si.csv --mapping si.yaml -o bad.mpack --labels si.csv", {"si.csv"}}});
+       {"convert si.csv --mapping si.yaml -o bad.mpack --labels si.csv", {"si.csv"}}});
   EXPECT_FALSE(folder_.has("bad.mpack"));
   EXPECT_FALSE(folder_.has("bad_labels.csv"));
 }

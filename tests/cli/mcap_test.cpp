@@ -54,8 +54,8 @@ TEST_F(Mcap, HoldsSignalsAndBeliefsOfEveryStep) {
   for (models::Observation& o : log.observation) o.time += 0.25;
   logs::write_recording(log, folder_ / "log.mpack");
   ran("estimate log.mpack -o with.mpack -o beliefs.csv");
-  EXPECT_THAT(ran("export with.mpack -o with.mcap"), HasSubstr("with.mcap, 1500 records"));
-  ran("export with.mpack -o again.mcap");
+  EXPECT_THAT(ran("convert with.mpack -o with.mcap"), HasSubstr("with.mcap, 1500 records"));
+  ran("convert with.mpack -o again.mcap");
   EXPECT_EQ(folder_.text("with.mcap"), folder_.text("again.mcap"));
 
   const std::vector<Message> messages = read("with.mcap");
@@ -83,7 +83,7 @@ TEST_F(Mcap, HoldsSignalsAndBeliefsOfEveryStep) {
 
 TEST_F(Mcap, ShowsRobotTerrainAndTakeoffsOfASimulatedRun) {
   ran("simulate " TOUCHDOWN_SOURCE_DIR "/scenarios/stairs.yaml --set end.duration=5 -o run.mpack");
-  ran("export run.mpack -o run.mcap");
+  ran("convert run.mpack -o run.mcap");
   const logs::Recording run = logs::read_recording(folder_ / "run.mpack");
   std::map<std::string, std::vector<Message>> by_schema;
   for (Message& message : read("run.mcap")) by_schema[message.schema].push_back(message);
@@ -138,8 +138,8 @@ TEST_F(Mcap, ShowsRobotTerrainAndTakeoffsOfASimulatedRun) {
 
 TEST_F(Mcap, OfARobotKeepsItsClockAndShowsTheNamedRobot) {
   const std::string example = TOUCHDOWN_SOURCE_DIR "/examples/mapping/robot";
-  ran(fmt::format("export {0}.csv --mapping {0}.yaml -o robot.mpack", example));
-  ran("export robot.mpack -o robot.mcap");
+  ran(fmt::format("convert {0}.csv --mapping {0}.yaml -o robot.mpack", example));
+  ran("convert robot.mpack -o robot.mcap");
   const std::vector<Message> messages = read("robot.mcap");
   ASSERT_EQ(messages.size(), 10U);
   EXPECT_EQ(messages[0].time, 81'000'000'000U);
@@ -147,7 +147,7 @@ TEST_F(Mcap, OfARobotKeepsItsClockAndShowsTheNamedRobot) {
   EXPECT_EQ(messages[9].topic, "/upkie/observation");
 
   logs::write_recording(test::robot_log(1.0), folder_ / "log.mpack");
-  ran("export log.mpack --robot " TOUCHDOWN_SOURCE_DIR "/models/upkie.xml -o log.mcap");
+  ran("convert log.mpack --robot " TOUCHDOWN_SOURCE_DIR "/models/upkie.xml -o log.mcap");
   std::map<std::string, std::size_t> count;
   for (const Message& message : read("log.mcap")) ++count[message.schema];
   EXPECT_EQ(count["foxglove.SceneUpdate"], 1U);
@@ -165,9 +165,9 @@ TEST_F(Mcap, OfNoLogIsRefusedAndNothingIsWritten) {
   bytes[0] = static_cast<char>(entries + 1);
   bytes.insert(1, "\x05\x05");
   folder_.write("keys.mpack", bytes);
-  folder_.expect_refusals({{"export text.mpack -o a.mcap", {"text.mpack: byte 0: expected"}},
-                           {"export none.mpack -o a.mcap", {"none.mpack: no such file"}},
-                           {"export keys.mpack -o a.mcap", {"keys.mpack: a record cannot be"}}});
+  folder_.expect_refusals({{"convert text.mpack -o a.mcap", {"text.mpack: byte 0: expected"}},
+                           {"convert none.mpack -o a.mcap", {"none.mpack: no such file"}},
+                           {"convert keys.mpack -o a.mcap", {"keys.mpack: a record cannot be"}}});
   EXPECT_EQ(names_in(folder_.path()),
             (std::set<std::string>{".stderr", ".stdout", "text.mpack", "keys.mpack"}));
 }

@@ -150,7 +150,7 @@ TEST_F(Metadata, OfARecordingStatesWhetherItsRobotIsStillTheSame) {
     const std::string again = "simulate own.mpack -o again.mpack --set end.duration=0.1";
     folder_.expect_refusals({{again, {"own.mpack: its robot " + changed, "--set robot=own.yaml"}},
                              {"render own.mpack -o x.mp4", {"its robot " + changed}},
-                             {"export own.mpack -o x.mcap", {"its robot " + changed}}});
+                             {"convert own.mpack -o x.mcap", {"its robot " + changed}}});
     EXPECT_EQ(folder_.run(again + " --set robot=own.yaml").exit_code, 0);
     EXPECT_EQ(folder_.run("simulate old.mpack -o x.mpack --set end.duration=0.1").exit_code, 0);
     folder_.write(file, before);
@@ -163,7 +163,7 @@ TEST_F(Metadata, OfARecordingStatesWhetherItsRobotIsStillTheSame) {
 }
 
 TEST_F(Metadata, OfAModelExportedFromARobotsFileHasItsLegs) {
-  const std::string robot = "export models/upkie_long_legs.yaml ";
+  const std::string robot = "convert models/upkie_long_legs.yaml ";
   EXPECT_THAT(run(robot + "-o long.npz"),
               HasSubstr("long.npz, for 'load_filter' at 1000 Hz on 'upkie_long_legs', "
                         "fingerprint "));
@@ -179,8 +179,8 @@ TEST_F(Metadata, OfAModelExportedFromARobotsFileHasItsLegs) {
       {{"estimate a.mpack --model models/nmn.npz", {"nmn.npz", "'nmn', which needs no --model"}},
        {"estimate a.mpack --model long.npz --estimator robust",
         {"long.npz: is a model of 'load_filter', which 'robust' cannot use"}},
-       {"export m.npz --robot upkie_heavy -o x.npz", {"not to 'upkie_heavy'"}},
-       {"export m.npz --robot models/upkie.xml -o x.npz", {"m.npz: 'robust' uses no kinematics"}},
+       {"convert m.npz --robot upkie_heavy -o x.npz", {"not to 'upkie_heavy'"}},
+       {"convert m.npz --robot models/upkie.xml -o x.npz", {"m.npz: 'robust' uses no kinematics"}},
        {robot + "--set leave_bellow=0.25 -o x.npz", {"has no 'leave_bellow': expected one of"}},
        {robot + "--set leave_below -o x.npz", {"--set: leave_below: expected NAME=VALUE"}}});
   EXPECT_FALSE(folder_.has("x.npz"));
@@ -224,17 +224,17 @@ TEST_F(Metadata, IsNotNeededByOlderFilesAndDetectsChangesAfterTheFit) {
 }
 
 TEST_F(Metadata, IsPartOfAModelExportedAsAHeader) {
-  EXPECT_THAT(run("export m.npz -o out/my-model.hpp"),
+  EXPECT_THAT(run("convert m.npz -o out/my-model.hpp"),
               HasSubstr("touchdown::make_estimator(touchdown::compiled::my_model)"));
   EXPECT_THAT(
       folder_.text("out/my-model.hpp"),
       AllOf(HasSubstr("inline constexpr CompiledArray my_model[] = {"),
             HasSubstr(load_metadata(folder_ / "m.npz").fingerprint), Not(HasSubstr("P_contact"))));
   folder_.expect_refusals(
-      {{"export m.npz -o m.txt", {"expected a header, FILE.hpp, or a model, FILE.npz"}},
-       {"export m.npz -o m.npz", {"m.npz: is the model itself: name another file"}},
-       {"export m.npz", {"either --benchmark DIR"}},
-       {"export a.mpack -o m.hpp", {"a.mpack: is not a readable"}}});
+      {{"convert m.npz -o m.txt", {"expected a header, FILE.hpp, or a model, FILE.npz"}},
+       {"convert m.npz -o m.npz", {"m.npz: is the model itself: name another file"}},
+       {"convert m.npz", {"either --benchmark DIR"}},
+       {"convert a.mpack -o m.hpp", {"a.mpack: is not a readable"}}});
 }
 
 /// A regression: the summary once reported "all good" for such a log.

@@ -259,8 +259,8 @@ TEST_F(MisleadingLog, TorquesWithoutSignOrInAnotherScaleAreNamedWithTheFactor) {
   } cases[] = {
       {"sizes", sizes(1.0), "", {"torques: never change their sign"}},
       {"sizes in percent", sizes(6.0), upkie, {"torques: never change their sign"}},
-      {"cN·m", scaled(100.0), upkie, {"probably the torques are in cNm"}},
-      {"mN·m", scaled(1e3), upkie, {"probably the torques are in mNm"}},
+      {"cN·m", scaled(100.0), upkie, {"are they in cN·m"}},
+      {"mN·m", scaled(1e3), upkie, {"are they in mN·m"}},
       {"percent",
        scaled(30.0),
        upkie,

@@ -74,7 +74,7 @@ class Submission : public InFolder {
   Submission() {
     folder_.fill("exported", [](const ProgramFolder& folder) {
       folder.output_of("run " + write_benchmark(folder) + " --no-pictures --out run");
-      folder.output_of("export --benchmark signals run");
+      folder.output_of("convert --benchmark signals run");
     });
   }
   std::string ran(const std::string& arguments) const { return folder_.output_of(arguments); }
@@ -215,7 +215,7 @@ TEST_F(Submission, RunsThatFellAreNotExportedAndCountAsFailed) {
   ASSERT_EQ(ours.size(), 1U);
   const std::size_t failed = std::stoul(ours[0].at(ours[0].size() - 3));
   ASSERT_GT(failed, 0U) << "no robot falls down this step any more";
-  ran("export --benchmark upright fell");
+  ran("convert --benchmark upright fell");
   EXPECT_EQ(from_csv(folder_.text("upright/index.csv")).rows.size(), 7U - failed);
   write_constant(folder_, "upright", "stays", "1");
   EXPECT_THAT(ran("score fell --beliefs stays"), Not(HasSubstr("not scored: upkie")));
@@ -229,17 +229,17 @@ TEST_F(Submission, UnfinishedBenchmarksAndOtherRunsAreRefused) {
       {{"score nowhere --beliefs signals", {"nowhere: holds no part of an experiment"}},
        {"score tiny --beliefs signals",
         {"experiment 'tiny' is no benchmark: expected a section 'benchmark'"}},
-       {"export --benchmark x tiny.yaml", {"is no benchmark"}},
+       {"convert --benchmark x tiny.yaml", {"is no benchmark"}},
        {"score half --beliefs signals",
         {"half: is not finished: run the same experiment again first"}}});
 }
 
 TEST_F(Submission, ExportsAreTheSameBytesFromARunAndFromItsExperimentOnAnyThreads) {
-  ran("export --benchmark again bench.yaml");
+  ran("convert --benchmark again bench.yaml");
   EXPECT_THAT(different_files(folder_ / "signals", folder_ / "again"), IsEmpty());
   std::string text = folder_.text("bench.yaml");
   folder_.write("one_thread.yaml", text + "workers: 1\n");
-  ran("export --benchmark one_thread one_thread.yaml");
+  ran("convert --benchmark one_thread one_thread.yaml");
   EXPECT_THAT(different_files(folder_ / "signals", folder_ / "one_thread"), IsEmpty());
   const std::string checked = "(cd signals && sha256sum --check --strict --quiet SHA256SUMS) &&";
   EXPECT_EQ(folder_.execute("list", checked).exit_code, 0);
@@ -259,9 +259,9 @@ TEST_F(Submission, ExportsAreTheSameBytesFromRecordingsAndWhereTheseAreGone) {
   folder_.write("kept.yaml",
                 std::regex_replace(text, std::regex("recordings: none"), "recordings: all"));
   ran("run kept.yaml --no-pictures --out kept");
-  ran("export --benchmark recorded kept");
+  ran("convert --benchmark recorded kept");
   fs::remove_all(folder_ / "kept/recordings");
-  ran("export --benchmark simulated kept");
+  ran("convert --benchmark simulated kept");
   const auto recorded = result_files(folder_ / "recorded");
   EXPECT_THAT(different_files(recorded, result_files(folder_ / "simulated")), IsEmpty());
   EXPECT_FALSE(folder_.has("kept/recordings"));
@@ -271,19 +271,19 @@ TEST_F(Submission, ExportsAreTheSameBytesFromRecordingsAndWhereTheseAreGone) {
 }
 
 TEST_F(Submission, PartsOfAnExportAreChosenByName) {
-  ran("export --benchmark harsh run --sensors harsh --robot upkie --simulator mujoco");
+  ran("convert --benchmark harsh run --sensors harsh --robot upkie --simulator mujoco");
   EXPECT_EQ(names_in(folder_ / "harsh/upkie"), std::set<std::string>{"harsh"});
-  const std::string outline = ran("export --benchmark no run --sensors harsh --dry-run");
+  const std::string outline = ran("convert --benchmark no run --sensors harsh --dry-run");
   EXPECT_THAT(outline, ContainsRegex("\n  upkie +harsh +mujoco +1 +16 +"));
   EXPECT_THAT(outline, Not(HasSubstr("ideal")));
   EXPECT_FALSE(folder_.has("no"));
   folder_.expect_refusals(
-      {{"export --benchmark no run --sensors harhs",
+      {{"convert --benchmark no run --sensors harhs",
         {"--sensors: the benchmark has no 'harhs': expected one of ideal, harsh (did you mean "
          "'harsh'?)"}},
-       {"export --benchmark signals run", {"signals: holds '"}},
-       {"export --benchmark bench.yaml run", {"bench.yaml: is no folder"}},
-       {"export --benchmark no nowhere.yaml", {"nowhere.yaml"}}});
+       {"convert --benchmark signals run", {"signals: holds '"}},
+       {"convert --benchmark bench.yaml run", {"bench.yaml: is no folder"}},
+       {"convert --benchmark no nowhere.yaml", {"nowhere.yaml"}}});
 }
 
 using Export = InFolder;
@@ -293,7 +293,7 @@ TEST_F(Export, ThatIsInterruptedLeavesNothing) {
   folder_.write("x.yaml", folder_.text("x.yaml") + "benchmark: {}\n");
   fs::create_directory(folder_ / "empty");
   for (const std::string out : {"new", "empty"}) {
-    StartedProgram program("export --benchmark " + out + " x.yaml", folder_.path());
+    StartedProgram program("convert --benchmark " + out + " x.yaml", folder_.path());
     program.let_run_until([&] { return folder_.has(out) && !fs::is_empty(folder_ / out); });
     program.let_run(0.05);
     program.send(SIGINT);
@@ -311,7 +311,7 @@ TEST_F(Export, ThatExceedsTheDiskIsRefusedBeforeItBegins) {
   folder_.write("bench.yaml", std::regex_replace(folder_.text("bench.yaml"), std::regex("runs: 2"),
                                                  "runs: 1000"));
   folder_.expect_refusals(
-      {{"export --benchmark signals bench.yaml", {"this export may need", "choose a part"}}}, 1);
+      {{"convert --benchmark signals bench.yaml", {"this export may need", "choose a part"}}}, 1);
   EXPECT_FALSE(folder_.has("signals"));
 }
 

@@ -107,7 +107,7 @@ TEST_F(Interrupt, WhileStandardInputIsSilentIsNoEmptyLog) {
   std::array<int, 2> silent = {};
   ASSERT_EQ(::pipe(silent.data()), 0);
   ::dup2(silent[0], STDIN_FILENO);  // which programs inherit
-  for (const std::string arguments : {"check -", "fit - -o m.npz", "export - -o x.mcap"}) {
+  for (const std::string arguments : {"check -", "fit - -o m.npz", "convert - -o x.mcap"}) {
     StartedProgram program(arguments, folder_.path());
     program.wait_for_handler(SIGINT);
     program.let_run(0.2);
@@ -169,7 +169,7 @@ TEST_F(Interrupt, OfACommandWithOneOutputWritesNothing) {
   int stopped = 0;
   for (const std::string arguments :
        {"simulate long.yaml -o out.mpack", "render a.mpack -o out.mp4",
-        "export a.mpack -o out.mcap", "estimate a.mpack -o out.csv",
+        "convert a.mpack -o out.mcap", "estimate a.mpack -o out.csv",
         "fit a.mpack --skip 0 --no-accuracy --grid 2000 2000 -o out.npz"}) {
     const std::string output = arguments.substr(arguments.rfind(' ') + 1);
     for (const double after : {0.05, 0.2, 0.5}) {

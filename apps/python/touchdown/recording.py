@@ -68,7 +68,7 @@ class Recording(dict):
         """Read a log in Upkie's layout (`.mpack`): a robot's, or one that touchdown wrote.
 
         mapping: a mapping file, for the log of another robot: a ROS 2 bag, CSV or NumPy arrays. Joints, frames, signs
-            and units then are those above. What `touchdown export` prints, such as ages of held values, are warnings.
+            and units then are those above. What `touchdown convert` prints, such as ages of held values, are warnings.
         """
         return cls(*_touchdown.load(path, mapping))
 
@@ -131,7 +131,7 @@ def check(log: Any, *, robot: str = "", mapping: Path | None = None) -> list[str
     log: a `Recording`, or the path of a log
     robot: its file, which gives weight, legs and ranges of joints
     mapping: a mapping file, for the path of another robot's log: a ROS 2 bag, CSV or NumPy arrays. The list then begins
-        with what `touchdown export` prints about the conversion, such as ages of held values
+        with what `touchdown convert` prints about the conversion, such as ages of held values
     """
     return _touchdown.check(log, robot, mapping)
 

@@ -294,7 +294,7 @@ int run_program(int argc, char** argv) {
                      "Robot of a log that does not contain it (default: models/upkie.xml)");
   program
       .add_option("--mapping", request.mapping,
-                  "Maps the columns or topics of a log to signals, as for `touchdown export`")
+                  "Maps the columns or topics of a log to signals, as for `touchdown convert`")
       ->type_name("FILE.yaml");
   program
       .add_option(

@@ -1,6 +1,6 @@
 #pragma once
 
-// load_filter.npz, written by `touchdown export`: for 'load_filter' at 1000 Hz on the robot
+// load_filter.npz, written by `touchdown convert`: for 'load_filter' at 1000 Hz on the robot
 // 'upkie', fingerprint 33de8d0425eda169. touchdown::make_estimator(touchdown::compiled::model)
 // makes the estimator.
 

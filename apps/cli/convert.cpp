@@ -1,5 +1,3 @@
-#include "experiments/submissions/export.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <memory>
@@ -19,6 +17,7 @@
 #include "experiments/logs/estimator.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
+#include "experiments/submissions/export.hpp"
 #include "logs/log/mcap.hpp"
 #include "logs/log/recording_file.hpp"
 #include "logs/mapping/conversion.hpp"
@@ -30,7 +29,7 @@ namespace touchdown::cli {
 
 namespace {
 
-struct ExportFlags {
+struct ConvertFlags {
   std::string source;
   std::string folder;
   experiments::BenchmarkPart part;
@@ -45,7 +44,7 @@ struct ExportFlags {
 
 /// Prints what is implausible about the signals of the written log, one line each. Returns their
 /// number.
-std::size_t report_findings(const ExportFlags& flags, const CliSession& session) {
+std::size_t report_findings(const ConvertFlags& flags, const CliSession& session) {
   logs::LogReader reader(flags.output, session.stop);
   std::vector<std::string> findings;
   try {
@@ -60,7 +59,7 @@ std::size_t report_findings(const ExportFlags& flags, const CliSession& session)
 }
 
 /// Errors: `InputError` for a log without contact labels.
-std::string labels_text(const ExportFlags& flags, const logs::ConvertedLog& log) {
+std::string labels_text(const ConvertFlags& flags, const logs::ConvertedLog& log) {
   if (log.contact.intervals.empty()) {
     throw InputError(fmt::format(
         "--labels: {} has no contact labels: expected a section 'contact' in {}, and numbers",
@@ -89,7 +88,7 @@ std::optional<render::FilmedRun> drawable(const std::string& log, const std::str
 
 /// Converts the log to Upkie's layout, writes its contact column as labels and prints a summary.
 /// Errors: `InputError`; nothing is written then.
-void export_log(const ExportFlags& flags, const CliSession& session) {
+void write_log(const ConvertFlags& flags, const CliSession& session) {
   require_extension(flags.output, {".mpack"}, "a log");
   std::vector<std::filesystem::path> outputs = {flags.output};
   if (!flags.labels.empty()) outputs.emplace_back(flags.labels);
@@ -116,8 +115,8 @@ void export_log(const ExportFlags& flags, const CliSession& session) {
 
 /// Writes a log, with the beliefs in it, as an MCAP file and prints a summary. If the log contains
 /// its scene, or a `robot` is named, the file shows it too. Errors: as above.
-void export_mcap(const std::string& log, const std::string& robot, const std::string& output,
-                 const CliSession& session) {
+void write_mcap_file(const std::string& log, const std::string& robot, const std::string& output,
+                     const CliSession& session) {
   check_outputs({{log, "log"}}, {output});
   logs::LogReader reader(log, session.stop);
   std::uint64_t rows = 0;
@@ -162,7 +161,7 @@ ConfigurationText configuration_of(const std::vector<std::string>& assignments) 
 }
 
 /// The intended use of the model according to the flags.
-ModelUse use_of(const ExportFlags& flags) {
+ModelUse use_of(const ConvertFlags& flags) {
   ModelUse use = flags.use;
   if (!flags.part.robots.empty()) {
     const experiments::LogRobot robot = experiments::robot_called(flags.part.robots.front());
@@ -174,7 +173,7 @@ ModelUse use_of(const ExportFlags& flags) {
 }
 
 /// The model of the file, or the filter of loads of the robot that the file describes.
-Model source_model(const std::filesystem::path& source, const ExportFlags& flags) {
+Model source_model(const std::filesystem::path& source, const ConvertFlags& flags) {
   const std::string extension = source.extension().string();
   const bool is_robot = extension == ".xml" || extension == ".urdf" || extension == ".yaml";
   if (!is_robot) return logs::load_model_for(source, use_of(flags));
@@ -184,7 +183,7 @@ Model source_model(const std::filesystem::path& source, const ExportFlags& flags
                    {.configuration = configuration_of(flags.configuration)});
 }
 
-void export_header(const std::filesystem::path& source, const ExportFlags& flags) {
+void write_header(const std::filesystem::path& source, const ConvertFlags& flags) {
   const std::string name = name_of(flags.output);
   const std::string text =
       logs::header_of_model(source_model(source, flags), source.filename().string(), name);
@@ -194,12 +193,12 @@ void export_header(const std::filesystem::path& source, const ExportFlags& flags
         std::filesystem::path(flags.output).filename().string(), name);
 }
 
-void export_model(const ExportFlags& flags) {
+void write_model(const ConvertFlags& flags) {
   const std::filesystem::path source = find_resource(flags.source);
   check_outputs({{source.string(), source.extension() == ".npz" ? "model" : "robot"}},
                 {flags.output});
   if (std::filesystem::path(flags.output).extension() != ".npz") {
-    return export_header(source, flags);
+    return write_header(source, flags);
   }
   const Model adapted = source_model(source, flags);
   logs::save_model(adapted, flags.output);
@@ -210,7 +209,7 @@ void export_model(const ExportFlags& flags) {
   print("next      touchdown estimate LOG --model {}\n", flags.output);
 }
 
-void export_benchmark(const ExportFlags& flags, const CliSession& session) {
+void write_signals(const ConvertFlags& flags, const CliSession& session) {
   const experiments::ExportRequest request{flags.source, flags.folder, flags.part};
   if (flags.dry_run) {
     print("{}", experiments::export_outline(request));
@@ -229,10 +228,10 @@ void export_benchmark(const ExportFlags& flags, const CliSession& session) {
   print("next      touchdown score RUN --beliefs FOLDER --name NAME\n");
 }
 
-void export_source(const ExportFlags& flags, const CliSession& session) {
+void convert(const ConvertFlags& flags, const CliSession& session) {
   if (flags.output.empty() == flags.folder.empty()) {
     throw InputError(
-        "export: expected either --benchmark DIR, for a benchmark's signals, or -o FILE.hpp or "
+        "convert: expected either --benchmark DIR, for a benchmark's signals, or -o FILE.hpp or "
         "FILE.npz, for a model or a robot, or --mapping FILE.yaml -o FILE.mpack, for a log in "
         "another layout, "
         "or -o FILE.mcap, for a log in Upkie's layout");
@@ -249,30 +248,30 @@ void export_source(const ExportFlags& flags, const CliSession& session) {
     throw InputError("--mapping: expected -o FILE.mpack, for a log in another layout");
   }
   if (!flags.mapping.empty()) {
-    export_log(flags, session);
+    write_log(flags, session);
   } else if (std::filesystem::path(flags.output).extension() == ".mcap") {
-    export_mcap(flags.source, flags.part.robots.empty() ? "" : flags.part.robots.front(),
-                flags.output, session);
+    write_mcap_file(flags.source, flags.part.robots.empty() ? "" : flags.part.robots.front(),
+                    flags.output, session);
   } else if (!flags.output.empty()) {
-    export_model(flags);
+    write_model(flags);
   } else {
-    export_benchmark(flags, session);
+    write_signals(flags, session);
   }
 }
 
 }  // namespace
 
-void add_export(CLI::App& program, const CliSession& session) {
+void add_convert(CLI::App& program, const CliSession& session) {
   Verb verb(
-      program, "export",
-      "touchdown export --benchmark signals experiments/benchmark.yaml\n"
-      "touchdown export --benchmark signals runs/benchmark/latest --robot upkie\n"
-      "touchdown export model.npz -o model.hpp\n"
-      "touchdown export my_robot.yaml -o my_robot.hpp\n"
-      "touchdown export robot.csv --mapping robot.yaml -o robot.mpack\n"
-      "touchdown export rosbag2_2026_03_01/ --mapping robot.yaml -o robot.mpack\n"
-      "touchdown export robot.mpack -o robot.mcap\n\n"
-      "Exports a benchmark's signals, a model or a log. A benchmark's signals are for an\n"
+      program, "convert",
+      "touchdown convert --benchmark signals experiments/benchmark.yaml\n"
+      "touchdown convert --benchmark signals runs/benchmark/latest --robot upkie\n"
+      "touchdown convert model.npz -o model.hpp\n"
+      "touchdown convert my_robot.yaml -o my_robot.hpp\n"
+      "touchdown convert robot.csv --mapping robot.yaml -o robot.mpack\n"
+      "touchdown convert rosbag2_2026_03_01/ --mapping robot.yaml -o robot.mpack\n"
+      "touchdown convert robot.mpack -o robot.mcap\n\n"
+      "Converts a benchmark's signals, a model or a log. A benchmark's signals are for an\n"
       "external estimator in any language; `touchdown score` scores its beliefs. A model becomes\n"
       "a C++ header for a robot without files, or another model file, with other\n"
       "hyperparameters if --set names them. A robot's file becomes the model of its load_filter,\n"
@@ -281,7 +280,7 @@ void add_export(CLI::App& program, const CliSession& session) {
       "layout, which all other commands read. A log in Upkie's layout, with the beliefs of "
       "`estimate`,\n"
       "becomes an MCAP file for Foxglove.");
-  const auto flags = std::make_shared<ExportFlags>();
+  const auto flags = std::make_shared<ConvertFlags>();
   verb.option("source", &flags->source,
               "Experiment file with a section `benchmark`, or its run directory; or a model that "
               "`touchdown fit` wrote; or a robot's file; or a log as .csv, .npz or .mpack, or a "
@@ -311,25 +310,24 @@ void add_export(CLI::App& program, const CliSession& session) {
               "For a model without metadata: the rate that it was fitted at (Hz)")
       .between(1.0, 1e6);
   verb.option("--robot", &flags->part.robots,
-              "Export only this robot, as the benchmark's table names it. For a model: the robot\n"
+              "Only this robot, as the benchmark's table names it. For a model: the robot\n"
               "that it is for. For a log as FILE.mcap: the robot to show, if the log does not "
               "contain it")
       .value_name("NAME|FILE")
       .one_at_a_time();
-  verb.option(
-          "--set", &flags->configuration,
-          "Export the model with another value of a hyperparameter, for example leave_below=0.05")
+  verb.option("--set", &flags->configuration,
+              "The model with another value of a hyperparameter, for example leave_below=0.05")
       .value_name("NAME=VALUE")
       .one_at_a_time();
   verb.option("--sensors", &flags->part.sensors,
-              "Export only these sensors, as the benchmark's table names them")
+              "Only these sensors, as the benchmark's table names them")
       .value_name("NAME")
       .one_at_a_time();
-  verb.option("--simulator", &flags->part.simulators, "Export only this physics engine")
+  verb.option("--simulator", &flags->part.simulators, "Only this physics engine")
       .value_name("NAME")
       .one_at_a_time();
   verb.flag("--dry-run", &flags->dry_run, "Only show the number of files and their size");
-  verb.action([flags, &session] { export_source(*flags, session); });
+  verb.action([flags, &session] { convert(*flags, session); });
 }
 
 }  // namespace touchdown::cli
