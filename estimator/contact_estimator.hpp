@@ -120,7 +120,7 @@ class ContactEstimator {
   /// Takes the signals of one step and returns the new belief, which is valid until the next call.
   const Belief& update(const Signals& signals) noexcept;
 
-  /// Replaces the default bounds of the signals. Throws as `check_signal_bounds`.
+  /// Replaces the default bounds of the signals. Errors: as `check_members`.
   void limit_signals(const SignalBounds& bounds) { check_ = SignalCheck(bounds); }
 
   /// What the last belief was computed from, for logs and plots.

@@ -7,7 +7,7 @@ include(CMakePackageConfigHelpers)
 # Programs include <touchdown/estimator.hpp> or <touchdown/estimator/…>. The headers include each other
 # as "estimator/…".
 set(public
-  c_handle contact_estimator free_fall record signal_assembler signal_bounds signal_guard signals stopped_signals
+  c_handle contact_estimator free_fall members record signal_assembler signal_bounds signal_guard signals stopped_signals
   torque_channel upkie_observer
   bayes/config bayes/filter bayes/measurement_fit bayes/measurement_model bayes/measurement_only
   bayes/transition_model

@@ -45,18 +45,8 @@ std::string_view to_text(SignalIndex signal) noexcept {
              : names[static_cast<std::size_t>(index)];
 }
 
-void check_signal_bounds(const SignalBounds& bounds) {
-  for (const double bound :
-       {bounds.leg_position, bounds.wheel_position, bounds.velocity, bounds.torque,
-        bounds.acceleration, bounds.angular_velocity, bounds.ground_velocity}) {
-    if (!(std::isfinite(bound) && bound > 0.0)) {
-      throw InputError("signal bounds: every bound must be positive and finite");
-    }
-  }
-}
-
 SignalCheck::SignalCheck(const SignalBounds& bounds) {
-  check_signal_bounds(bounds);
+  check_members(bounds);
   std::size_t at = 0;
   for (std::size_t joint = 0; joint < 6; ++joint) {
     largest_[at++] = joint % 3 == 2 ? bounds.wheel_position : bounds.leg_position;

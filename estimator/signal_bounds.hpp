@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "estimator/members.hpp"
 #include "estimator/signals.hpp"
 
 namespace touchdown {
@@ -23,8 +24,15 @@ struct SignalBounds {
   bool operator==(const SignalBounds&) const = default;
 };
 
-/// Throws InputError for a bound that is not a positive finite number.
-void check_signal_bounds(const SignalBounds& bounds);
+void members(auto& visit, MembersOf<SignalBounds> auto& bounds) {
+  visit("bounds.leg_position", bounds.leg_position, Range::positive);
+  visit("bounds.wheel_position", bounds.wheel_position, Range::positive);
+  visit("bounds.velocity", bounds.velocity, Range::positive);
+  visit("bounds.torque", bounds.torque, Range::positive);
+  visit("bounds.acceleration", bounds.acceleration, Range::positive);
+  visit("bounds.angular_velocity", bounds.angular_velocity, Range::positive);
+  visit("bounds.ground_velocity", bounds.ground_velocity, Range::positive);
+}
 
 /// The number of a member of `Signals` after the time, in their order, without the optional
 /// targets.
@@ -38,7 +46,7 @@ std::string_view to_text(SignalIndex signal) noexcept;
 /// is no fault; `servo_torque` checks them.
 class SignalCheck {
  public:
-  /// Throws as `check_signal_bounds`.
+  /// Errors: as `check_members`.
   explicit SignalCheck(const SignalBounds& bounds = {});
 
   /// The first signal that is NaN or beyond its bound; `none` if all are usable.

@@ -12,15 +12,7 @@ SignalGuard::SignalGuard(const SignalGuardConfig& config, double sample_rate)
   if (!(std::isfinite(sample_rate) && sample_rate > 0.0)) {
     throw InputError("signal guard: the sample rate must be positive (Hz)");
   }
-  if (!(config.relaxation > 0.0 && config.largest_acceleration > 0.0)) {
-    throw InputError("signal guard: relaxation and largest_acceleration must be positive");
-  }
-  if (!(config.largest_torque > 0.0)) {
-    throw InputError("signal guard: largest_torque must be positive (N·m)");
-  }
-  if (!(config.maximum_gap >= 0.0 && config.frozen_after >= 0.0)) {
-    throw InputError("signal guard: maximum_gap and frozen_after must not be negative (s)");
-  }
+  check_members(config);
 }
 
 void SignalGuard::reset() noexcept {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "estimator/contact_estimator.hpp"
+#include "estimator/members.hpp"
 
 namespace touchdown {
 
@@ -27,6 +28,14 @@ struct SignalGuardConfig {
 
   bool operator==(const SignalGuardConfig&) const = default;
 };
+
+void members(auto& visit, MembersOf<SignalGuardConfig> auto& guard) {
+  visit("guard.maximum_gap", guard.maximum_gap, Range::not_negative);
+  visit("guard.frozen_after", guard.frozen_after, Range::not_negative);
+  visit("guard.largest_acceleration", guard.largest_acceleration, Range::positive);
+  visit("guard.largest_torque", guard.largest_torque, Range::positive);
+  visit("guard.relaxation", guard.relaxation, Range::positive);
+}
 
 /// Whether a servo can have measured this torque (N·m).
 [[nodiscard]] inline bool is_torque(double torque, const SignalGuardConfig& config = {}) noexcept {

@@ -1,7 +1,5 @@
 #include "estimator/bayes/config.hpp"
 
-#include "core/error.hpp"
-
 namespace touchdown {
 
 BayesFilterConfig BayesFilterConfig::paper() {
@@ -56,18 +54,6 @@ BayesFilterConfig BayesFilterConfig::robust() {
   config.transition.nyquist = true;
   config.transition.row_stochastic = true;
   return config;
-}
-
-void check_measurement_config(const MeasurementConfig& config, double threshold) {
-  if (!(threshold >= 0.0 && threshold <= 1.0)) {
-    throw InputError("the decision threshold must be in [0, 1]");
-  }
-  if (!(config.contact_floor >= 0.0 && config.no_contact_floor >= 0.0)) {
-    throw InputError("the likelihood floors must not be negative");
-  }
-  if (!(config.torque.low_pass >= 0.0)) {
-    throw InputError("the torque low-pass must not be negative (s)");
-  }
 }
 
 }  // namespace touchdown

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <array>
+#include <type_traits>
+
 #include "estimator/bayes/measurement_fit.hpp"
 #include "estimator/bayes/transition_model.hpp"
+#include "estimator/members.hpp"
 #include "estimator/signal_guard.hpp"
 #include "estimator/torque_channel.hpp"
 
@@ -68,7 +72,28 @@ struct BayesFilterConfig {
   bool operator==(const BayesFilterConfig&) const = default;
 };
 
-/// Throws InputError for a threshold outside [0, 1], a negative floor or a negative low-pass.
-void check_measurement_config(const MeasurementConfig& config, double threshold);
+inline constexpr std::array sign_names = {"absolute", "mirrored"};  // of `TorqueSign`
+static_assert(static_cast<int>(TorqueSign::mirrored) == 1);
+
+void members(auto& visit, MembersOf<BayesFilterConfig> auto& config) {
+  auto& measurement = config.measurement;
+  visit.choose("torque.sign", sign_names, measurement.torque.sign);
+  visit("torque.low_pass", measurement.torque.low_pass, Range::not_negative);
+  visit("contact_floor", measurement.contact_floor, Range::not_negative);
+  visit("no_contact_floor", measurement.no_contact_floor, Range::not_negative);
+  // Models with densities that stay as fitted do not have these keys.
+  auto& noise = measurement.noise;
+  if (!std::is_const_v<std::remove_reference_t<decltype(noise)>> || noise.is_followed) {
+    visit("noise.is_followed", noise.is_followed);
+    visit("noise.share", noise.share, Range::not_negative);
+    visit("noise.floor", noise.floor, Range::not_negative);
+    visit("noise.ceiling", noise.ceiling, Range::not_negative);
+    visit("noise.gain", noise.gain, Range::share);
+    visit("noise.warm_up", noise.warm_up, Range::not_negative);
+  }
+  members(visit, config.transition);
+  visit("threshold", config.threshold, Range::share);
+  members(visit, config.guard);
+}
 
 }  // namespace touchdown

@@ -9,7 +9,7 @@ BayesFilter::BayesFilter(MeasurementModel model, const BayesFilterConfig& config
       torques_(config.measurement, config.sample_rate),
       transition_(config.transition, config.sample_rate),
       guard_(config.guard, config.sample_rate) {
-  check_measurement_config(config.measurement, config.threshold);
+  check_members(config);
   reset();
 }
 

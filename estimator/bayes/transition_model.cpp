@@ -1,16 +1,10 @@
 #include "estimator/bayes/transition_model.hpp"
 
-#include <string>
-
 #include "core/error.hpp"
 #include "estimator/torque_channel.hpp"
 
 namespace touchdown {
 namespace {
-
-void check(bool good, const std::string& message) {
-  if (!good) throw InputError("transition model: " + message);
-}
 
 /// y += g (x − y) twice with the same x moves y by 1 − (1 − g)² of the way.
 double gain_of_two_steps(double gain) { return gain * (2.0 - gain); }
@@ -28,11 +22,10 @@ TransitionLaw::TransitionLaw(const TransitionConfig& config, double sample_rate)
       memory_gain_(gain_of_two_steps(low_pass_gain(config.median_memory, 1.0 / sample_rate))),
       memory_(config.median_memory),
       repair_(config.row_stochastic ? 1.0 : 0.0) {
-  check(std::isfinite(sample_rate) && sample_rate > 0.0, "the sample rate must be positive (Hz)");
-  check(config.switch_sigmoid.slope > 0.0, "the switch sigmoid's slope must be positive");
-  check(config.landing_sigmoid.slope > 0.0, "the landing sigmoid's slope must be positive");
-  check(config.margin >= 0.0 && config.margin < 0.5, "the margin must be in [0, 0.5)");
-  check(config.median_memory >= 0.0, "the median's memory must not be negative (s)");
+  if (!(std::isfinite(sample_rate) && sample_rate > 0.0)) {
+    throw InputError("transition model: the sample rate must be positive (Hz)");
+  }
+  check_members(config);
 }
 
 TransitionModel::TransitionModel(const TransitionConfig& config, double sample_rate)

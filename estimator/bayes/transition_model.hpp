@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 
+#include "estimator/members.hpp"
 #include "estimator/numerics/exponential.hpp"
 #include "estimator/numerics/sliding_dft.hpp"
 
@@ -54,6 +56,25 @@ struct TransitionConfig {
   bool operator==(const TransitionConfig&) const = default;
 };
 
+inline constexpr std::array power_names = {"mean_square", "energy", "root_mean_square"};
+inline constexpr std::array spectrum_names = {"power", "magnitude"};
+static_assert(static_cast<int>(PowerMeasure::root_mean_square) == 2 &&
+              static_cast<int>(SpectrumKind::magnitude) == 1);
+
+void members(auto& visit, MembersOf<TransitionConfig> auto& transition) {
+  visit("transition.window", transition.window);
+  visit.choose("transition.power", power_names, transition.power);
+  visit.choose("transition.median_of", spectrum_names, transition.median_of);
+  visit("transition.nyquist", transition.nyquist);
+  visit("transition.switch.offset", transition.switch_sigmoid.offset, Range::any);
+  visit("transition.switch.slope", transition.switch_sigmoid.slope, Range::positive);
+  visit("transition.landing.offset", transition.landing_sigmoid.offset, Range::any);
+  visit("transition.landing.slope", transition.landing_sigmoid.slope, Range::positive);
+  visit("transition.margin", transition.margin, Range{0.0, 0.5 - 1e-9, "0 to less than 0.5"});
+  visit("transition.median_memory", transition.median_memory, Range::not_negative);
+  visit("transition.row_stochastic", transition.row_stochastic);
+}
+
 /// P(S_t | S_t−1), and the quantities behind it.
 struct Transition {
   // The matrix comes first: its four neighbouring numbers are stored as one vector, and the
@@ -74,7 +95,7 @@ struct Transition {
 /// (8), (11) and (13).
 class TransitionLaw {
  public:
-  /// Throws InputError for an invalid rate, slope, margin or memory.
+  /// Errors: as `check_members`; `InputError` for a rate that is not positive.
   TransitionLaw(const TransitionConfig& config, double sample_rate);
 
   /// The transition for this spectrum. `remembered` is the filtered median frequency of the

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "estimator/members.hpp"
 #include "estimator/signals.hpp"
 
 namespace touchdown {
@@ -51,6 +52,34 @@ struct LegGeometry {
 
   bool operator==(const LegGeometry&) const = default;
 };
+
+void members(auto& visit, MembersOf<LegGeometry> auto& geometry) {
+  visit("geometry.upper_length", geometry.upper_length, Range::positive);
+  visit("geometry.lower_length", geometry.lower_length, Range::positive);
+  visit("geometry.upper_mass", geometry.upper_mass, Range::any);
+  visit("geometry.lower_mass", geometry.lower_mass, Range::any);
+  visit("geometry.wheel_mass", geometry.wheel_mass, Range::any);
+  visit("geometry.upper_centre", geometry.upper_centre, Range::any);
+  visit("geometry.lower_centre", geometry.lower_centre, Range::any);
+  visit("geometry.upper_inertia", geometry.upper_inertia, Range::any);
+  visit("geometry.lower_inertia", geometry.lower_inertia, Range::any);
+  visit("geometry.hip_armature", geometry.hip_armature, Range::any);
+  visit("geometry.knee_armature", geometry.knee_armature, Range::any);
+  visit("geometry.wheel_armature", geometry.wheel_armature, Range::any);
+  visit("geometry.hip_viscous", geometry.hip_viscous, Range::any);
+  visit("geometry.knee_viscous", geometry.knee_viscous, Range::any);
+  visit("geometry.wheel_viscous", geometry.wheel_viscous, Range::any);
+  visit("geometry.hip_torque_limit", geometry.hip_torque_limit, Range::any);
+  visit("geometry.knee_torque_limit", geometry.knee_torque_limit, Range::any);
+  visit("geometry.wheel_torque_limit", geometry.wheel_torque_limit, Range::any);
+  visit("geometry.hip_forward", geometry.hip_forward, Range::any);
+  visit("geometry.hip_upward", geometry.hip_upward, Range::any);
+  visit("geometry.leg_sideways", geometry.leg_sideways, Range::any);
+  visit("wheel_inertia", geometry.wheel_inertia, Range::any);
+  visit("robot_mass", geometry.robot_mass, Range::positive);
+  visit("hip_friction", geometry.hip_friction, Range::any);
+  visit("knee_friction", geometry.knee_friction, Range::any);
+}
 
 /// The Jacobian of a leg's foot in one pose, in the left leg's signs. With the hip at q₁ and the
 /// knee at q₂ from straight, forward positive,

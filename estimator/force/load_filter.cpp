@@ -31,15 +31,7 @@ constexpr double lowest_lead_rate = 500.0;  // Hz
 double probability_below(double x) noexcept { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 
 const LoadFilterConfig& checked(const LoadFilterConfig& config) {
-  const LegGeometry& g = config.geometry;
-  const auto positive = [](double x) { return std::isfinite(x) && x > 0.0; };
-  if (!(positive(config.sample_rate) && positive(g.upper_length) && positive(g.lower_length) &&
-        positive(g.robot_mass) && config.lead >= 0.0 && config.leave_below > 0.0 &&
-        config.return_above >= config.leave_below && config.return_above < 1.0)) {
-    throw InputError(
-        "load filter: rate (Hz), lengths (m) and mass (kg) must be positive, lead not negative "
-        "(s), 0 < leave_below <= return_above < 1");
-  }
+  check_members(config);
   return config;
 }
 

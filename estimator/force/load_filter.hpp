@@ -2,6 +2,7 @@
 
 #include "estimator/contact_estimator.hpp"
 #include "estimator/force/dynamic_loads.hpp"
+#include "estimator/members.hpp"
 #include "estimator/signal_guard.hpp"
 
 namespace touchdown {
@@ -18,6 +19,15 @@ struct LoadFilterConfig {
   SignalGuardConfig guard = {};
 };
 
+void members(auto& visit, MembersOf<LoadFilterConfig> auto& config) {
+  members(visit, config.geometry);
+  visit("lead", config.lead, Range::not_negative);
+  visit("leave_below", config.leave_below, Range::inner_share);
+  visit("return_above", config.return_above,
+        Range{config.leave_below, Range::inner_share.high, "from leave_below to less than 1"});
+  members(visit, config.guard);
+}
+
 /// A filter with two states for each wheel, contact and air, that observes the load on it
 /// (`DynamicLoads`) with its deviation (docs/explanation/contact.md). In the air the load is zero
 /// up to its error; in contact, all loads between a fiftieth and three quarters of the weight are
@@ -28,8 +38,7 @@ struct LoadFilterConfig {
 /// wheel's belief relaxes to the prior, and the status gives the reason.
 class LoadFilter : public ContactEstimator {
  public:
-  /// Throws InputError for a rate, length or mass that is not positive, a negative lead, and
-  /// thresholds out of order or beyond (0, 1).
+  /// Errors: as `check_members`; `InputError` for a rate that is not positive.
   explicit LoadFilter(const LoadFilterConfig& config = {});
 
   void reset() noexcept override;

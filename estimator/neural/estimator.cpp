@@ -41,9 +41,7 @@ NeuralEstimator::NeuralEstimator(std::shared_ptr<const NeuralNetwork> network,
       forward_(std::move(network)),
       sampler_(neural_stride(config.sample_rate, forward_.network().period)),
       input_(neural_input_count) {
-  if (!(config.threshold >= 0.0 && config.threshold <= 1.0)) {
-    throw InputError("neural estimator: the threshold must be between 0 and 1");
-  }
+  check_members(config);
   reset();
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "estimator/contact_estimator.hpp"
+#include "estimator/members.hpp"
 #include "estimator/neural/forward.hpp"
 #include "estimator/neural/input.hpp"
 #include "estimator/signal_guard.hpp"
@@ -19,6 +20,11 @@ struct NeuralEstimatorConfig {
 
   bool operator==(const NeuralEstimatorConfig&) const = default;
 };
+
+void members(auto& visit, MembersOf<NeuralEstimatorConfig> auto& config) {
+  visit("threshold", config.threshold, Range::share);
+  members(visit, config.guard);
+}
 
 /// The number of samples per step of the network. Errors: `InputError` if it is not a whole number.
 int neural_stride(double sample_rate, double period);

@@ -22,7 +22,7 @@ BatchedMeasurement::BatchedMeasurement(MeasurementModel model, const BayesFilter
       sigmas_(torque_sigmas(levels)),
       memory_(sigmas_.value.size(), TorqueMemory(config.measurement, config.sample_rate)),
       torque_(sigmas_.value.size()) {
-  check_measurement_config(config.measurement, config.threshold);
+  check_members(config);
   likelihoods_.fill(std::vector<Likelihoods>(levels.size()));
   p_contact_.fill(std::vector(levels.size(), 0.5));
 }

@@ -153,6 +153,23 @@ TEST(MakeEstimator, CallersConfigurationReplacesThatOfTheMetadata) {
               HasSubstr("'low' is no value for it"));
 }
 
+TEST(MakeEstimator, NamesANumberBeyondItsRange) {
+  const std::vector<std::array<const char*, 4>> wrong = {
+      {"load_filter", "leave_below", "2", "expected more than 0 and less than 1, found 2"},
+      {"load_filter", "return_above", "0.001", "expected from leave_below to less than 1"},
+      {"load_filter", "lead", "-1", "expected 0 or more"},
+      {"load_filter", "geometry.lower_length", "0", "expected a positive number"},
+      {"load_filter", "bounds.torque", "-3", "expected a positive number, found -3"},
+      {"robust", "threshold", "1.5", "expected 0 to 1"},
+      {"robust", "transition.switch.slope", "0", "expected a positive number"},
+      {"robust", "transition.margin", "0.5", "expected 0 to less than 0.5"},
+      {"paper", "guard.relaxation", "0", "expected a positive number"}};
+  for (const auto& [estimator, key, value, expected] : wrong) {
+    EXPECT_THAT(complaint_about(test::fitted_model(estimator), {.configuration = {{key, value}}}),
+                HasSubstr(std::string(key) + ": " + expected));
+  }
+}
+
 TEST(MakeEstimator, UsesTheLegsOfAnotherRobot) {
   const ModelArrays arrays = test::fitted_model("load_filter");
   LegGeometry longer;

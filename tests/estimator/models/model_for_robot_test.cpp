@@ -90,7 +90,7 @@ TEST(ModelFor, AMismatchIsAnError) {
   EXPECT_THAT(complaint(loads, {.configuration = {{"leave_below", "often"}}}),
               HasSubstr("leave_below: 'often' is no value"));
   EXPECT_THAT(complaint(loads, {.geometry = LegGeometry{.robot_mass = 0.0}}),
-              HasSubstr("mass (kg) must be positive"));
+              HasSubstr("robot_mass: expected a positive number, found 0"));
   EXPECT_THAT(complaint(loads, {.robot = "two\nlines", .geometry = long_legs}),
               HasSubstr("expected a name of one line"));
 }
