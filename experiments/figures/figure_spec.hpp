@@ -53,6 +53,7 @@ struct FigureAxis {
   double factor = 1.0, offset = 0.0;
   std::optional<double> floor = {};          ///< smaller values are drawn at this one
   std::optional<double> from = {}, to = {};  ///< ends of the axis; empty: by the values
+  bool has_diagonal = false;                 ///< of a measure: a line where it equals x
 };
 
 enum class MarkShape { curve, points, ring, cross };

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -150,12 +149,10 @@ DensityAxes axes_of(const LikelihoodGrids& grids);
 
 Figure draw_density_figure(const DensityFigure& figure, const FigureFile& target);
 
-/// The calibration and the latencies of one estimator.
+/// The latencies of one estimator.
 struct ScoreRow {
   std::string name;
   std::size_t line_type = 1;  ///< `line_type_of` the estimator
-  scoring::Calibration calibration;
-  std::vector<Interval> contact_frequency;  ///< by bin of the calibration
   scoring::TransitionCounts takeoff, landing;
 };
 
@@ -172,9 +169,11 @@ struct ScoreFigure {
   std::string caption;
 };
 
-/// Draws a reliability diagram: for each estimator the share of steps in contact against the stated
-/// probability of contact, with the number of steps in every bin below.
-Figure draw_reliability_figure(const ScoreFigure& figure, const FigureFile& target);
+/// A reliability diagram of an engine's rows of `reliability.csv`: for each estimator the share of
+/// steps in contact against the stated probability of contact, with the steps in every bin below.
+experiments::FigureSpec reliability_figure(const Table& reliability,
+                                           const experiments::Experiment& experiment,
+                                           const std::string& simulator);
 
 /// Draws the distributions of takeoff and landing latencies: a histogram per estimator, one pair of
 /// panels per noise setting. Early detections have negative latency.

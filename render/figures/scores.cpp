@@ -11,6 +11,7 @@
 #include "experiments/results/captions.hpp"
 #include "render/figures/chosen_run.hpp"
 #include "render/figures/figures.hpp"
+#include "render/gnuplot/facets.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/palette.hpp"
 #include "simulators/registry.hpp"
@@ -18,64 +19,19 @@
 namespace touchdown::render {
 namespace {
 
-constexpr double side = 360.0, counts_height = 96.0, gap = 84.0, left_margin = 70.0;
-constexpr double counts_top = side + 62.0;
-
-/// One block (gnuplot's `index`) per panel and curve: the stated probability, the share of contact
-/// with its interval, and the number of steps of each bin.
-std::string reliability_data(const ScoreFigure& figure) {
-  std::string text = "#bin_centre\tmean_probability\tcontact_frequency\tlow\thigh\tsteps\n";
-  for (const ScorePanel& panel : figure.panels) {
-    for (const ScoreRow& row : panel.rows) {
-      for (std::size_t b = 0; b < scoring::Calibration::bins; ++b) {
-        const scoring::Calibration::Bin& bin = row.calibration.bin[b];
-        const Interval& frequency = row.contact_frequency[b];
-        fmt::format_to(std::back_inserter(text), "{}\t{}\t{}\t{}\t{}\t{}\n",
-                       (static_cast<double>(b) + 0.5) / scoring::Calibration::bins,
-                       number(bin.mean_probability()), number(frequency.estimate),
-                       number(frequency.low), number(frequency.high),
-                       bin.points > 0 ? std::to_string(bin.points) : "NaN");
-      }
-      text += "\n\n";
-    }
-  }
-  return text;
-}
-
-std::string curves(const ScorePanel& panel, const std::string& file, std::size_t first_block,
-                   const char* columns, const char* with, bool named) {
-  std::string text;
-  for (std::size_t c = 0; c < panel.rows.size(); ++c) {
-    text += fmt::format(", \\\n     {} index {} using {} with {} lt {} {} title {}", file,
-                        first_block + c, columns, with, panel.rows[c].line_type,
-                        curve_width(c, panel.rows.size()),
-                        gnuplot_text(named ? panel.rows[c].name : ""));
-  }
-  return text;
-}
-
 std::vector<std::string> names_in(const ScoreFigure& figure) {
   std::vector<std::string> names;
   for (const ScoreRow& row : figure.panels.front().rows) names.push_back(row.name);
   return names;
 }
 
-std::string reliability_described(const ScoreFigure& figure) {
-  std::string text = "Share of steps in contact against the stated probability of contact.";
-  for (const ScorePanel& panel : figure.panels) {
-    text += fmt::format(" {}: Brier score", panel.title);
-    for (std::size_t c = 0; c < panel.rows.size(); ++c) {
-      text += fmt::format("{} {:.3f} ({})", c > 0 ? "," : "", panel.rows[c].calibration.brier(),
-                          panel.rows[c].name);
-    }
-    text += '.';
-  }
-  return text;
-}
-
 std::string title_of(const noise::NoiseCell& cell) {
   if (cell.torque == 0.0 && cell.accelerometer == 0.0) return "no noise";
   return fmt::format("noise: {} N·m, {} m/s²", cell.torque, cell.accelerometer);
+}
+
+bool is_constant(const std::string& estimator) {
+  return estimator == experiments::always_contact_name || estimator == "oracle";
 }
 
 /// The scores at the highlighted noise settings in this engine, without the constant answer and the
@@ -92,18 +48,10 @@ std::vector<ScorePanel> score_panels(const experiments::ExperimentResult& result
     const std::vector<TableRow> scores = result.tables.scores.all();
     for (std::size_t i = 0; i < scores.size(); ++i) {
       const std::string estimator = scores[i].text("estimator");
-      const bool is_constant =
-          estimator == experiments::always_contact_name || estimator == "oracle";
-      if (is_constant || !is_shown(scores[i])) continue;
-      std::vector<Interval> contact_frequency;
-      for (const TableRow& bin : result.tables.reliability.all()) {
-        if (bin.text("estimator") != estimator || !is_shown(bin)) continue;
-        contact_frequency.push_back(bin.interval("contact_frequency"));
-      }
+      if (is_constant(estimator) || !is_shown(scores[i])) continue;
       const scoring::Score& total = result.tables.totals[i];
       panel.rows.push_back({experiments::estimator_entry(result.experiment, estimator).title,
-                            line_type_of(result.experiment.estimators, estimator),
-                            total.calibration, std::move(contact_frequency), total.takeoff,
+                            line_type_of(result.experiment.estimators, estimator), total.takeoff,
                             total.landing});
     }
     if (!panel.rows.empty()) panels.push_back(std::move(panel));
@@ -113,54 +61,31 @@ std::vector<ScorePanel> score_panels(const experiments::ExperimentResult& result
 
 }  // namespace
 
-Figure draw_reliability_figure(const ScoreFigure& figure, const FigureFile& target) {
-  if (figure.panels.empty() || figure.panels.front().rows.empty()) {
-    throw InputError("a reliability figure without curves");
-  }
-  const double key = 76.0 + text_width(names_in(figure));
-  // Printed narrow, the key is below the panels.
-  PanelColumns across =
-      columns_in(target.room(), left_margin + key, {figure.panels.size(), side, gap}, side);
-  const bool has_room = left_margin + 0.7 * side + key <= target.room();
-  if (!has_room) across = columns_in(target.room(), left_margin + 24.0, {1, side, gap}, 0.0);
-  const double step = counts_top + counts_height + 64.0;
-  const std::size_t lines = (figure.panels.size() + across.count - 1) / across.count;
-  const double right = left_margin + across.left(across.count - 1) + across.width;
-  const auto rows = static_cast<double>(figure.panels.front().rows.size());
-  const double key_top = has_room ? 28.0 : static_cast<double>(lines) * step;
-  const FigureFrame frame(target, {figure.title, figure.caption, reliability_described(figure)},
-                          right + (has_room ? key : 24.0),
-                          static_cast<double>(lines) * step - 6.0 + (has_room ? 0.0 : 20.0 * rows));
-  const std::string file = gnuplot_file(target.name() + ".dat");
-  std::string commands = "set xrange [0:1]\nset errorbars 0 lw 0.9 dt 1\n";
-  std::size_t block = 0;
-  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
-    const ScorePanel& panel = figure.panels[i];
-    const double left = left_margin + across.left(i % across.count);
-    const std::size_t line = i / across.count;
-    const double top = static_cast<double>(line) * step;
-    commands += frame.panel(left, top + 26.0, across.width, side);
-    commands += fmt::format(
-        "set title {} offset 0,-0.6\nset yrange [0:1]\nset ytics 0.2\nset xtics 0.2\n"
-        "set format y '%g'\nset format x '%g'\nunset logscale y\n"
-        "unset xlabel\nset ylabel {}\n"
-        "set arrow from 0,0 to 1,1 nohead back lc rgb '#9aa1a8' lw 1 dt 1\n",
-        gnuplot_text(panel.title), i % across.count == 0 ? "'share of steps in contact'" : "''");
-    commands += i == 0 ? frame.key(has_room ? right + 22.0 : left_margin, key_top) : "unset key\n";
-    commands += "plot 2 lc rgb '#ffffff'" +
-                curves(panel, file, block, "2:3:4:5", "yerrorbars dt 1 pt 0", false) +
-                curves(panel, file, block, "2:3", "linespoints", i == 0) + '\n' +
-                FigureFrame::end_panel();
-    commands += frame.panel(left, top + counts_top, across.width, counts_height);
-    commands += fmt::format(
-        "unset title\nunset key\nset logscale y\nset yrange [1:*]\nset ytics autofreq 100\n"
-        "set format y '%.0s%c'\nset xlabel 'stated probability of contact'\nset ylabel {}\n",
-        i % across.count == 0 ? "'steps'" : "''");
-    commands += "plot 0.1 lc rgb '#ffffff'" +
-                curves(panel, file, block, "1:6", "linespoints ps 0.4", false) + '\n';
-    block += panel.rows.size();
-  }
-  return frame.draw(commands, reliability_data(figure));
+experiments::FigureSpec reliability_figure(const Table& reliability,
+                                           const experiments::Experiment& experiment,
+                                           const std::string& simulator) {
+  experiments::FigureSpec spec{.name = "reliability_" + simulator, .table = "reliability.csv"};
+  spec.where = {{"simulator", simulator}, {"view", scoring::scored_views().front()}};
+  spec.panels = experiments::noise_panels(reliability);
+  spec.series = experiments::groups_in(reliability, "estimator", experiments::titles_in(experiment),
+                                       spec.where);
+  std::erase_if(spec.series.groups,
+                [](const auto& group) { return is_constant(group.values.front()); });
+  spec.colour_order = experiment.estimators;
+  spec.x = {.column = "mean_probability",
+            .title = "stated probability of contact",
+            .from = 0.0,
+            .to = 1.0};
+  experiments::FigureAxis share =
+      experiments::axis_with_interval("contact_frequency", "share of steps in contact");
+  share.from = 0.0;
+  share.to = 1.0;
+  share.has_diagonal = true;
+  spec.measures = {share,
+                   {.column = "steps", .title = "steps", .scale = experiments::AxisScale::log}};
+  spec.title = fmt::format("Calibration of contact probabilities: {}, {}", experiment.name,
+                           simulators::simulator_title(simulator));
+  return spec;
 }
 
 namespace {
@@ -324,12 +249,19 @@ void draw_scores(const experiments::ExperimentResult& result, const std::atomic<
     const std::vector<ScorePanel> panels = score_panels(result, simulator);
     if (panels.empty() || experiments::test_runs(result, simulator).scored == 0) continue;
     const std::string scored = experiments::scored_text(result, simulator);
-    draw_reliability_figure(
-        {"Calibration of contact probabilities: " + where, panels,
-         fmt::format("{}. Every step of both wheels counts. Bars: {}. On the diagonal, the stated "
-                     "probability equals the share of steps in contact. Below: steps per bin.",
-                     scored, experiments::intervals_text(experiment))},
-        target("reliability"));
+    experiments::FigureSpec reliability =
+        reliability_figure(result.tables.reliability, experiment, simulator);
+    reliability.caption = fmt::format(
+        "{}. Every step of both wheels counts. Bars: {}. On the diagonal, the stated "
+        "probability equals the share of steps in contact. Below: steps per bin.",
+        scored, experiments::intervals_text(experiment));
+    experiments::FigureSpec brier = reliability;
+    std::swap(brier.rows, brier.series);
+    brier.measures = {{.column = "brier", .title = "Brier score"}};
+    reliability.alt =
+        "Share of steps in contact against the stated probability of contact. Brier scores:" +
+        experiments::values_text(brier, result.tables.scores);
+    draw_facets(reliability, result.tables.reliability, target("reliability"));
     draw_latency_figure(
         {"Latency of takeoffs and landings: " + where, panels,
          fmt::format(

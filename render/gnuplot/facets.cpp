@@ -250,6 +250,7 @@ class FacetFigure {
       text += separator + plot;
       separator = ", \\\n     ";
     };
+    if (measures_[place.measure]->has_diagonal) add("x with lines lc rgb '#9aa1a8' dt 1 notitle");
     for (std::size_t i = 0; i < series_.size(); ++i) {
       const std::string style = series_style(spec_, series_[i]);
       const bool is_curve = key_shape(spec_) == std::string_view("linespoints");

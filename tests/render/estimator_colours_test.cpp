@@ -55,18 +55,7 @@ TEST(EstimatorColours, AreTheSameInFiguresOfDifferentSubsets) {
               AllOf(HasSubstr("with yerrorlines lt 3 "), Not(HasSubstr("with yerrorlines lt 1 "))));
 }
 
-TEST(EstimatorColours, AreThoseOfTheScoresAndFilms) {
-  const ScratchFolder folder;
-  ScoreRow row;
-  row.name = "Load filter";
-  row.line_type = line_type_of(estimators, "load_filter");
-  for (int i = 0; i < 10; ++i) row.calibration.add(true, 0.9);
-  row.contact_frequency.resize(scoring::Calibration::bins);
-  const ScoreFigure figure{"Reliability", {{"no noise", {row}}}, ""};
-  draw_reliability_figure(figure, folder / "reliability");
-  EXPECT_THAT(read_file(folder / "reliability.gp"),
-              ContainsRegex("with linespoints lt 3 lw [0-9.]+ title 'Load filter'"));
-
+TEST(EstimatorColours, AreThoseOfFilms) {
   const models::RobotModel robot = models::compile_robot_model(upkie_mjcf, staged_terrain());
   const logs::Recording run = staged_run(0.5);
   const std::vector<BeliefTrack> beliefs = {

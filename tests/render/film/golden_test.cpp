@@ -1,12 +1,18 @@
 #include "tests/render/film/golden.hpp"
 
 #include <cmath>
+#include <filesystem>
+#include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "core/rows.hpp"
+#include "experiments/config/experiment.hpp"
 #include "render/figures/figures.hpp"
+#include "render/gnuplot/facets.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {
@@ -52,28 +58,28 @@ DensityFigure densities(double width_in_the_air = 0.12) {
   return figure;
 }
 
-ScoreFigure reliability() {
-  ScoreFigure figure{"Reliability", {{"no noise", {}}}, "4 runs."};
-  for (const char* name : {"first", "second", "third"}) {
-    ScoreRow row{.name = name,
-                 .line_type = 1 + figure.panels[0].rows.size(),
-                 .calibration = {},
-                 .contact_frequency = {},
-                 .takeoff = {},
-                 .landing = {}};
-    const double power = 0.5 + 0.5 * static_cast<double>(figure.panels[0].rows.size());
-    for (int i = 0; i < 1000; ++i) {
-      const int draw = i / 100;
-      const double p = (i % 100 + 0.5) / 100.0;
-      row.calibration.add((draw + 0.5) / 10.0 < std::pow(p, power), p);
+/// Three estimators, of which one may be missing.
+Table reliability(const std::string& without = {}) {
+  std::string text =
+      "simulator,view,torque_noise_nm,accelerometer_noise_mps2,estimator,steps,mean_probability,"
+      "contact_frequency,contact_frequency_low,contact_frequency_high\n";
+  double power = 0.5;
+  for (const std::string estimator : {"robust", "paper", "load_filter"}) {
+    for (int bin = 0; bin < 10 && estimator != without; ++bin) {
+      const double p = 0.1 * bin + 0.05;
+      const double share = std::pow(p, power);
+      text += fmt::format("mujoco,wheels,0,0,{},{},{},{},{},{}\n", estimator, 10 * (bin + 1), p,
+                          share, share - 0.04, share + 0.04);
     }
-    for (const scoring::Calibration::Bin& bin : row.calibration.bin) {
-      const double frequency = bin.contact_frequency();
-      row.contact_frequency.push_back({frequency, frequency - 0.04, frequency + 0.04});
-    }
-    figure.panels[0].rows.push_back(std::move(row));
+    power += 0.5;
   }
-  return figure;
+  return table_of(from_csv(text));
+}
+
+Figure reliability_of(const Table& table, const std::filesystem::path& stem) {
+  experiments::Experiment experiment;
+  experiment.estimators = {"robust", "paper", "load_filter"};
+  return draw_facets(reliability_figure(table, experiment, "mujoco"), table, stem).value();
 }
 
 ScoreFigure latencies() {
@@ -114,7 +120,7 @@ class Golden : public ::testing::Test {
 TEST_F(Golden, FiguresLookLikeTheirCopies) {
   expect_same("heatmap", draw_heatmap(heatmap(), stem("heatmap")));
   expect_same("densities", draw_density_figure(densities(), stem("densities")));
-  expect_same("reliability", draw_reliability_figure(reliability(), stem("reliability")));
+  expect_same("reliability", reliability_of(reliability(), stem("reliability")));
   expect_same("latency", draw_latency_figure(latencies(), stem("latency")));
 }
 
@@ -125,12 +131,8 @@ TEST_F(Golden, OtherContentIsNoticed) {
   another_cell.panels[0].value[1][1] = 4.5;
   EXPECT_FALSE(same_picture(compared("heatmap", draw_heatmap(another_cell, stem("cell")))));
 
-  ScoreFigure without_a_curve = reliability();
-  ScoreRow& gone = without_a_curve.panels[0].rows[1];
-  gone.calibration = {};
-  for (Interval& interval : gone.contact_frequency) interval = {NAN, NAN, NAN};
-  EXPECT_FALSE(same_picture(
-      compared("reliability", draw_reliability_figure(without_a_curve, stem("curve")))));
+  EXPECT_FALSE(
+      same_picture(compared("reliability", reliability_of(reliability("paper"), stem("curve")))));
 
   DensityFigure wider = densities(0.16);
   EXPECT_FALSE(same_picture(compared("densities", draw_density_figure(wider, stem("wider")))));

@@ -53,14 +53,7 @@ Figure print_densities(const FigureFile& file) {
 }
 
 ScoreFigure score_figure() {
-  ScoreRow row{.name = long_name,
-               .line_type = 1,
-               .calibration = {},
-               .contact_frequency = {},
-               .takeoff = {},
-               .landing = {}};
-  for (int i = 0; i < 1000; ++i) row.calibration.add(i % 3 > 0, (i + 0.5) / 1000.0);
-  row.contact_frequency.assign(scoring::Calibration::bins, {0.6, 0.5, 0.7});
+  ScoreRow row{.name = long_name, .line_type = 1, .takeoff = {}, .landing = {}};
   for (int i = 0; i < 60; ++i) {
     row.takeoff.add({scoring::EventKind::takeoff, scoring::Judgement::detected, 0, i}, 1000);
     row.landing.add({scoring::EventKind::landing, scoring::Judgement::detected, 0, -i}, 1000);
@@ -135,7 +128,6 @@ const PrintedKind kinds[] = {
     {"map_6", [](const FigureFile& file) { return print_map(file, 6, 3); }},
     {"map_13", [](const FigureFile& file) { return print_map(file, 13, 4); }},
     {"densities", print_densities},
-    {"reliability", [](const FigureFile& f) { return draw_reliability_figure(score_figure(), f); }},
     {"latency", [](const FigureFile& f) { return draw_latency_figure(score_figure(), f); }},
     {"curves", [](const FigureFile& file) { return print_facets(file, false); }},
     {"rows", [](const FigureFile& file) { return print_facets(file, true); }},
