@@ -48,12 +48,12 @@ void add_watch(CLI::App& program, const CliSession& /*session*/) {
             "touchdown watch scenarios/stairs.yaml\n"
             "touchdown watch robot.mpack --labels labels.csv --film robot.mp4\n\n"
             "Shows a robot in a window, live or from a log, while estimators run on it. It needs "
-            "GLFW.");
+            "GLFW and Dear ImGui.");
   verb.action_on_words([](const std::vector<std::string>& words) {
     execute(
         "touchdown-watch", words,
-        "`make viewer` builds it, with the package libglfw3-dev; `touchdown render` makes films "
-        "without it");
+        "`make viewer` installs its packages and builds it; `touchdown render` makes films without "
+        "it");
   });
 }
 

@@ -5,10 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <opencv2/core.hpp>
-
 #include "logs/log/label_edits.hpp"
-#include "render/film/plots.hpp"
 
 namespace touchdown::viewer {
 
@@ -110,31 +107,5 @@ class LabelEditor {
   bool is_changed_ = false;
   std::string problem_;
 };
-
-/// The steps that lanes show: step `first` is at `left` (px).
-struct LaneScale {
-  double first = 0.0, steps_per_pixel = 1.0;
-  int left = 0, width = 0;
-
-  double x(double step) const { return left + (step - first) / steps_per_pixel; }
-  double step(double x) const { return first + (x - left) * steps_per_pixel; }
-};
-
-/// The column of a time of the log.
-int column_of(const LabelEditor& editor, const LaneScale& scale, double time);
-
-/// Colours of contact, air and unknown time (0xRRGGBB).
-inline constexpr unsigned contact_colour = 0x2f8f5b, air_colour = 0xa9cdf0,
-                          unknown_colour = 0xc9ccd2;
-
-/// Draws the labels of a wheel between two heights of `image`, with what is selected.
-void draw_lane(cv::Mat& image, const LabelEditor& editor, std::size_t wheel, const LaneScale& scale,
-               int top, int bottom);
-/// Draws amber marks where a person should look: the lower, the less sure.
-void draw_sureness(cv::Mat& image, const LabelEditor& editor, const LaneScale& scale, int top,
-                   int bottom);
-/// Draws ticks with the log's times (s).
-void draw_ruler(cv::Mat& image, const render::TextPen& pen, const LabelEditor& editor,
-                const LaneScale& scale, int top, int bottom);
 
 }  // namespace touchdown::viewer

@@ -38,6 +38,7 @@ LiveControls::LiveControls(LiveRequest request, std::function<void()> started)
       started_(std::move(started)),
       settings_(request_.settings),
       loop_(make_run()) {
+  for (const auto& [name, profile] : request_.sensors) sensor_names_.push_back(name);
   take_over();
 }
 
@@ -55,10 +56,6 @@ void LiveControls::take_over() {
     sources_ = run.contact_sources();
     settings_ = run.settings();
   });
-}
-
-std::string LiveControls::sensors_name() const {
-  return request_.sensors.empty() ? "ideal" : request_.sensors[sensors_].first;
 }
 
 /// The settings that a number sets, all of them alike.
@@ -121,16 +118,13 @@ void LiveControls::change_engine() {
   restart();
 }
 
-void LiveControls::next_contact_source() {
-  change([&](LiveSettings& settings) {
-    settings.contact_source = (settings.contact_source + 1) % sources_.size();
-  });
+void LiveControls::choose_contact_source(std::size_t index) {
+  change([&](LiveSettings& settings) { settings.contact_source = index; });
 }
 
-void LiveControls::next_sensors() {
-  if (request_.sensors.empty()) return;
-  sensors_ = (sensors_ + 1) % request_.sensors.size();
-  change([&](LiveSettings& settings) { settings.sensors = request_.sensors[sensors_].second; });
+void LiveControls::choose_sensors(std::size_t index) {
+  sensors_ = index;
+  change([&](LiveSettings& settings) { settings.sensors = request_.sensors[index].second; });
 }
 
 void LiveControls::save() {

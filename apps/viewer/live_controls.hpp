@@ -15,7 +15,7 @@ struct LiveRequest {
   LiveScene scene;
   std::vector<experiments::LogEstimator> estimators;
   LiveSettings settings;
-  std::vector<std::pair<std::string, noise::SensorProfile>> sensors;  ///< that `p` changes between
+  std::vector<std::pair<std::string, noise::SensorProfile>> sensors;  ///< to choose from
   std::filesystem::path record = {};  ///< recording to write at the end; empty: none
   int width = 1280, height = 720;     ///< of the window
   bool measures = false;              ///< the parts of each picture, which takes a little longer
@@ -41,9 +41,10 @@ class LiveControls {
   const LiveScene& scene() const { return request_.scene; }
   const LiveSettings& settings() const { return settings_; }
   const std::vector<std::string>& estimators() const { return estimators_; }
-  const std::string& contact_source() const { return sources_[settings_.contact_source]; }
-  std::string sensors_name() const;
-  double speed() const { return speed_; }  ///< simulated seconds per second
+  const std::vector<std::string>& contact_sources() const { return sources_; }
+  const std::vector<std::string>& sensor_profiles() const { return sensor_names_; }
+  std::size_t sensors() const { return sensors_; }  ///< index of the profile
+  double speed() const { return speed_; }           ///< simulated seconds per second
   bool is_paused() const { return is_paused_; }
   const simulators::Simulator& simulator() const { return *simulator_; }
 
@@ -62,8 +63,8 @@ class LiveControls {
   void restart();
   void start_next_draw();
   void change_engine();
-  void next_contact_source();
-  void next_sensors();
+  void choose_contact_source(std::size_t index);
+  void choose_sensors(std::size_t index);
 
   /// Saves the present run, if runs are recorded.
   void save();
@@ -82,7 +83,8 @@ class LiveControls {
   const simulators::Simulator* simulator_ = nullptr;
   std::vector<std::string> estimators_;  ///< titles
   std::vector<std::string> sources_;     ///< of contact for the policy
-  std::size_t sensors_ = 0;              ///< index of the profile
+  std::vector<std::string> sensor_names_;
+  std::size_t sensors_ = 0;
   double speed_ = 1.0;
   bool is_paused_ = false;
   std::vector<std::string> saved_;

@@ -11,31 +11,17 @@
 #include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "apps/viewer/curves.hpp"
 #include "apps/viewer/label_editor.hpp"
-#include "apps/viewer/panel.hpp"
 #include "apps/viewer/screen.hpp"
 #include "apps/viewer/watch.hpp"
 #include "render/film/scene_view.hpp"
-#include "render/film/strip.hpp"
 
 namespace touchdown::viewer {
 
-/// Heights of what is above the curves (pixels).
-struct LogAreas {
-  static constexpr int time_line = 22;
-  static constexpr int overview_lane = 9;
-  static constexpr int overview = 2 * overview_lane + 4;  ///< both wheels' labels of the whole log
-  static constexpr int ruler = 18;
-  static constexpr int lane_height = 22;
-  static constexpr int sure = 8;  ///< marks of what is unsure, between the lanes
-  static constexpr int lanes = ruler + 2 * lane_height + sure + 4;
-  static constexpr int lanes_height = overview + lanes;  ///< of all that labels add
-
-  /// The top of a wheel's lane, below that of the ruler.
-  static constexpr int lane_top(std::size_t wheel) {
-    return ruler + static_cast<int>(wheel) * (lane_height + sure);
-  }
-};
+/// Heights that labels add to the plots (px): both wheels' labels of the whole log; ruler and
+/// lanes.
+inline constexpr float overview_height = 22.0F, lanes_height = 70.0F;
 
 /// A person's film of a log, picture by picture.
 class Film {
@@ -67,13 +53,11 @@ class Film {
 /// log_pictures.cpp.
 class LogWindow {
  public:
-  /// Keeps a reference to `run`. Errors: those of `Film` and `Window`.
+  /// Keeps a reference to `run`. Errors: those of `Film` and `Screen`.
   LogWindow(LoggedRun& run, const LogSession& session);
 
   void watch(const std::atomic<bool>& stop) {
-    screen_.watch(
-        stop, [this](double seconds) { draw(seconds); },
-        [this](const Mouse& mouse) { use_mouse(mouse); });
+    screen_.watch(stop, [this](double seconds) { draw(seconds); });
   }
 
   /// What to print at the end. Errors: those of `LabelEditor::finish`.
@@ -100,49 +84,41 @@ class LogWindow {
   /// Finds flights and errors anew, of another estimator or after an edit.
   void find_events();
   std::vector<std::uint8_t> known_wheels() const;
-  std::vector<KeyBinding> time_keys();
-  std::vector<KeyBinding> label_keys();
-  std::vector<KeyBinding> film_keys();
+  void bind_time_keys();
+  void bind_label_keys();
+  void bind_film_keys();
   void edit(const std::function<void(LabelEditor&)>& action);
   void set_state(logs::LabelState state, bool both_wheels);
-  void use_mouse(const Mouse& mouse);
-  void press(const Mouse& mouse);
-  void zoom(double steps);
   void draw(double seconds);
   void draw_scene(double seconds);
   void draw_film();
-  void draw_time_line(const Area& area);
-  void draw_lanes();
-  void make_strip();
-  std::vector<PanelLine> panel_lines() const;
-  void add_label_lines(std::vector<PanelLine>& lines) const;
+  void draw_panel() const;
+  void add_contact_lines() const;
+  void add_label_lines() const;
+  void draw_plots();
+  void draw_time_line();
+  void draw_lanes(const LaneScale& scale);
+  /// Selects and drags what the mouse holds in a wheel's lane, the last widget.
+  void use_lane(std::size_t wheel, const LaneScale& scale);
 
-  Area time_line() const;
-  /// Ruler and lanes of the zoomed part, below the time line; and the curves below them.
-  Area lanes() const;
-  Area curves() const;
-  double present() const { return editor_ ? 0.5 : render::StripWindow{}.present; }
-  LaneScale zoomed() const;
+  /// Position of the present among the plots: a share of their width.
+  double present() const { return editor_ ? 0.5 : 0.75; }
 
   LoggedRun& run_;
   std::optional<Film> film_;
   double film_offset_;  ///< of the film's time before the log's (s)
-  Window window_;
   Screen screen_;
   render::Poses poses_;
   LogClock clock_;
   std::optional<LabelEditor> editor_;
   std::size_t estimator_ = 0;  ///< the one with the errors
   std::vector<StepRange> flights_, errors_;
-  std::optional<render::SignalStrip> strip_;
-  cv::Mat plots_;
-  double view_seconds_ = render::StripWindow{}.seconds;
+  std::vector<render::StripRow> rows_;  ///< plots
+  double view_seconds_ = 4.0;           ///< that they show
   double time_ = 0.0;
   double speed_ = 1.0;
   bool paused_ = false;
   bool jumps_ = true;
-  Mouse last_mouse_;
-  enum class Held : int { none, time_line, curves, edge } held_ = Held::none;
 };
 
 }  // namespace touchdown::viewer

@@ -4,34 +4,21 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <iterator>
-#include <map>
 #include <thread>
+#include <utility>
 
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
+#include <imgui/backends/imgui_impl_glfw.h>
+#include <imgui/backends/imgui_impl_opengl3.h>
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
+#include "render/film/plots.hpp"
 
 namespace touchdown::viewer {
 
 namespace {
-
-/// 0 for a key without a meaning here.
-int key_of(int glfw_key) {
-  static const std::map<int, int> named = {
-      {GLFW_KEY_LEFT, key_left},     {GLFW_KEY_RIGHT, key_right},
-      {GLFW_KEY_UP, key_up},         {GLFW_KEY_DOWN, key_down},
-      {GLFW_KEY_HOME, key_home},     {GLFW_KEY_END, key_end},
-      {GLFW_KEY_ESCAPE, key_escape}, {GLFW_KEY_BACKSPACE, key_backspace},
-      {GLFW_KEY_ENTER, key_enter},   {GLFW_KEY_KP_ENTER, key_enter},
-      {GLFW_KEY_DELETE, key_delete}};
-  if (const auto found = named.find(glfw_key); found != named.end()) return found->second;
-  // GLFW numbers printable keys by the upper-case characters of a US keyboard.
-  return glfw_key >= GLFW_KEY_SPACE && glfw_key <= GLFW_KEY_GRAVE_ACCENT ? std::tolower(glfw_key)
-                                                                         : 0;
-}
 
 [[noreturn]] void complain_about_display() {
   const char* reason = nullptr;
@@ -60,116 +47,34 @@ constexpr double lowest = 10.0;                   // degrees, looking up
 constexpr double highest = -89.0;                 // degrees, looking down
 constexpr double follow_time = 0.25;              // s
 
+/// Pixels per unit of the window: more than one on displays of high resolution.
+float pixel_scale() { return ImGui::GetIO().DisplayFramebufferScale.x; }
+
+/// The pixels of an area of the window, which OpenGL counts from below.
+mjrRect pixels_of(const Area& area) {
+  const auto pixels = [](float length) {
+    return static_cast<int>(std::lround(length * pixel_scale()));
+  };
+  const float bottom = ImGui::GetIO().DisplaySize.y - area.top - area.height;
+  return {pixels(area.left), pixels(bottom), pixels(area.width), pixels(area.height)};
+}
+
 }  // namespace
 
-struct Window::Callbacks {
-  static WindowInput& input(GLFWwindow* window) {
-    return static_cast<Window*>(glfwGetWindowUserPointer(window))->input_;
-  }
-
+struct Screen::Callbacks {
   static void key(GLFWwindow* window, int key, int scancode, int action, int modifiers) {
-    if (action == GLFW_RELEASE) return;
-    // A letter is found by what its key writes on the user's keyboard, not by its place.
-    int meaning = key_of(key);
+    if (action == GLFW_RELEASE || ImGui::GetIO().WantTextInput) return;
+    // A letter is found by what its key writes on the user's keyboard, not by its place. Without a
+    // name, GLFW numbers printable keys by the upper-case characters of a US keyboard.
+    int meaning = key <= GLFW_KEY_GRAVE_ACCENT ? std::tolower(std::max(0, key)) : key;
     const char* const written = glfwGetKeyName(key, scancode);
     if (written != nullptr && written[0] != '\0' && written[1] == '\0') {
       meaning = std::tolower(static_cast<unsigned char>(written[0]));
     }
-    if (meaning == 0) return;
-    input(window).keys.push_back({meaning, (modifiers & GLFW_MOD_SHIFT) != 0});
-  }
-
-  static void scroll(GLFWwindow* window, double /*x*/, double y) {
-    input(window).mouse.scrolled += y;
+    auto& screen = *static_cast<Screen*>(glfwGetWindowUserPointer(window));
+    screen.pressed_.push_back({meaning, (modifiers & GLFW_MOD_SHIFT) != 0});
   }
 };
-
-Window::Window(const std::string& title, int width, int height) {
-  if (glfwInit() == GLFW_FALSE) complain_about_display();
-  window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
-  if (window_ == nullptr) {
-    glfwTerminate();
-    complain_about_display();
-  }
-  glfwMakeContextCurrent(window_);
-  glfwSwapInterval(1);
-  glfwSetWindowUserPointer(window_, this);
-  glfwSetKeyCallback(window_, Callbacks::key);
-  glfwSetScrollCallback(window_, Callbacks::scroll);
-  glfwSetInputMode(window_, GLFW_STICKY_MOUSE_BUTTONS, GLFW_TRUE);  // a click between two pictures
-  constexpr int least_width = 800;
-  constexpr int least_height = 600;
-  glfwSetWindowSizeLimits(window_, least_width, least_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
-}
-
-Window::~Window() {
-  glfwDestroyWindow(window_);
-  glfwTerminate();
-}
-
-bool Window::is_open() const { return glfwWindowShouldClose(window_) == GLFW_FALSE; }
-void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
-
-cv::Size Window::size() const {
-  cv::Size size;
-  glfwGetFramebufferSize(window_, &size.width, &size.height);
-  return size;
-}
-
-void Window::show() { glfwSwapBuffers(window_); }
-
-WindowInput Window::take_input() {
-  glfwPollEvents();
-  Mouse& mouse = input_.mouse;
-  glfwGetCursorPos(window_, &mouse.x, &mouse.y);
-  int window_width = 1;
-  glfwGetWindowSize(window_, &window_width, nullptr);
-  const double scale = static_cast<double>(size().width) / (window_width > 0 ? window_width : 1);
-  mouse.x *= scale;
-  mouse.y *= scale;
-  mouse.left = glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
-  mouse.right = glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS;
-  WindowInput taken = std::exchange(input_, {});
-  return taken;
-}
-
-/// Acts on pressed keys, in their order. Keys without a binding do nothing.
-static void act_on(const std::vector<KeyBinding>& bindings, const std::vector<KeyPress>& presses) {
-  for (const KeyPress& press : presses) {
-    for (const KeyBinding& binding : bindings) {
-      const auto& keys = binding.keys;
-      if (std::find(keys.begin(), keys.end(), press.key) != keys.end()) binding.act(press);
-    }
-  }
-}
-
-/// The list of keys and of what the mouse does, at most `width`·`height` pixels.
-static cv::Mat key_list(const render::TextPen& pen, const std::vector<KeyBinding>& bindings,
-                        const std::vector<std::pair<std::string, std::string>>& mouse, int width,
-                        int height) {
-  std::vector<std::pair<std::string, std::string>> lines;
-  for (const KeyBinding& binding : bindings) lines.emplace_back(binding.label, binding.text);
-  lines.insert(lines.end(), mouse.begin(), mouse.end());
-  const int count = static_cast<int>(lines.size());
-  const int line = std::clamp((height - 24) / std::max(1, count), 10, 18);
-  const int letters = line * 6 / 10;
-  int labels = 0;
-  int texts = 0;
-  for (const auto& [label, text] : lines) {
-    labels = std::max(labels, pen.width(label, letters));
-    texts = std::max(texts, pen.width(text, letters));
-  }
-  const int margin = line;
-  cv::Mat image(std::min(height, count * line + 2 * (margin / 2)),
-                std::min(width, labels + texts + 3 * margin), CV_8UC3, render::strip_paper);
-  int top = margin / 2;
-  for (const auto& [label, text] : lines) {
-    pen.write(image, label, margin, top, letters, render::rgb(0x0072b2));
-    pen.write(image, text, 2 * margin + labels, top, letters, render::strip_ink);
-    top += line;
-  }
-  return image;
-}
 
 void CameraControl::next_mode() {
   mode_ = (mode_ + 1) % cameras().size();
@@ -193,20 +98,6 @@ void CameraControl::follow(const Eigen::Vector3d& base, double seconds) {
   follows_ = true;
 }
 
-Layout layout_of(int width, int height, const Extras& extras) {
-  const int plots = std::clamp(height * 36 / 100, 160, 420) + extras.above_plots;
-  const int panel = std::clamp(width * 24 / 100, 220, 420);
-  const int above = std::max(1, height - plots);
-  const int left = std::max(2, width - panel);
-  // At most half for the film, as far as its height fills it.
-  const int film = std::min(left / 2, static_cast<int>(std::lround(extras.film_aspect * above)));
-  const int scene = left - film;
-  return {{0, 0, scene, above},
-          {scene, 0, film, above},
-          {left, 0, panel, above},
-          {0, above, width, plots}};
-}
-
 Chip contact_chip(int wheels) {
   if (wheels == 0) return {"IN THE AIR", orange};
   return wheels == 1 ? Chip{"ON ONE WHEEL", brown} : Chip{"ON THE GROUND", green};
@@ -216,80 +107,190 @@ Chip running_chip(bool is_paused, double speed) {
   return is_paused ? Chip{"PAUSED", dark} : Chip{fmt::format("{:.3g}× speed", speed), dark};
 }
 
-mjrRect Screen::viewport() const {
-  const Area scene = layout().scene;
-  return {scene.left, window_.size().height - scene.top - scene.height, scene.width, scene.height};
+/// Makes Dear ImGui's state, with our font and colours.
+static void begin_widgets(GLFWwindow* window, const std::string& font) {
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;  // nothing is remembered
+  ImGui::StyleColorsLight();
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.WindowBorderSize = 0.0F;
+  style.FramePadding = {4.0F, 1.0F};
+  style.ItemSpacing = {8.0F, 3.0F};
+  style.Colors[ImGuiCol_WindowBg] = ImGui::ColorConvertU32ToFloat4(colour_of(paper));
+  style.Colors[ImGuiCol_FrameBg] = ImGui::ColorConvertU32ToFloat4(colour_of(0xdfe3e6));
+  style.Colors[ImGuiCol_SliderGrab] = ImGui::ColorConvertU32ToFloat4(colour_of(0x0072b2));
+  style.Colors[ImGuiCol_Text] = ImGui::ColorConvertU32ToFloat4(colour_of(ink));
+  constexpr float letters = 15.0F;  // px
+  // Latin, Greek and Cyrillic letters, punctuation, arrows, signs of mathematics.
+  static constexpr ImWchar characters[] = {0x20, 0x52f, 0x2010, 0x203a, 0x2190, 0x22ff, 0};
+  ImGui::GetIO().Fonts->AddFontFromFileTTF(font.c_str(), letters, nullptr, characters);
+  ImGui_ImplGlfw_InitForOpenGL(window, true);  // calls what was set before, too
+  ImGui_ImplOpenGL3_Init();
 }
 
-void Screen::draw_scene(std::span<const render::SceneVector> vectors) {
-  view_->draw(viewport(), camera_.target(), camera_.camera(), vectors);
+Screen::Screen(const std::string& title, int width, int height, const Extras& extras)
+    : extras_(extras) {
+  const std::string font = render::font_file();
+  if (glfwInit() == GLFW_FALSE) complain_about_display();
+  window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+  if (window_ == nullptr) {
+    glfwTerminate();
+    complain_about_display();
+  }
+  glfwMakeContextCurrent(window_);
+  glfwSwapInterval(1);
+  glfwSetWindowUserPointer(window_, this);
+  glfwSetKeyCallback(window_, Callbacks::key);
+  constexpr int least_width = 800;
+  constexpr int least_height = 600;
+  glfwSetWindowSizeLimits(window_, least_width, least_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  begin_widgets(window_, font);
+  bind({'h'}, "h", "show or hide this list", [this](auto&) { shows_keys_ = !shows_keys_; });
+  bind({'v'}, "v", "next camera", [this](auto&) { camera_.next_mode(); });
+  bind({'q', GLFW_KEY_ESCAPE}, "q  Esc", "quit",
+       [this](auto&) { glfwSetWindowShouldClose(window_, GLFW_TRUE); });
 }
 
-void Screen::draw(const cv::Mat& picture, int left, int top) {
-  cv::Mat flipped;
-  cv::flip(picture, flipped, 0);  // OpenGL counts from below
-  cv::cvtColor(flipped, upload_, cv::COLOR_BGR2RGB);
-  view_->copy(upload_.data,
-              {left, window_.size().height - top - picture.rows, picture.cols, picture.rows});
+Screen::~Screen() {
+  view_.reset();  // while there is a context
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+  glfwDestroyWindow(window_);
+  glfwTerminate();
 }
 
-void Screen::draw_keys(const std::vector<std::pair<std::string, std::string>>& mouse) {
-  if (!shows_keys_) return;
-  const Area scene = layout().scene;
-  const int right = scene.left + scene.width + layout().film.width;
-  const cv::Mat picture = key_list(pen_, bindings_, mouse, right, scene.height);
-  draw(picture, std::max(0, right - picture.cols),
-       scene.top + std::max(0, (scene.height - picture.rows) / 2));
+void Screen::bind(std::vector<int> keys, std::string names, std::string text,
+                  std::function<void(const KeyPress&)> act) {
+  bindings_.push_back({std::move(keys), std::move(names), std::move(text), std::move(act)});
 }
 
-void Screen::bind(std::vector<KeyBinding> keys) {
-  bindings_ = {
-      {{'h'}, "h", "show or hide this list", [this](auto&) { shows_keys_ = !shows_keys_; }}};
-  std::move(keys.begin(), keys.end(), std::back_inserter(bindings_));
-  bindings_.push_back({{'v'}, "v", "next camera", [this](auto&) { camera_.next_mode(); }});
-  bindings_.push_back({{'q', key_escape}, "q  Esc", "quit", [this](auto&) { window_.close(); }});
-}
-
-void Screen::watch(const std::atomic<bool>& stop, const std::function<void(double)>& draw_picture,
-                   const std::function<void(const Mouse&)>& use_mouse) {
+void Screen::watch(const std::atomic<bool>& stop, const std::function<void(double)>& draw_picture) {
   using Clock = std::chrono::steady_clock;
   Clock::time_point last = Clock::now();
-  while (window_.is_open() && !stop) {
+  while (glfwWindowShouldClose(window_) == GLFW_FALSE && !stop) {
     const Clock::time_point now = Clock::now();
+    glfwPollEvents();
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+    for (const KeyPress& press : std::exchange(pressed_, {})) {
+      for (const KeyBinding& binding : bindings_) {
+        if (std::ranges::count(binding.keys, press.key) > 0) binding.act(press);
+      }
+    }
     draw_picture(std::chrono::duration<double>(now - last).count());
     last = now;
-    const WindowInput input = window_.take_input();
-    act_on(bindings_, input.keys);
-    use_mouse(input.mouse);
     std::this_thread::sleep_until(now + shortest_frame);
   }
 }
 
-void Screen::draw_chips(const std::vector<Chip>& chips) {
-  constexpr int height = 28;
-  int left = height / 2;
-  int top = height / 2;
+Layout Screen::layout() const {
+  const auto [width, height] = ImGui::GetIO().DisplaySize;
+  const float plots = std::floor(std::clamp(0.36F * height, 160.0F, 420.0F)) + extras_.above_plots;
+  const float panel = std::floor(std::clamp(0.24F * width, 300.0F, 420.0F));
+  const float above = std::max(1.0F, height - plots);
+  const float left = std::max(2.0F, width - panel);
+  // At most half for the film, as far as its height fills it.
+  const float film =
+      std::floor(std::min(0.5F * left, static_cast<float>(extras_.film_aspect) * above));
+  const float scene = left - film;
+  return {{0.0F, 0.0F, scene, above},
+          {scene, 0.0F, film, above},
+          {left, 0.0F, panel, above},
+          {0.0F, above, width, plots}};
+}
+
+void Screen::draw_scene(std::span<const render::SceneVector> vectors) {
+  view_->draw(pixels_of(layout().scene), camera_.target(), camera_.camera(), vectors);
+}
+
+void Screen::draw_picture(const cv::Mat& picture, const Area& area) {
+  const mjrRect pixels = pixels_of(area);
+  cv::Mat image(pixels.height, pixels.width, CV_8UC3, render::rgb(0x101214));
+  if (!picture.empty()) {
+    const double scale = std::min(static_cast<double>(pixels.width) / picture.cols,
+                                  static_cast<double>(pixels.height) / picture.rows);
+    const int width = std::clamp(static_cast<int>(picture.cols * scale), 1, pixels.width);
+    const int height = std::clamp(static_cast<int>(picture.rows * scale), 1, pixels.height);
+    const cv::Rect place((image.cols - width) / 2, (image.rows - height) / 2, width, height);
+    cv::resize(picture, image(place), place.size(), 0, 0, cv::INTER_AREA);
+  }
+  cv::flip(image, image, 0);  // OpenGL counts from below
+  cv::cvtColor(image, image, cv::COLOR_BGR2RGB);
+  view_->copy(image.data, pixels);
+}
+
+void Screen::draw_chips(const std::vector<Chip>& chips, const Area& area) {
+  constexpr float height = 28.0F;
+  constexpr float gap = 9.0F;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  ImVec2 at(area.left + gap, area.top + gap);
   for (const Chip& chip : chips) {
-    const int width = pen_.width(chip.text, height / 2) + 2 * (2 * height / 5);
-    if (left > height / 2 && left + width > layout().scene.width) {  // in the next line
-      left = height / 2;
-      top += height + height / 3;
+    const ImVec2 text = ImGui::CalcTextSize(chip.text.c_str());
+    const float width = text.x + 2.0F * gap;
+    if (at.x > area.left + gap && at.x + width > area.left + area.width) {  // in the next line
+      at = {area.left + gap, at.y + height + gap};
     }
-    cv::Mat image(height, width, CV_8UC3);
-    pen_.chip(image, chip.text, 0, 0, height, render::rgb(chip.colour));
-    draw(image, left, top);
-    left += width + height / 3;
+    list.AddRectFilled(at, {at.x + width, at.y + height}, colour_of(chip.colour));
+    list.AddText({at.x + gap, at.y + 0.5F * (height - text.y)}, IM_COL32_WHITE, chip.text.c_str());
+    at.x += width + gap;
   }
 }
 
-std::optional<Eigen::Vector3d> Screen::robot_under(const Mouse& mouse) const {
-  const Area scene = layout().scene;
-  return view_->robot_at(viewport(), (mouse.x - scene.left) / scene.width,
-                         1.0 - (mouse.y - scene.top) / scene.height);
+/// At the right edge of the scene, where the list hides no robot.
+void Screen::draw_keys() const {
+  const float right = layout().panel.left;
+  ImGui::SetNextWindowPos({right, 0.0F}, ImGuiCond_Always, {1.0F, 0.0F});
+  ImGui::SetNextWindowSizeConstraints({0.0F, 0.0F}, {right, ImGui::GetIO().DisplaySize.y});
+  ImGui::Begin("keys", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {6.0F, 0.0F});
+  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+    for (const KeyBinding& binding : bindings_) {
+      ImGui::TableNextColumn();
+      ImGui::TextColored({0.0F, 0.45F, 0.7F, 1.0F}, "%s", binding.names.c_str());
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(binding.text.c_str());
+    }
+    ImGui::EndTable();
+  }
+  ImGui::PopStyleVar();
+  ImGui::End();
 }
 
-Eigen::Vector3d Screen::motion_of(const Eigen::Vector3d& point, double right, double down) const {
-  return view_->motion_of(viewport(), point, {right, -down});
+void Screen::draw_widgets() {
+  if (shows_keys_) draw_keys();
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void Screen::show() { glfwSwapBuffers(window_); }
+
+bool Screen::has_mouse() const {
+  const ImGuiIO& io = ImGui::GetIO();
+  return !io.WantCaptureMouse && io.MousePos.x < layout().scene.width;
+}
+
+bool Screen::has_mouse_on_robot() const {
+  const Area scene = layout().scene;
+  const ImVec2 at = ImGui::GetIO().MousePos;
+  return has_mouse() && view_->robot_at(pixels_of(scene), (at.x - scene.left) / scene.width,
+                                        1.0F - (at.y - scene.top) / scene.height);
+}
+
+void Screen::move_camera() {
+  if (!has_mouse()) return;
+  const ImGuiIO& io = ImGui::GetIO();
+  camera_.approach(io.MouseWheel);
+  if (std::max(io.MouseDownDuration[0], io.MouseDownDuration[1]) > 0.0F) {
+    camera_.turn(io.MouseDelta.x, io.MouseDelta.y);
+  }
+}
+
+Eigen::Vector3d Screen::motion_of(const Eigen::Vector3d& point) const {
+  const ImVec2 moved = ImGui::GetIO().MouseDelta;
+  return view_->motion_of(pixels_of(layout().scene), point,
+                          {moved.x * pixel_scale(), -moved.y * pixel_scale()});
 }
 
 }  // namespace touchdown::viewer

@@ -13,13 +13,17 @@
 #include "logs/recording.hpp"
 #include "models/robot_model.hpp"
 #include "render/film/request.hpp"
+#include "render/palette.hpp"
 
 namespace touchdown::viewer {
+
+/// The colour (0xRRGGBB) of the i-th estimator, as in figures and films.
+inline unsigned estimator_colour(std::size_t i) { return render::line_colour(i + 1); }
 
 /// The times of a session's pictures (s, all of them added).
 struct PictureTimes {
   double scene = 0.0;    ///< MuJoCo draws robot and terrain
-  double overlay = 0.0;  ///< labels, panel and plots are painted and copied into the window
+  double overlay = 0.0;  ///< labels, panel and plots
   double display = 0.0;  ///< the window system shows the picture
 };
 

@@ -6,26 +6,20 @@
 #include <utility>
 #include <vector>
 
+#include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
+#include "apps/viewer/curves.hpp"
 #include "apps/viewer/live_controls.hpp"
-#include "apps/viewer/panel.hpp"
 #include "apps/viewer/screen.hpp"
 #include "apps/viewer/watch.hpp"
+#include "apps/viewer/widgets.hpp"
 #include "render/film/scene_view.hpp"
 #include "scenarios/scenario.hpp"
 
 namespace touchdown::viewer {
 
 namespace {
-
-PanelLine slider_line(const LiveControls& controls, LiveNumber number, std::string text,
-                      std::string value) {
-  return {.text = std::move(text),
-          .value = std::move(value),
-          .slider = PanelSlider{static_cast<int>(number),
-                                controls.value(number) / range_of(number).most}};
-}
 
 /// "26 ± 1, – N": left and right wheel.
 std::string load_text(const std::array<WheelLoad, models::wheel_count>& load) {
@@ -34,28 +28,6 @@ std::string load_text(const std::array<WheelLoad, models::wheel_count>& load) {
                                    : fmt::format("{:.0f} ± {:.0f}", wheel.force, wheel.deviation);
   };
   return fmt::format("{}, {} N", text(load[0]), text(load[1]));
-}
-
-void add_estimators(const LiveControls& controls, const LiveState& state,
-                    std::vector<PanelLine>& lines) {
-  lines.push_back(
-      {.text = "contact: left and right wheel", .value = "success rate", .heading = true});
-  lines.push_back({.text = "ground truth", .badges = ContactBadges{state.contact}});
-  for (std::size_t i = 0; i < controls.estimators().size(); ++i) {
-    PanelLine line{.text = controls.estimators()[i], .colour = render::rgb(estimator_colour(i))};
-    if (i < state.estimates.size()) {
-      const LiveState::Estimate& estimate = state.estimates[i];
-      line.value = fmt::format("{:5.1f} %", 100.0 * estimate.accuracy);
-      line.badges = ContactBadges{
-          estimate.contact,
-          {estimate.contact[0] != state.contact[0], estimate.contact[1] != state.contact[1]}};
-    }
-    lines.push_back(std::move(line));
-    if (i >= state.estimates.size()) continue;
-    const auto& load = state.estimates[i].load;
-    if (std::isnan(load[0].force) && std::isnan(load[1].force)) continue;
-    lines.push_back({.text = "  load", .value = load_text(load)});
-  }
 }
 
 /// The estimators that decide wrongly now; empty without one.
@@ -83,42 +55,60 @@ std::vector<Chip> live_chips(const LiveControls& controls, const LiveState& stat
   return chips;
 }
 
-/// The lines of the panel beside it. The number of a slider is a `LiveNumber`.
-std::vector<PanelLine> live_panel(const LiveControls& controls, const LiveState& state) {
-  std::vector<PanelLine> lines;
-  add_estimators(controls, state, lines);
-  lines.push_back({.text = "policy", .heading = true});
-  const bool is_scenarios = controls.settings().contact_source == 0;
-  lines.push_back({.text = is_scenarios ? "scenario's contact (o)" : "contact from (o)",
-                   .value = controls.contact_source()});
-  lines.push_back(slider_line(controls, LiveNumber::contact_delay, "  delayed by (b)",
-                              fmt::format("{:.0f} ms", 1e3 * controls.settings().contact_delay)));
-  lines.push_back({.text = "  received", .badges = ContactBadges{state.policy_contact}});
-  lines.push_back({.text = "speed (↑ ↓)", .value = fmt::format("{:.1f} m/s", state.velocity)});
-  lines.push_back({.text = "turn (← →)", .value = fmt::format("{:.1f} rad/s", state.yaw_rate)});
-  lines.push_back({.text = "crouch (c)", .value = fmt::format("{:.1f} rad", state.hip)});
-  lines.push_back({.text = "sensors", .heading = true});
-  lines.push_back({.text = "profile (p)", .value = controls.sensors_name()});
-  const noise::SensorNoise& noise = controls.settings().noise;
-  lines.push_back(slider_line(controls, LiveNumber::torque_noise, "torque noise (t)",
-                              fmt::format("{:.2f} N·m", noise.knee_torque)));
-  lines.push_back(slider_line(controls, LiveNumber::acceleration_noise, "accelerometer noise (a)",
-                              fmt::format("{:.0f} m/s²", noise.acceleration)));
-  const LiveScene& scene = controls.scene();
-  lines.push_back({.text = scene.run < 0
-                               ? "no random draw (n)"
-                               : fmt::format("seed {}, draw {} (n)", scene.seed, scene.run),
-                   .value = state.rate > 0.0 ? fmt::format("{:.2f}× real time", state.rate) : "",
-                   .heading = true});
-  lines.push_back({.text = "h: all keys", .heading = true});
-  return lines;
+void add_estimators(const LiveControls& controls, const LiveState& state) {
+  panel_line("contact: left and right wheel", "success rate", {}, grey);
+  panel_line("ground truth", {}, ContactBadges{state.contact});
+  for (std::size_t i = 0; i < controls.estimators().size(); ++i) {
+    const std::string& name = controls.estimators()[i];
+    if (i >= state.estimates.size()) {
+      panel_line(name, {}, {}, estimator_colour(i));
+      continue;
+    }
+    const LiveState::Estimate& estimate = state.estimates[i];
+    panel_line(name, fmt::format("{:5.1f} %", 100.0 * estimate.accuracy),
+               ContactBadges{estimate.contact, state.contact}, estimator_colour(i));
+    if (!std::isnan(estimate.load[0].force) || !std::isnan(estimate.load[1].force)) {
+      panel_line("  load", load_text(estimate.load));
+    }
+  }
+}
+
+/// A slider that sets a number, in steps as its keys do. `format` is that of `printf`, with a unit
+/// that is `scale` times smaller than the number's own.
+void add_slider(LiveControls& controls, LiveNumber number, const char* title, const char* format,
+                double scale = 1.0) {
+  const auto [step, most] = range_of(number);
+  auto value = static_cast<float>(scale * controls.value(number));
+  if (ImGui::SliderFloat(widget_title(title).c_str(), &value, 0.0F,
+                         static_cast<float>(scale * most), format)) {
+    controls.set(number, step * std::round(value / (scale * step)));
+  }
+}
+
+void add_policy(LiveControls& controls, const LiveState& state) {
+  panel_heading("policy");
+  const std::size_t source = controls.settings().contact_source;
+  const auto chosen = choice(source == 0 ? "scenario's contact (o)" : "contact from (o)",
+                             controls.contact_sources(), source);
+  if (chosen) controls.choose_contact_source(*chosen);
+  add_slider(controls, LiveNumber::contact_delay, "delayed by (b)", "%.0f ms", 1e3);
+  panel_line("received", {}, ContactBadges{state.policy_contact});
+  panel_line("speed (↑ ↓)", fmt::format("{:.1f} m/s", state.velocity));
+  panel_line("turn (← →)", fmt::format("{:.1f} rad/s", state.yaw_rate));
+  panel_line("crouch (c)", fmt::format("{:.1f} rad", state.hip));
+}
+
+void add_sensors(LiveControls& controls) {
+  panel_heading("sensors");
+  const auto chosen = choice("profile (p)", controls.sensor_profiles(), controls.sensors());
+  if (chosen) controls.choose_sensors(*chosen);
+  add_slider(controls, LiveNumber::torque_noise, "torque noise (t)", "%.2f N·m");
+  add_slider(controls, LiveNumber::acceleration_noise, "accelerometer noise (a)", "%.0f m/s²");
 }
 
 constexpr double velocity_step = 0.1;  // m/s
-
 constexpr double yaw_rate_step = 0.2;  // rad/s
-
-constexpr double crouch_step = 0.1;  // rad
+constexpr double crouch_step = 0.1;    // rad
 
 /// A key that increases a number, and decreases it with Shift.
 std::function<void(const KeyPress&)> changing(LiveControls& controls, LiveNumber number) {
@@ -128,89 +118,55 @@ std::function<void(const KeyPress&)> changing(LiveControls& controls, LiveNumber
   };
 }
 
-std::vector<KeyBinding> driving_keys(LiveControls& controls) {
-  return {
-      {{key_up, key_down},
-       "↑ ↓",
-       "drive faster, slower or backwards",
-       [&controls](const KeyPress& press) {
-         const double step = press.key == key_up ? velocity_step : -velocity_step;
-         controls.use([&](LiveRun& run) { run.drive(step, 0.0); });
-       }},
-      {{key_left, key_right},
-       "← →",
-       "turn left, right",
-       [&controls](const KeyPress& press) {
-         const double step = press.key == key_left ? yaw_rate_step : -yaw_rate_step;
-         controls.use([&](LiveRun& run) { run.drive(0.0, step); });
-       }},
-      {{key_backspace},
-       "Backspace",
-       "stop driving",
-       [&controls](auto&) { controls.use(&LiveRun::stop_driving); }},
-      {{'c'},
-       "c  C",
-       "crouch lower, higher",
-       [&controls](const KeyPress& press) {
-         const double step = press.shift ? -crouch_step : crouch_step;
-         controls.use([&](LiveRun& run) { run.crouch(step); });
-       }},
-      {{'j'}, "j", "hop", [&controls](auto&) { controls.use(&LiveRun::hop); }},
-  };
+void bind_driving(Screen& screen, LiveControls& controls) {
+  screen.bind({GLFW_KEY_UP, GLFW_KEY_DOWN}, "↑ ↓", "drive faster, slower or backwards",
+              [&controls](const KeyPress& press) {
+                const double step = press.key == GLFW_KEY_UP ? velocity_step : -velocity_step;
+                controls.use([&](LiveRun& run) { run.drive(step, 0.0); });
+              });
+  screen.bind({GLFW_KEY_LEFT, GLFW_KEY_RIGHT}, "← →", "turn left, right",
+              [&controls](const KeyPress& press) {
+                const double step = press.key == GLFW_KEY_LEFT ? yaw_rate_step : -yaw_rate_step;
+                controls.use([&](LiveRun& run) { run.drive(0.0, step); });
+              });
+  screen.bind({GLFW_KEY_BACKSPACE}, "Backspace", "stop driving",
+              [&controls](auto&) { controls.use(&LiveRun::stop_driving); });
+  screen.bind({'c'}, "c  C", "crouch lower, higher", [&controls](const KeyPress& press) {
+    const double step = press.shift ? -crouch_step : crouch_step;
+    controls.use([&](LiveRun& run) { run.crouch(step); });
+  });
+  screen.bind({'j'}, "j", "hop", [&controls](auto&) { controls.use(&LiveRun::hop); });
 }
 
-std::vector<KeyBinding> time_keys(LiveControls& controls) {
-  return {
-      {{' '},
-       "Space",
-       "pause or continue",
-       [&controls](auto&) { controls.pause(!controls.is_paused()); }},
-      {{'.'},
-       ".  :",
-       "pause and simulate one step, 50 steps",
-       [&controls](const KeyPress& press) { controls.step(press.shift ? 50 : 1); }},
-      {{'s', 'f'},
-       "s  f",
-       "half, double the speed",
-       [&controls](const KeyPress& press) { controls.scale_speed(press.key == 's' ? 0.5 : 2.0); }},
-      {{'r'}, "r", "restart this run", [&controls](auto&) { controls.restart(); }},
-      {{'n'},
-       "n",
-       "start the next random draw",
-       [&controls](auto&) { controls.start_next_draw(); }},
-      {{'e'},
-       "e",
-       "change the physics engine, restart",
-       [&controls](auto&) { controls.change_engine(); }},
-  };
+void bind_time(Screen& screen, LiveControls& controls) {
+  screen.bind({' '}, "Space", "pause or continue",
+              [&controls](auto&) { controls.pause(!controls.is_paused()); });
+  screen.bind({'.'}, ".  :", "pause and simulate one step, 50 steps",
+              [&controls](const KeyPress& press) { controls.step(press.shift ? 50 : 1); });
+  screen.bind({'s', 'f'}, "s  f", "half, double the speed", [&controls](const KeyPress& press) {
+    controls.scale_speed(press.key == 's' ? 0.5 : 2.0);
+  });
+  screen.bind({'r'}, "r", "restart this run", [&controls](auto&) { controls.restart(); });
+  screen.bind({'n'}, "n", "start the next random draw",
+              [&controls](auto&) { controls.start_next_draw(); });
+  screen.bind({'e'}, "e", "change the physics engine, restart",
+              [&controls](auto&) { controls.change_engine(); });
 }
 
-std::vector<KeyBinding> sensing_keys(LiveControls& controls) {
-  return {
-      {{'t'}, "t  T", "more, less torque noise", changing(controls, LiveNumber::torque_noise)},
-      {{'a'},
-       "a  A",
-       "more, less accelerometer noise",
-       changing(controls, LiveNumber::acceleration_noise)},
-      {{'p'}, "p", "next sensor profile", [&controls](auto&) { controls.next_sensors(); }},
-      {{'o'},
-       "o",
-       "next contact source of the policy",
-       [&controls](auto&) { controls.next_contact_source(); }},
-      {{'b'},
-       "b  B",
-       "more, less delay of the policy's contact",
-       changing(controls, LiveNumber::contact_delay)},
-  };
-}
-
-/// The keys of a live run. Keeps the reference.
-std::vector<KeyBinding> live_keys(LiveControls& controls) {
-  std::vector<KeyBinding> keys = driving_keys(controls);
-  for (const auto& more : {time_keys(controls), sensing_keys(controls)}) {
-    keys.insert(keys.end(), more.begin(), more.end());
-  }
-  return keys;
+void bind_sensing(Screen& screen, LiveControls& controls) {
+  screen.bind({'t'}, "t  T", "more, less torque noise",
+              changing(controls, LiveNumber::torque_noise));
+  screen.bind({'a'}, "a  A", "more, less accelerometer noise",
+              changing(controls, LiveNumber::acceleration_noise));
+  screen.bind({'p'}, "p", "next sensor profile", [&controls](auto&) {
+    controls.choose_sensors((controls.sensors() + 1) % controls.sensor_profiles().size());
+  });
+  screen.bind({'o'}, "o", "next contact source of the policy", [&controls](auto&) {
+    controls.choose_contact_source((controls.settings().contact_source + 1) %
+                                   controls.contact_sources().size());
+  });
+  screen.bind({'b'}, "b  B", "more, less delay of the policy's contact",
+              changing(controls, LiveNumber::contact_delay));
 }
 
 using Clock = std::chrono::steady_clock;
@@ -222,23 +178,26 @@ class LiveWindow {
  public:
   explicit LiveWindow(LiveRequest request)
       : measures_(request.measures),
-        window_("touchdown: " + request.scene.scenario.name, request.width, request.height),
-        screen_(window_),
+        screen_("touchdown: " + request.scene.scenario.name, request.width, request.height),
         controls_(std::move(request), [this] { show_run(); }) {
-    screen_.bind(live_keys(controls_));
+    bind_driving(screen_, controls_);
+    bind_time(screen_, controls_);
+    bind_sensing(screen_, controls_);
+    screen_.bind({}, "drag the robot", "push, pull or lift it");
+    screen_.bind({}, "drag elsewhere", "turn the camera");
+    screen_.bind({}, "mouse wheel", "move the camera");
+    screen_.bind({}, "drag a slider", "set noise or delay");
+    screen_.bind({}, "errors are red", "more of them: t, a, p, e, lift it");
     show_run();
   }
 
   LiveSession watch(const std::atomic<bool>& stop) {
     LiveSession session;
     const Clock::time_point start = Clock::now();
-    screen_.watch(
-        stop,
-        [&](double seconds) {
-          draw(seconds);
-          ++session.frames;
-        },
-        [this](const Mouse& mouse) { use_mouse(mouse); });
+    screen_.watch(stop, [&](double seconds) {
+      draw(seconds);
+      ++session.frames;
+    });
     session.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     controls_.save();
     session.recorded = controls_.saved();
@@ -248,9 +207,11 @@ class LiveWindow {
 
  private:
   void show_run();
-  void use_mouse(const Mouse& mouse);
+  void use_mouse();
   void draw(double seconds);
   void draw_scene(double seconds);
+  void draw_panel();
+  void draw_plots();
   Eigen::Vector3d handle() const {
     const models::GroundTruth& truth = state_.truth;
     return truth.base_position + truth.base_orientation * LiveRun::handle();
@@ -267,60 +228,37 @@ class LiveWindow {
 
   bool measures_;
   PictureTimes times_;
-  Window window_;
   Screen screen_;
   LiveControls controls_;
-  std::optional<LivePlots> plots_;
+  std::vector<render::StripRow> rows_;  ///< plots
   LiveState state_;
-  std::vector<PanelLine> lines_;  ///< of the panel
-  bool jumps_ = true;             ///< the camera does not glide to the robot
-  Mouse last_mouse_;
-  /// What the left button holds: the point that a drag pulls to, a slider, or nothing while it
-  /// turns the camera.
-  std::optional<Eigen::Vector3d> dragged_;
-  std::optional<LiveNumber> slid_;
+  bool jumps_ = true;                       ///< the camera does not glide to the robot
+  std::optional<Eigen::Vector3d> dragged_;  ///< the point that the mouse pulls to
 };
 
 /// Makes screen and curves anew for another run.
 void LiveWindow::show_run() {
   const simulators::Simulator& simulator = controls_.simulator();
   const models::RobotModel& robot = simulator.model();
-  plots_.emplace(controls_.estimators().size(), LiveRun::sample_steps * simulator.control_period(),
-                 standard_gravity * robot.mj->body_subtreemass[0]);
+  rows_ =
+      live_rows(controls_.estimators().size(), LiveRun::sample_steps * simulator.control_period(),
+                standard_gravity * robot.mj->body_subtreemass[0]);
   screen_.set_robot(robot);
   dragged_.reset();
   jumps_ = true;
 }
 
-void LiveWindow::use_mouse(const Mouse& mouse) {
-  const Mouse before = std::exchange(last_mouse_, mouse);
-  const Layout layout = screen_.layout();
-  const bool in_scene = layout.scene.contains(mouse.x, mouse.y);
-  if (in_scene) screen_.camera().approach(mouse.scrolled);
-  const double right = mouse.x - before.x;
-  const double down = mouse.y - before.y;
-  if (mouse.left && !before.left) {
-    if (in_scene && screen_.robot_under(mouse)) dragged_ = handle();
-    const auto slider = slider_at(lines_, layout.panel.width, layout.panel.height,
-                                  mouse.x - layout.panel.left, mouse.y - layout.panel.top);
-    if (layout.panel.contains(mouse.x, mouse.y) && slider) {
-      slid_ = static_cast<LiveNumber>(slider->number);
-    }
-  }
-  if (!mouse.left) {
-    slid_.reset();
-    if (dragged_) controls_.use([](LiveRun& run) { run.drag(std::nullopt); });
+void LiveWindow::use_mouse() {
+  if (dragged_ && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+    controls_.use([](LiveRun& run) { run.drag(std::nullopt); });
     dragged_.reset();
-  }
-  if (slid_) {
-    const LiveRange range = range_of(*slid_);
-    const double share = slider_share(layout.panel.width, mouse.x - layout.panel.left);
-    controls_.set(*slid_, range.step * std::round(share * range.most / range.step));
   } else if (dragged_) {
-    *dragged_ += screen_.motion_of(*dragged_, right, down);
+    *dragged_ += screen_.motion_of(*dragged_);
     controls_.use([&](LiveRun& run) { run.drag(Drag{*dragged_}); });
-  } else if ((mouse.left && before.left) || (mouse.right && before.right)) {
-    if (in_scene) screen_.camera().turn(right, down);
+  } else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && screen_.has_mouse_on_robot()) {
+    dragged_ = handle();
+  } else {
+    screen_.move_camera();
   }
 }
 
@@ -344,26 +282,44 @@ void LiveWindow::draw_scene(double seconds) {
   screen_.draw_scene(vectors);
 }
 
+void LiveWindow::draw_panel() {
+  begin_area("panel", screen_.layout().panel, true);
+  add_estimators(controls_, state_);
+  add_policy(controls_, state_);
+  add_sensors(controls_);
+  const LiveScene& scene = controls_.scene();
+  panel_heading(scene.run < 0 ? "no random draw (n)"
+                              : fmt::format("seed {}, draw {} (n)", scene.seed, scene.run),
+                state_.rate > 0.0 ? fmt::format("{:.2f}× real time", state_.rate) : "");
+  panel_heading("h: all keys");
+  ImGui::End();
+}
+
+void LiveWindow::draw_plots() {
+  constexpr double seconds = 6.0;
+  constexpr double present = 0.98;  // share of them
+  append(rows_, state_.samples);
+  const Area area = screen_.layout().plots;
+  const double steps = seconds / rows_.front().period;
+  const auto samples = static_cast<double>(rows_.front().wheels_in_contact.size());
+  const double now = std::max(0.0, samples - 1.0);
+  begin_area("plots", area, false);
+  draw_curves(rows_, scale_of(area, now - present * steps, steps), area, now, true);
+  ImGui::End();
+}
+
 void LiveWindow::draw(double seconds) {
   Clock::time_point start = Clock::now();
+  use_mouse();
   state_ = controls_.state();
   draw_scene(seconds);
   measure(times_.scene, start);
-  plots_->append(state_.samples);
-  const Layout layout = screen_.layout();
-  screen_.draw_chips(live_chips(controls_, state_));
-  screen_.draw_keys({{"drag the robot", "push, pull or lift it"},
-                     {"drag elsewhere", "turn the camera"},
-                     {"mouse wheel", "move the camera"},
-                     {"drag a blue bar", "set noise or delay"},
-                     {"errors are red", "more of them: t, a, p, e, lift it"}});
-  lines_ = live_panel(controls_, state_);
-  screen_.draw(panel(screen_.pen(), lines_, layout.panel.width, layout.panel.height),
-               layout.panel.left, layout.panel.top);
-  screen_.draw(plots_->draw(layout.plots.width, layout.plots.height), layout.plots.left,
-               layout.plots.top);
+  screen_.draw_chips(live_chips(controls_, state_), screen_.layout().scene);
+  draw_panel();
+  draw_plots();
+  screen_.draw_widgets();
   measure(times_.overlay, start);
-  window_.show();
+  screen_.show();
   measure(times_.display, start);
 }
 

@@ -1,11 +1,10 @@
 #include <algorithm>
-#include <cmath>
-#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "apps/viewer/log_window.hpp"
+#include "render/film/strip.hpp"
 
 namespace touchdown::viewer {
 
@@ -20,8 +19,12 @@ std::vector<double> times_of(const logs::Recording& recording) {
   return times;
 }
 
-void append(std::vector<KeyBinding>& keys, std::vector<KeyBinding> more) {
-  std::move(more.begin(), more.end(), std::back_inserter(keys));
+/// Plots as in films.
+std::vector<render::StripRow> rows_of(const LoggedRun& run) {
+  std::vector<render::StripRow> rows =
+      render::strip_rows({{run.robot, run.recording, run.beliefs}}, {});
+  std::erase_if(rows, [](const render::StripRow& one) { return one.curves.empty(); });
+  return rows;
 }
 
 }  // namespace
@@ -30,17 +33,21 @@ LogWindow::LogWindow(LoggedRun& run, const LogSession& session)
     : run_(run),
       film_(session.film.empty() ? std::nullopt : std::make_optional<Film>(session.film)),
       film_offset_(session.film_offset),
-      window_("touchdown: " + run.name, session.width, session.height),
-      screen_(window_, {.film_aspect = film_ ? film_->size().aspectRatio() : 0.0,
-                        .above_plots = session.labels ? LogAreas::lanes_height : 0}),
+      screen_("touchdown: " + run.name, session.width, session.height,
+              {.film_aspect = film_ ? film_->size().aspectRatio() : 0.0,
+               .above_plots = session.labels ? overview_height + lanes_height : 0.0F}),
       poses_(run.robot, run.recording),
-      clock_(times_of(run.recording), run.recording.period()) {
+      clock_(times_of(run.recording), run.recording.period()),
+      rows_(rows_of(run)) {
   if (session.labels) editor_.emplace(*session.labels, clock_);
   screen_.set_robot(run.robot);
-  std::vector<KeyBinding> keys = time_keys();
-  if (editor_) append(keys, label_keys());
-  if (film_) append(keys, film_keys());
-  screen_.bind(std::move(keys));
+  bind_time_keys();
+  if (editor_) bind_label_keys();
+  if (film_) bind_film_keys();
+  if (editor_) screen_.bind({}, "lanes", "click an interval; drag an edge");
+  screen_.bind({}, "time line", "click or drag: orange flights, red errors");
+  screen_.bind({}, "curves", "drag the time; mouse wheel: zoom");
+  screen_.bind({}, "scene", "drag turns the camera; mouse wheel: distance");
   find_events();
 }
 
@@ -65,69 +72,7 @@ void LogWindow::find_events() {
   if (editor_) run_.contact = labelled_contact(run_.recording, editor_->labels());
   flights_ = flights_of(run_);
   errors_ = errors_of(run_, estimator_);
-  if (strip_) strip_->growing_row(0, 0.0).wheels_in_contact = known_wheels();
-}
-
-void LogWindow::zoom(double steps) {
-  constexpr double factor = 0.8;
-  constexpr double shortest = 0.04;  // s
-  constexpr double longest = 60.0;   // s
-  if (steps == 0.0) return;
-  view_seconds_ = std::clamp(view_seconds_ * std::pow(factor, steps), shortest, longest);
-  strip_.reset();
-}
-
-/// Takes what is under the mouse.
-void LogWindow::press(const Mouse& mouse) {
-  constexpr double grip = 6.0;  // px: an edge is taken this near
-  held_ = Held::none;
-  if (time_line().contains(mouse.x, mouse.y)) held_ = Held::time_line;
-  if (curves().contains(mouse.x, mouse.y)) held_ = Held::curves;
-  const Area area = lanes();
-  if (!area.contains(mouse.x, mouse.y) || !strip_) return;
-  paused_ = true;
-  const LaneScale scale = zoomed();
-  const auto time_at = [&](double x) {
-    return clock_.time_of(static_cast<std::size_t>(std::max(0.0, std::floor(scale.step(x)))));
-  };
-  for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
-    const double y = mouse.y - area.top - LogAreas::lane_top(wheel);
-    if (y < 0.0 || y >= LogAreas::lane_height) continue;
-    const double tolerance = std::max(grip * scale.steps_per_pixel, 0.5) * period();
-    const double exact = time_at(mouse.x) + 0.5 * period();
-    if (editor_->select_edge(wheel, exact, tolerance)) {
-      held_ = Held::edge;
-    } else {
-      editor_->select_interval(wheel, time_at(mouse.x));
-    }
-  }
-}
-
-void LogWindow::use_mouse(const Mouse& mouse) {
-  const Mouse before = std::exchange(last_mouse_, mouse);
-  const Layout layout = screen_.layout();
-  const bool in_scene = layout.scene.contains(mouse.x, mouse.y);
-  if (in_scene) screen_.camera().approach(mouse.scrolled);
-  if (layout.plots.contains(mouse.x, mouse.y)) zoom(mouse.scrolled);
-  if (mouse.left && !before.left) press(mouse);
-  const bool moves = mouse.x != before.x || mouse.y != before.y;
-  if (!mouse.left) {
-    if (std::exchange(held_, Held::none) == Held::edge) {
-      edit([](LabelEditor& editor) { editor.drop(); });
-    }
-  } else if (held_ == Held::time_line) {
-    const Area line = time_line();
-    seek(duration() * (mouse.x - line.left) / line.width);
-    jumps_ = true;
-  } else if (held_ == Held::curves && before.left && strip_) {
-    seek(time_ - (mouse.x - before.x) * zoomed().steps_per_pixel * period());
-    paused_ = true;
-  } else if (held_ == Held::edge && before.left && moves) {
-    const double step = std::round(zoomed().step(mouse.x));
-    editor_->drag(clock_.time_of(static_cast<std::size_t>(std::max(0.0, step))));
-  } else if (in_scene && mouse.left && before.left) {
-    screen_.camera().turn(mouse.x - before.x, mouse.y - before.y);
-  }
+  if (!run_.contact[0].empty()) rows_.front().wheels_in_contact = known_wheels();
 }
 
 std::string watch_log(LoggedRun run, const LogSession& session, const std::atomic<bool>& stop) {

@@ -12,8 +12,6 @@ namespace touchdown::render {
 
 namespace {
 
-const char* const font_file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-
 constexpr int oversampling = 2;
 constexpr double span_margin = 0.1;  // s: the end of a line must not be visible at the image's edge
 
@@ -93,12 +91,13 @@ int floor_div(int a, int b) { return a / b - (a % b < 0 ? 1 : 0); }
 
 }  // namespace
 
-TextPen::TextPen() : font_(cv::freetype::createFreeType2()) {
-  if (!is_there(font_file)) {
-    throw Error(std::string(font_file) + " is missing: install fonts-dejavu-core");
-  }
-  font_->loadFontData(font_file, 0);
+std::string font_file() {
+  std::string file = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+  if (!is_there(file)) throw Error(file + " is missing: install fonts-dejavu-core");
+  return file;
 }
+
+TextPen::TextPen() : font_(cv::freetype::createFreeType2()) { font_->loadFontData(font_file(), 0); }
 
 int TextPen::width(const std::string& text, int height) const {
   int baseline = 0;

@@ -21,7 +21,10 @@ inline Colour rgb(unsigned value) {
   return {colour_part(value, 0), colour_part(value, 8), colour_part(value, 16), 255.0};
 }
 
-/// Writes text in DejaVu Sans. Errors: `Error` when the font is not installed.
+/// The file of DejaVu Sans. Errors: `Error` when the font is not installed.
+std::string font_file();
+
+/// Writes text in DejaVu Sans. Errors: those of `font_file`.
 class TextPen {
  public:
   TextPen();

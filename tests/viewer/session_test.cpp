@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <sys/wait.h>
 
@@ -28,7 +29,9 @@ std::string text(const ScratchFolder& folder, const std::string& name) {
   return read_file(folder / name);
 }
 
-bool has_display_tools() { return std::system("command -v Xvfb xdotool >/dev/null 2>&1") == 0; }
+bool has_display_tools() {
+  return std::system("command -v Xvfb xdotool ffmpeg >/dev/null 2>&1") == 0;
+}
 
 /// Runs the viewer on a display of its own while `script` uses keys and mouse.
 int watch(const ScratchFolder& folder, const std::string& script, const std::string& arguments,
@@ -40,10 +43,10 @@ int watch(const ScratchFolder& folder, const std::string& script, const std::str
 std::string quoted(const std::filesystem::path& path) { return "'" + path.string() + "'"; }
 
 TEST(WatchSession, LiftsDrivesAndSwitchesAndTheRecordingsRepeat) {
-  if (!has_display_tools()) GTEST_SKIP() << "needs the packages xvfb and xdotool";
+  if (!has_display_tools()) GTEST_SKIP() << "needs the packages xvfb, xdotool and ffmpeg";
   const ScratchFolder folder;
   const std::string script =
-      "sleep 2; xdotool mousemove 349 155 mousedown 1; "  // the torso
+      "sleep 2; xdotool mousemove 309 155 mousedown 1; "  // the torso
       "for i in $(seq 15); do xdotool mousemove_relative -- 0 -8; sleep 0.1; done; sleep 0.5; "
       "xdotool mouseup 1; sleep 0.5; xdotool key r; sleep 1; "
       "xdotool key h; sleep 0.5; xdotool key h; "
@@ -91,8 +94,43 @@ TEST(WatchSession, LiftsDrivesAndSwitchesAndTheRecordingsRepeat) {
   }
 }
 
+/// The pixels of a colour (0xRRGGBB) in columns and rows [begin, end) of the window's picture.
+int pixels_of(const std::string& picture, unsigned colour, std::array<std::size_t, 2> columns,
+              std::array<std::size_t, 2> rows) {
+  constexpr std::size_t width = 900;
+  int count = 0;
+  for (std::size_t y = rows[0]; y < rows[1]; ++y) {
+    for (std::size_t x = columns[0]; x < columns[1]; ++x) {
+      unsigned pixel = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        pixel = 256 * pixel + static_cast<unsigned char>(picture.at(3 * (y * width + x) + i));
+      }
+      if (pixel == colour) ++count;
+    }
+  }
+  return count;
+}
+
+/// MuJoCo and the widgets share an OpenGL context, in which each must find its own state again.
+TEST(WatchSession, DrawsPanelAndPlotsBesideTheSceneAndTheMouseSetsASlider) {
+  if (!has_display_tools()) GTEST_SKIP() << "needs the packages xvfb, xdotool and ffmpeg";
+  const ScratchFolder folder;
+  const auto file = folder / "picture.rgb";
+  const std::string script =
+      "sleep 2; xdotool mousemove 825 284 mousedown 1; sleep 0.3; xdotool mousemove 860 284; "
+      "sleep 0.5; xdotool mouseup 1 mousemove 300 350; sleep 0.5; ffmpeg -loglevel error -y -f "
+      "x11grab -video_size 900x640 -i $DISPLAY -frames:v 1 -f rawvideo -pix_fmt rgb24 " +
+      file.string() + "; xdotool key q";
+  ASSERT_EQ(watch(folder, script, "scenarios/flat.yaml"), 0) << text(folder, "err");
+  const std::string picture = read_file(file);
+  EXPECT_GT(pixels_of(picture, 0x2f8f5b, {600, 900}, {0, 400}), 500) << "contact of both wheels";
+  EXPECT_GT(pixels_of(picture, 0xcfe8d2, {0, 900}, {410, 640}), 5000) << "bands of contact";
+  EXPECT_GT(pixels_of(picture, 0x0072b2, {850, 870}, {274, 294}), 40) << "the slider's handle";
+  EXPECT_EQ(pixels_of(picture, 0xf7f8fa, {200, 400}, {100, 300}), 0) << "the robot";
+}
+
 TEST(WatchSession, PlaysARecordingToAnErrorAndBack) {
-  if (!has_display_tools()) GTEST_SKIP() << "needs the packages xvfb and xdotool";
+  if (!has_display_tools()) GTEST_SKIP() << "needs the packages xvfb, xdotool and ffmpeg";
   const ScratchFolder folder;
   ASSERT_EQ(
       shell(folder, TOUCHDOWN_PROGRAM " simulate scenarios/one_step.yaml --set end.duration=4 -o " +
@@ -123,7 +161,7 @@ std::filesystem::path robot_log(const ScratchFolder& folder) {
 }
 
 TEST(WatchSession, EditsLabelsByKeysAndSavesEachEdit) {
-  if (!has_display_tools()) GTEST_SKIP() << "needs the packages xvfb and xdotool";
+  if (!has_display_tools()) GTEST_SKIP() << "needs the packages xvfb, xdotool and ffmpeg";
   const ScratchFolder folder;
   const auto labels = folder.write("labels.csv",
                                    "start,end,left,right,sure\n"
@@ -148,7 +186,7 @@ TEST(WatchSession, EditsLabelsByKeysAndSavesEachEdit) {
 }
 
 TEST(WatchSession, BeginsAFileOfLabelsAndDragsAnEdge) {
-  if (!has_display_tools()) GTEST_SKIP() << "needs the packages xvfb and xdotool";
+  if (!has_display_tools()) GTEST_SKIP() << "needs the packages xvfb, xdotool and ffmpeg";
   const ScratchFolder folder;
   const auto labels = folder / "new.csv";
   // 1 s marked from the start; its end is in the middle of the plots, 108 px are 0.4 s.
@@ -164,7 +202,7 @@ TEST(WatchSession, BeginsAFileOfLabelsAndDragsAnEdge) {
 
 /// A log in another layout, and from a bag's clock, is labelled by its mapping.
 TEST(WatchSession, EditsLabelsOfALogThatIsReadByItsMapping) {
-  if (!has_display_tools()) GTEST_SKIP() << "needs the packages xvfb and xdotool";
+  if (!has_display_tools()) GTEST_SKIP() << "needs the packages xvfb, xdotool and ffmpeg";
   const ScratchFolder folder;
   const logs::Recording log = logs::read_recording(robot_log(folder));
   std::string csv = "stamp";
@@ -210,7 +248,7 @@ TEST(WatchSession, EditsLabelsOfALogThatIsReadByItsMapping) {
 }
 
 TEST(WatchSession, ShowsAFilmWithAnOffsetToTypeNextTime) {
-  if (!has_display_tools()) GTEST_SKIP() << "needs the packages xvfb and xdotool";
+  if (!has_display_tools()) GTEST_SKIP() << "needs the packages xvfb, xdotool and ffmpeg";
   const ScratchFolder folder;
   const auto log = folder / "run.mpack";
   const auto film = folder / "film.mp4";

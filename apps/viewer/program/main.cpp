@@ -10,7 +10,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "apps/viewer/panel.hpp"
 #include "apps/viewer/watch.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
