@@ -130,44 +130,31 @@ float plot_y(const StripRow& row, const PlotArea& area, float value) {
 }
 
 StripPlots::StripPlots(const std::vector<StripRow>& rows, std::vector<PlotArea> areas, int width,
-                       int height, double seconds, int tiles_per_window)
-    : rows_(rows),
-      areas_(std::move(areas)),
-      width_(width),
-      height_(height),
-      seconds_(seconds),
-      tile_width_((width + tiles_per_window - 1) / tiles_per_window),
-      tile_seconds_(seconds * (static_cast<double>(tile_width_) / width)) {}
-
-void StripPlots::redraw_from(double time) {
-  tiles_.erase(
-      tiles_.lower_bound(static_cast<int>(std::floor((time - span_margin) / tile_seconds_))),
-      tiles_.end());
-}
+                       int height, double seconds)
+    : rows_(rows), areas_(std::move(areas)), width_(width), height_(height), seconds_(seconds) {}
 
 void StripPlots::copy_window(double from, const cv::Mat& image) {
   const int first = static_cast<int>(std::lround(from * width_ / seconds_));
-  const int size = tile_width_;
-  for (int number = floor_div(first, size); number * size < first + width_; ++number) {
-    const int left = std::max(first, number * size);
-    const int right = std::min(first + width_, (number + 1) * size);
+  for (int number = floor_div(first, width_); number * width_ < first + width_; ++number) {
+    const int left = std::max(first, number * width_);
+    const int right = std::min(first + width_, (number + 1) * width_);
     tile(number)
-        .colRange(left - number * size, right - number * size)
+        .colRange(left - number * width_, right - number * width_)
         .copyTo(image.colRange(left - first, right - first));
   }
 }
 
 const cv::Mat& StripPlots::tile(int number) {
   if (const auto found = tiles_.find(number); found != tiles_.end()) return found->second;
-  constexpr int windows = 3;
-  if (static_cast<int>(tiles_.size()) * tile_width_ > windows * width_) tiles_.clear();
-  cv::resize(drawn_tile(number), tiles_[number], {tile_width_, height_}, 0, 0, cv::INTER_AREA);
+  constexpr std::size_t most = 3;
+  if (tiles_.size() > most) tiles_.clear();
+  cv::resize(drawn_tile(number), tiles_[number], {width_, height_}, 0, 0, cv::INTER_AREA);
   return tiles_.at(number);
 }
 
 cv::Mat StripPlots::drawn_tile(int number) const {
-  cv::Mat image(height_ * oversampling, tile_width_ * oversampling, CV_8UC3, strip_paper);
-  const TimeSpan span{image, number * tile_seconds_, (number + 1) * tile_seconds_ + span_margin,
+  cv::Mat image(height_ * oversampling, width_ * oversampling, CV_8UC3, strip_paper);
+  const TimeSpan span{image, number * seconds_, (number + 1) * seconds_ + span_margin,
                       width_ * oversampling / seconds_};
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const PlotArea area{areas_[i].top * oversampling, areas_[i].bottom * oversampling};

@@ -82,16 +82,13 @@ struct PlotArea {
 /// its edge.
 float plot_y(const StripRow& row, const PlotArea& area, float value);
 
-/// The plots of a whole run as one very wide image. Tiles of it, some per window, are drawn on
-/// demand, at twice the size and averaged.
+/// The plots of a whole run as one very wide image. Tiles of it, as wide as the window, are drawn
+/// on demand, at twice the size and averaged.
 class StripPlots {
  public:
   /// Keeps a reference to `rows`. A window is `width` pixels wide and shows `seconds`.
   StripPlots(const std::vector<StripRow>& rows, std::vector<PlotArea> areas, int width, int height,
-             double seconds, int tiles_per_window = 1);
-
-  /// Draws again what is later than `time` (s), because its rows have grown.
-  void redraw_from(double time);
+             double seconds);
 
   /// Copies the window that begins at time `from` (s) into `image` (8UC3, width·height).
   void copy_window(double from, const cv::Mat& image);
@@ -104,8 +101,6 @@ class StripPlots {
   std::vector<PlotArea> areas_;
   int width_, height_;
   double seconds_;
-  int tile_width_;
-  double tile_seconds_;
   std::map<int, cv::Mat> tiles_;  ///< by number
 };
 

@@ -79,6 +79,8 @@ void fit_range(StripRow& row) {
 
 constexpr int wide = 1000;         ///< from this width on, names fit beside the plots
 constexpr int smallest_names = 7;  ///< height of letters (px)
+constexpr double seconds = 4.0;    ///< that the strip shows
+constexpr double present = 0.75;   ///< position of the present in them
 
 }  // namespace
 
@@ -130,10 +132,8 @@ std::vector<StripRow> strip_rows(const std::vector<VideoSource>& sources,
   return rows;
 }
 
-SignalStrip::SignalStrip(std::vector<StripRow> rows, int width, int height,
-                         const StripWindow& window)
+SignalStrip::SignalStrip(std::vector<StripRow> rows, int width, int height)
     : rows_(std::move(rows)),
-      window_(window),
       width_(width),
       height_(height),
       narrow_(width < wide),
@@ -158,10 +158,9 @@ SignalStrip::SignalStrip(std::vector<StripRow> rows, int width, int height,
     draw_names(i);
   }
   const int plot_width = right_ - left_;
-  const int now = static_cast<int>(std::lround(window_.present * plot_width));
+  const int now = static_cast<int>(std::lround(present * plot_width));
   fog_ = cv::Mat(height_, plot_width - now, CV_8UC3, strip_paper);
-  plots_ = std::make_unique<StripPlots>(rows_, areas_, plot_width, height_, window_.seconds,
-                                        window_.tiles);
+  plots_ = std::make_unique<StripPlots>(rows_, areas_, plot_width, height_, seconds);
 }
 
 bool SignalStrip::is_in_legend_before(std::size_t i, const StripCurve& curve) const {
@@ -272,15 +271,10 @@ void SignalStrip::draw_names(std::size_t i) {
   for (const Name& name : names_of(i)) draw_legend(*name.curve, name.x, top + name.line * line_);
 }
 
-StripRow& SignalStrip::growing_row(std::size_t i, double time) {
-  plots_->redraw_from(time);
-  return rows_[i];
-}
-
 void SignalStrip::draw(cv::Mat image, double time) {
   background_.copyTo(image);
   cv::Mat plots = image.colRange(left_, right_);
-  plots_->copy_window(time - window_.present * window_.seconds, plots);
+  plots_->copy_window(time - present * seconds, plots);
   if (narrow_) {  // names stand on the plots' paper, above them
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const int bottom = areas_[i].top;
@@ -290,7 +284,6 @@ void SignalStrip::draw(cv::Mat image, double time) {
   }
   const int now = plots.cols - fog_.cols;
   for (const PlotArea& area : areas_) {
-    if (!window_.fades) break;
     cv::Mat future = plots(cv::Rect(now, area.top, fog_.cols, area.bottom - area.top));
     cv::addWeighted(future, 0.4, fog_.rowRange(area.top, area.bottom), 0.6, 0.0, future);
   }

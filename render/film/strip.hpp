@@ -15,29 +15,14 @@ namespace touchdown::render {
 std::vector<StripRow> strip_rows(const std::vector<VideoSource>& sources,
                                  const scoring::LabelConfig& labels);
 
-/// The time that a strip shows.
-struct StripWindow {
-  double seconds = 4.0;
-  double present = 0.75;  ///< position of the present in the window
-  int tiles = 1;          ///< images per window; rows that grow draw only the last ones again
-  bool fades = true;      ///< whether the future is faded
-};
-
-/// Moving plots below the view: a window of time with the present at its place and the future
+/// Moving plots below the view: four seconds with the present at their third quarter and the future
 /// faded. Titles and legends are left of the plots, or above them in a narrow strip. Every curve is
 /// in a legend once: a row with a long legend is higher than others, and its names are smaller if
 /// need be.
 class SignalStrip {
  public:
   /// A strip of `width`·`height` pixels.
-  SignalStrip(std::vector<StripRow> rows, int width, int height, const StripWindow& window = {});
-
-  const std::vector<StripRow>& rows() const { return rows_; }
-  /// The edges of the plots, between names and margin (px).
-  int left() const { return left_; }
-  int right() const { return right_; }
-  /// The row, to add values that are later than `time` (s).
-  StripRow& growing_row(std::size_t i, double time);
+  SignalStrip(std::vector<StripRow> rows, int width, int height);
 
   /// Draws the strip at `time` (s) into `image`, which must have width·height pixels (8UC3).
   void draw(cv::Mat image, double time);
@@ -60,7 +45,6 @@ class SignalStrip {
   int legend_width(const StripCurve& curve) const;
 
   std::vector<StripRow> rows_;
-  StripWindow window_;
   int width_, height_;
   bool narrow_;
   int letters_;       ///< height of the text

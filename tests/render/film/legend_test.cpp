@@ -67,36 +67,5 @@ TEST(Legend, NamesTheSameCurveOnce) {
   }
 }
 
-/// A strip of many tiles shows what one of a single tile shows, whole and while it grows.
-TEST(StripTiles, ShowTheSamePlots) {
-  std::vector<StripRow> rows = {row_of("a", 3), row_of("b", 1)};
-  for (std::size_t k = 0; k < 4000; ++k) {
-    const double time = 1e-3 * static_cast<double>(k);
-    for (std::size_t i = 0; i < 3; ++i) {
-      rows[0].curves[i].values[k] =
-          static_cast<float>(0.5 + 0.4 * std::sin(3.0 * time + static_cast<double>(i)));
-    }
-    rows[0].wheels_in_contact.push_back(static_cast<std::uint8_t>(k / 300 % 3));
-  }
-  std::vector<StripRow> growing = rows;
-  for (StripCurve& curve : growing[0].curves) curve.values.resize(2000);
-  growing[0].wheels_in_contact.resize(2000);
-  SignalStrip one(rows, 1280, 220, {2.0, 0.9, 1});
-  SignalStrip many(rows, 1280, 220, {2.0, 0.9, 7});
-  SignalStrip grown(growing, 1280, 220, {2.0, 0.9, 7});
-  cv::Mat a(220, 1280, CV_8UC3), b = a.clone(), c = a.clone();
-  grown.draw(c, 1.9);  // before it grows
-  StripRow& row = grown.growing_row(0, 2.0);
-  for (std::size_t i = 0; i < 3; ++i) row.curves[i].values = rows[0].curves[i].values;
-  row.wheels_in_contact = rows[0].wheels_in_contact;
-  for (const double time : {0.3, 2.1, 2.3456, 3.9}) {
-    one.draw(a, time);
-    many.draw(b, time);
-    grown.draw(c, time);
-    EXPECT_LT(cv::norm(a, b, cv::NORM_L1) / static_cast<double>(a.total() * 3), 0.05) << time;
-    EXPECT_EQ(cv::norm(b, c, cv::NORM_INF), 0.0) << time;
-  }
-}
-
 }  // namespace
 }  // namespace touchdown::render
