@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,9 +35,10 @@ struct RecordingInfo {
   std::optional<Outcome> outcome;
   /// The resolved scenario as YAML: enough to rebuild the terrain for a video.
   std::string scenario_yaml;
-  std::string robot_digest = {};  ///< of that scenario's robot, as `scenarios::robot_digest`
-  std::string robot = {};         ///< name of the robot of a robot's log, if the log states it
-  double robot_mass = 0.0;        ///< of the simulated robot with what it carries (kg)
+  std::string robot_digest = {};      ///< of that scenario's robot, as `scenarios::robot_digest`
+  std::string robot = {};             ///< name of the robot of a robot's log, if the log states it
+  double robot_mass = 0.0;            ///< of the simulated robot with what it carries (kg)
+  std::filesystem::path folder = {};  ///< of the log's file, which does not hold it
 };
 
 /// One run, stored by columns. Row k is the observation at time k·period and the action for it.

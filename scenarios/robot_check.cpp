@@ -156,8 +156,11 @@ void check_loads(const CheckedStand& stand, double weight, RobotCheck& check) {
   std::vector<std::string>& complaints = check.complaints;
   constexpr double farthest = 0.4;  // m
   if (stand.moved > farthest) {
-    complaints.push_back(fmt::format("{}: standing: rolled {:.2f} m away within two seconds",
-                                     stand.engine, stand.moved));
+    complaints.push_back(
+        fmt::format("{}: standing: rolled {:.2f} m away within two seconds; in its stance the "
+                    "axles are {:.2f} m {} its centre of mass: try another `stance`",
+                    stand.engine, stand.moved, std::abs(check.axle_forward),
+                    check.axle_forward > 0.0 ? "in front of" : "behind"));
   }
   constexpr double farthest_held = 0.2;  // rad
   if (stand.given_way > farthest_held) {
@@ -244,10 +247,10 @@ std::string read_robot(const Scene& scene, RobotCheck& check) {
                                1e-6 * static_cast<double>(scenario.simulation.steps.physics_us)},
                               scenario.balancer);
   if (const double least = std::min(check.margins.flight, check.margins.standing); least <= 1.0) {
-    check.complaints.push_back(
-        fmt::format("servos: unstable at this physics step, gain margin {:.2f}, expected above 1: "
-                    "lower the gains (balancer, held_servo)",
-                    least));
+    check.complaints.push_back(fmt::format(
+        "servos: unstable at this physics step, gain margin {:.2f}, expected above 1: "
+        "lower the gains (balancer, held_servo), or derive them (balancer: {{gains: lqr}})",
+        least));
   }
   const Eigen::Vector3d centre = models::vector_at(data->subtree_com, robot.base_body);
   const Eigen::Vector3d axle = models::vector_at(data->xanchor, robot.joint[2]);
@@ -260,6 +263,8 @@ std::string read_robot(const Scene& scene, RobotCheck& check) {
   check.warnings = robot.warnings;
   check.differences = differences(robot);
   const models::MjDataPtr standing = models::at_pose(robot, pose.orientation, pose.joint_position);
+  check.axle_forward =
+      standing->xanchor[3 * robot.joint[2]] - standing->subtree_com[3 * robot.base_body];
   return models::reason_to_fall(robot, *data, *standing);
 }
 

@@ -55,6 +55,7 @@ struct RobotCheck {
   std::vector<models::HeldJoint> held;
   double hip = 0.0;                      ///< stance, from straight legs (rad)
   double knee = 0.0;                     ///< likewise
+  double axle_forward = 0.0;             ///< from the centre of mass, in the stance (m)
   double lever = 0.0;                    ///< knee torque per newton of load in the stance (m)
   std::vector<std::string> ignored;      ///< in the file, but not simulated
   std::vector<std::string> warnings;     ///< what of the file may be a mistake

@@ -17,6 +17,7 @@
 #include "experiments/logs/estimator.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
+#include "experiments/results/captions.hpp"
 #include "experiments/submissions/export.hpp"
 #include "logs/log/mcap.hpp"
 #include "logs/log/recording_file.hpp"
@@ -188,7 +189,7 @@ void write_header(const std::filesystem::path& source, const ConvertFlags& flags
   const std::string text =
       logs::header_of_model(source_model(source, flags), source.filename().string(), name);
   write_atomically(flags.output, text);
-  print("header    {}, {:.2f} MB\n", flags.output, 1e-6 * static_cast<double>(text.size()));
+  print("header    {}, {:.0f} kB\n", flags.output, 1e-3 * static_cast<double>(text.size()));
   print("next      #include \"{}\"; touchdown::make_estimator(touchdown::compiled::{})\n",
         std::filesystem::path(flags.output).filename().string(), name);
 }
@@ -222,7 +223,7 @@ void write_signals(const ConvertFlags& flags, const CliSession& session) {
         fmt::format("touchdown: {} runs fell and are not scored, so they are left out: {}\n",
                     report.failed.size(), fmt::join(report.failed, ", ")));
   }
-  print("signals   {} files, {:.1f} MB, in {}\n", report.files,
+  print("signals   {}, {:.1f} MB, in {}\n", experiments::plural(report.files, "file"),
         1e-6 * static_cast<double>(report.bytes), flags.folder);
   print("read      {0}/README.md, {0}/index.csv\n", flags.folder);
   print("next      touchdown score RUN --beliefs FOLDER --name NAME\n");
@@ -246,6 +247,12 @@ void convert(const ConvertFlags& flags, const CliSession& session) {
   }
   if (!flags.mapping.empty() && !flags.folder.empty()) {
     throw InputError("--mapping: expected -o FILE.mpack, for a log in another layout");
+  }
+  const bool is_own_log = std::filesystem::path(flags.source).extension() == ".mpack";
+  if (is_own_log && !flags.output.empty() &&
+      std::filesystem::path(flags.output).extension() != ".mcap") {
+    throw InputError(fmt::format("-o: {}: expected FILE.mcap: a log in Upkie's layout becomes MCAP",
+                                 flags.output));
   }
   if (!flags.mapping.empty()) {
     write_log(flags, session);

@@ -87,7 +87,7 @@ void draw(const RenderFlags& flags, const CliSession& session) {
   options.labels = runs.front().labels;
   std::vector<render::VideoSource> sources;
   for (const render::FilmedRun& run : runs) sources.push_back(run.source());
-  const double moment = options.from > 0.0 ? options.from : NAN;
+  const double moment = options.from != 0.0 ? options.from : NAN;
   if (flags.scene || flags.poster) {
     if (flags.scene) {
       render::render_scene(runs[0].robot, runs[0].recording, options, moment, flags.output);

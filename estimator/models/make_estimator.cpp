@@ -23,6 +23,7 @@ struct Recipe {
   std::string_view fit;  ///< name of the estimator with the same fit
   std::function<ConfigurationText(double sample_rate)> configuration;
   std::function<Made(const Model& model, const EstimatorSettings& settings)> make;
+  std::function<void(const ConfigurationText& text)> check;
 };
 
 /// Errors: `InputError` for a model without a grid.
@@ -61,6 +62,11 @@ Recipe recipe_of(std::string_view name, std::string_view fit, const Config& usua
           },
           [usual]([[maybe_unused]] const Model& model, const EstimatorSettings& settings) -> Made {
             return std::make_unique<Estimator>(numbers_of(model)..., configured(usual, settings));
+          },
+          [usual](const ConfigurationText& text) {
+            Config config = usual;
+            configure(config, text);
+            check_members(config);
           }};
 }
 
@@ -165,6 +171,11 @@ std::unique_ptr<ContactEstimator> make_estimator(std::span<const CompiledArray> 
 
 ConfigurationText default_configuration(std::string_view estimator, double sample_rate) {
   return recipe(estimator).configuration(sample_rate);
+}
+
+void check_configuration(std::string_view estimator, const ConfigurationText& text) {
+  const auto found = std::ranges::find(recipes(), estimator, &Recipe::name);
+  if (found != recipes().end()) found->check(text);
 }
 
 bool share_fit(std::string_view estimator, std::string_view other) {

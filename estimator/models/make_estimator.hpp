@@ -43,6 +43,11 @@ std::unique_ptr<ContactEstimator> make_with(const Model& model, const EstimatorS
 /// `InputError` for a name of which no model is fitted.
 ConfigurationText default_configuration(std::string_view estimator, double sample_rate);
 
+/// Checks members of an estimator's configuration, beside the defaults of the others; those of an
+/// estimator without a model are not looked at. Errors: `InputError` for an unknown key and for a
+/// number beyond its range.
+void check_configuration(std::string_view estimator, const ConfigurationText& text);
+
 /// Writes `use` into the model's metadata, so that programs need not repeat it when they load the
 /// model: the members of the configuration and, if `use` has legs, those, the mass and the robot's
 /// name. The fitted numbers stay. A model without metadata gets them.

@@ -9,7 +9,7 @@
 
 namespace touchdown {
 
-/// Loads a model file that `touchdown fit` or `export` wrote, or one of the same arrays. Beside a
+/// Loads a model file that `touchdown fit` or `convert` wrote, or one of the same arrays. Beside a
 /// grid, a file may hold other arrays, which are not read. Errors: `InputError`, one line that
 /// begins with the file's name, if the file is unreadable, was changed since the fit, or is no
 /// model.

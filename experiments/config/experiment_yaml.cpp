@@ -24,9 +24,9 @@ static void describe_estimators(Fields& all, HyperparametersByEstimator& values,
     if (!all.given(name, values.contains(name))) continue;
     if (all.documenting() && estimator_entry(name).hyperparameters.empty()) continue;
     HyperparameterValues& hyperparameters = values[name];
+    const EstimatorEntry& entry = estimator_entry(name, experiment.external_estimators);
     const auto describe_own = [&](Fields& own) {
-      for (const Hyperparameter& one :
-           estimator_entry(name, experiment.external_estimators).hyperparameters) {
+      for (const Hyperparameter& one : entry.hyperparameters) {
         if (!own.given(one.name, hyperparameters.contains(one.name))) continue;
         own(one.name, hyperparameters[one.name])
             .fallback(value_text(YAML::Node(one.value)))
@@ -34,6 +34,7 @@ static void describe_estimators(Fields& all, HyperparametersByEstimator& values,
       }
     };
     all.within(name, describe_own).doc("Hyperparameters of this estimator.");
+    if (!all.documenting()) all.check(name, [&] { check_values(hyperparameters, entry); });
   }
 }
 

@@ -84,6 +84,17 @@ void check_names(const HyperparameterValues& values, const EstimatorEntry& entry
   }
 }
 
+void check_values(const HyperparameterValues& values, const EstimatorEntry& entry) {
+  ConfigurationText configuration;
+  for (const Hyperparameter& one : entry.hyperparameters) {
+    const auto given = values.find(one.name);
+    if (given != values.end() && !one.is_fitted_with) {
+      configuration[one.name] = text_of(given->second);
+    }
+  }
+  check_configuration(entry.name, configuration);
+}
+
 noise::SensorNoise noise_of(const Sensors& sensors, const noise::SensorNoise& levels) {
   return {.knee_torque = sensors.knee_torque ? levels.knee_torque : 0.0,
           .wheel_torque = sensors.wheel_torque ? levels.wheel_torque : 0.0,

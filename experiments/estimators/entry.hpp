@@ -154,6 +154,8 @@ EstimatorEntry with_hyperparameters(EstimatorEntry entry, const HyperparameterVa
 /// Errors: `InputError`, one line with the nearest name, for a name that the estimator does not
 /// have.
 void check_names(const HyperparameterValues& values, const EstimatorEntry& entry);
+/// Errors: `InputError` for a number that the estimator's configuration cannot have.
+void check_values(const HyperparameterValues& values, const EstimatorEntry& entry);
 
 /// The `make` of an estimator that the library makes of its model.
 std::unique_ptr<ContactEstimator> make_of_model(const EstimatorEntry& entry,

@@ -41,6 +41,13 @@ LogRobot robot_in_file(const std::filesystem::path& path) {
           .ranges = ranges_of(robot)};
 }
 
+/// The recorded robot's file, also where its path is one beside the log.
+std::filesystem::path found_robot(const logs::RecordingInfo& log) {
+  std::filesystem::path robot = robot_file_of(log);
+  std::filesystem::path beside = log.folder / robot;
+  return robot.is_relative() && !is_there(robot) && is_there(beside) ? beside : robot;
+}
+
 /// "its robot … was changed since the recording"; empty for the recorded robot. Errors:
 /// `InputError` for a file that cannot be read.
 std::string change_of(const std::filesystem::path& robot, const logs::RecordingInfo& log) {
@@ -80,7 +87,7 @@ LogRobot robot_of_file(const std::string& file) {
 
 logs::CheckedRobot checked_robot(const LogRobot& requested, const logs::RecordingInfo& log) {
   if (requested.legs) return {requested.legs, requested.ranges};
-  const std::filesystem::path file = robot_file_of(log);
+  const std::filesystem::path file = found_robot(log);
   if (file.empty()) return {};
   constexpr const char* advice = "the robot's file as it was then, after --robot, is used instead";
   try {
@@ -97,7 +104,7 @@ logs::CheckedRobot checked_robot(const LogRobot& requested, const logs::Recordin
 }
 
 void require_recorded_robot(const logs::RecordingInfo& recording, const std::string& name) {
-  const std::filesystem::path robot = robot_file_of(recording);
+  const std::filesystem::path robot = found_robot(recording);
   if (robot.empty()) return;
   const std::string change = change_of(robot, recording);
   if (change.empty()) return;

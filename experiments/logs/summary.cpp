@@ -39,8 +39,8 @@ std::string found(const scoring::TransitionCounts& counts, std::int64_t listed,
   const std::int64_t others = listed - counts.detected - counts.false_alarms;
   if (others > 0) text += fmt::format(", {} in or beside a shorter or unscored flight", others);
   if (others < 0) {
-    text += fmt::format(", {} of these before a state under {:g} ms and not listed", -others,
-                        1e3 * scoring::ScoringConfig{}.minimum_flight);
+    text += fmt::format(", {} of those that are found before a state under {:g} ms and not listed",
+                        -others, 1e3 * scoring::ScoringConfig{}.minimum_flight);
   }
   return text;
 }
@@ -57,12 +57,15 @@ std::string score_text(const scoring::Score& score, std::int64_t takeoffs, std::
     const double ms = latencies.median();
     return std::isnan(ms) ? "" : fmt::format(", {} {:+.1f} ms", name, ms);
   };
+  // Labels may leave the moments of transition unknown.
+  const std::string f1 = score.events.truth == 0 && score.events.decided > 0
+                             ? "none (the truth has no takeoff or landing between known steps)"
+                             : share(score.events.f1());
   std::string text =
       line("truth",
            fmt::format("F1 of takeoffs and landings {}, extra switches {:.1f}/min, long errors "
                        "{:.2f} s/min{}{}, precision of air {}, balanced accuracy {}",
-                       share(score.events.f1()), score.extra_switches_per_minute(),
-                       score.long_errors_s_per_minute(),
+                       f1, score.extra_switches_per_minute(), score.long_errors_s_per_minute(),
                        median(score.events.takeoff, "median takeoff"),
                        median(score.events.landing, "landing"),
                        share(points.no_contact_precision()), share(points.balanced_accuracy()))) +

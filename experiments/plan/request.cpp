@@ -168,9 +168,10 @@ std::string difference_text(const fs::path& directory, const RunRequest& request
   });
   const fs::path there = directory / input->file;
   const bool is_experiment = input->file == "config.yaml" && is_there(there);
-  return fmt::format(
-      "{} was {} since{}", input->file, was_read ? "changed" : "added",
-      is_experiment ? first_difference(to_yaml(request.experiment), read_file(there)) : "");
+  const std::string difference =
+      is_experiment ? first_difference(to_yaml(request.experiment), read_file(there)) : "";
+  if (!difference.empty()) return "its config.yaml is of another request" + difference;
+  return fmt::format("{} was {} since", input->file, was_read ? "changed" : "added");
 }
 
 /// Identifies the results of a directory: the request, and the build that computes it.

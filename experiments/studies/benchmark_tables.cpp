@@ -298,7 +298,7 @@ std::string given_in(const Experiment& experiment, const std::string& estimator)
 std::string standings_text(const Standings& standings, const Experiment& experiment) {
   TextTable table{{"", "F1", "extra switches/min", "long errors (s/min)", "takeoff (ms)",
                    "landing (ms)", "precision of air", "balanced accuracy",
-                   "not significantly less than the best", "worst", "in", "given"},
+                   "balanced accuracy not significantly below the best", "worst", "in", "given"},
                   {}};
   for (const Standings::Entry& entry : standings.entries) {
     std::vector<std::string>& row = table.rows.emplace_back(std::vector{

@@ -76,7 +76,7 @@ ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool
   const std::optional<OtherLog> other = other_log(path);
   if (other && is_there(path)) {
     throw InputError(fmt::format(
-        "{}: is {}, expected a log in Upkie's layout; `touchdown estimate`, `check` and `export` "
+        "{}: is {}, expected a log in Upkie's layout; `touchdown estimate`, `check` and `convert` "
         "read {} with --mapping FILE.yaml: start from a copy of examples/mapping/{}",
         name, other->kind, other->read, other->example));
   }

@@ -286,6 +286,7 @@ std::optional<LogRow> LogReader::next() {
 const RecordingInfo& LogReader::info() {
   if (!info_) look_ahead(1);
   if (!info_) info_.emplace().robot = robot_;
+  info_->folder = std::filesystem::path(name_).parent_path();
   if (!has_period_) {
     look_ahead(rows_for_period);
     std::vector<double> times;

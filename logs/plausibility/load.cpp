@@ -257,8 +257,12 @@ void LoadRelation::report(Findings& findings, bool drives) const {
   const bool is_too_large =
       is_known_ ? factor > largest_factor : factor > 2.0 * largest_factor && explains_weight();
   if (misfit_[0] > largest_misfit * stretches_ || is_too_large) {
-    add(fmt::format("{:.0f} N, expected 0 to {:.0f} N{}, straight up: {}", load, weight,
-                    weight_text(), cause(drives || is_too_large)));
+    const bool is_possible = load >= 0.0 && load <= weight;
+    add(fmt::format(
+        "{:.0f} N, expected {} N{}{}: {}", load,
+        is_possible ? fmt::format("{:.0f}", weight) : fmt::format("0 to {:.0f}", weight),
+        weight_text(), is_possible ? " or none, and straight up" : "",
+        cause(drives || is_too_large)));
     return;
   }
   constexpr int few = 3;
@@ -267,9 +271,13 @@ void LoadRelation::report(Findings& findings, bool drives) const {
   const double hanging = -own_ / to_carry_;
   const bool hangs = std::abs(factor - hanging) < 0.25 + 0.5 * std::abs(hanging);
   if (!drives && (hangs || !is_known_)) return;
-  add(fmt::format("at most {:.0f} N although {}, expected {:.0f} N{}: {}", largest_load_,
+  const std::string other =
+      is_known_ && factor > 0.3
+          ? fmt::format(", or --robot is {:.1f} times as heavy as this robot", 1.0 / factor)
+          : "";
+  add(fmt::format("at most {:.0f} N although {}, expected {:.0f} N{}: {}{}", largest_load_,
                   drives ? "the wheels drive it" : "it does not hang", weight, weight_text(),
-                  cause(true)));
+                  cause(true), other));
 }
 
 /// Whether another order, sign or unit gives the weight: for a robot of unknown weight.

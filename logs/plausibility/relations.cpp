@@ -163,6 +163,7 @@ constexpr double largest_factor = 1.6;
 /// which adds 0.1 rad/s to a tenth of a second and 0.05 rad/s to half a second (harsh.yaml).
 constexpr double least_fast_turn = 0.4;   // rad/s
 constexpr double least_slow_turn = 0.25;  // rad/s
+constexpr double least_axis_turn = 0.1;   // rad/s, root mean square
 constexpr int least_turn_windows = 5;
 constexpr std::size_t half_second = 5;  // windows
 
@@ -408,10 +409,18 @@ void Relations::report_turning(Findings& findings) const {
   const double own = turns.agreement();
   if (!large.empty() && large.size() < 3 && factor > largest_factor) {
     for (const int i : large) {
-      add(times(turns.measured(i) / turns.predicted(i)), std::array{" x", " y", " z"}.at(i));
+      add(times(turns.measured(i) / turns.predicted(i)),
+          std::array{" x", " y", " z"}.at(static_cast<std::size_t>(i)));
     }
   } else if (own > follows) {
     if (is_of_other_size) add(times(factor));
+    // A robot that turns about one axis hides the sign of the others from the whole vector.
+    for (int i = 0; i < 3; ++i) {
+      const bool turns_here = std::min(turns.measured(i), turns.predicted(i)) > least_axis_turn;
+      if (!turns_here || turns.correlation(i, i) > -follows) continue;
+      add("turns the other way than the orientation: is its sign wrong",
+          std::array{" x", " y", " z"}.at(static_cast<std::size_t>(i)));
+    }
   } else if (factor > much) {
     add(times(factor));
   } else if (own < -follows) {

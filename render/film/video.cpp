@@ -23,6 +23,17 @@ double duration(const VideoSource& source) {
   return source.recording.period() * static_cast<double>(source.recording.steps() - 1);
 }
 
+/// Returns when the longest recording ends. Errors: `InputError` for a time beyond it.
+double end_of(const std::vector<VideoSource>& sources, const char* what, double time) {
+  double end = 0.0;
+  for (const VideoSource& source : sources) end = std::max(end, duration(source));
+  if (time >= 0.0 && time <= end) return end;
+  throw InputError(
+      fmt::format("a {} from {} s on: expected a time from 0 to {:.3f} s, where "
+                  "the recording ends",
+                  what, time, end));
+}
+
 void picture(const std::vector<VideoSource>& sources, VideoOptions options, bool annotated,
              double time, const std::filesystem::path& path) {
   require_drawable(sources, options);
@@ -30,6 +41,7 @@ void picture(const std::vector<VideoSource>& sources, VideoOptions options, bool
   options.quality = VideoQuality::page;
   options.speed = 1.0;  // a still picture has no speed
   if (std::isnan(time)) time = first_flight(sources.front().recording, options.labels);
+  (void)end_of(sources, "picture", time);
   const auto bytes = static_cast<std::size_t>(options.width * options.height * 3);
   const auto prepare = [&]() -> PaintFrame {
     auto painter = std::make_shared<FramePainter>(sources, options, annotated);
@@ -46,19 +58,11 @@ void picture(const std::vector<VideoSource>& sources, VideoOptions options, bool
 /// The number of frames of a film, `step` seconds of the recordings apart.
 int frames_of(const std::vector<VideoSource>& sources, const VideoOptions& options, double step) {
   require_drawable(sources, options);
-  double end = 0.0;
-  for (const VideoSource& source : sources) end = std::max(end, duration(source));
   if (!(options.to >= options.from)) {
     throw InputError(fmt::format("a film from {} s to {} s: it ends before it begins", options.from,
                                  options.to));
   }
-  if (!(options.from >= 0.0 && options.from <= end)) {
-    throw InputError(
-        fmt::format("a film from {} s on: expected a time from 0 to {:.3f} s, where "
-                    "the recording ends",
-                    options.from, end));
-  }
-  end = std::min(end, options.to);
+  const double end = std::min(end_of(sources, "film", options.from), options.to);
   return 1 + static_cast<int>(std::floor((end - options.from) / step + 1e-9));
 }
 

@@ -13,11 +13,16 @@ namespace touchdown::render {
 
 ReportSubject read_subject(const std::filesystem::path& run_directory) {
   std::error_code ignored;
-  for (const char* file : {"config.yaml", "manifest.json"}) {
-    if (!std::filesystem::is_regular_file(run_directory / file, ignored)) {
-      throw InputError(fmt::format("{}: no run directory of an experiment: it has no {}",
-                                   run_directory.string(), file));
-    }
+  const auto has = [&](const char* file) {
+    return std::filesystem::is_regular_file(run_directory / file, ignored);
+  };
+  if (!has("config.yaml")) {
+    throw InputError(fmt::format("{}: no run directory of an experiment: it has no config.yaml",
+                                 run_directory.string()));
+  }
+  if (!has("manifest.json")) {
+    throw InputError(fmt::format("{0}: is not finished: `touchdown run {0}` continues it",
+                                 run_directory.string()));
   }
   ReportSubject subject;
   subject.directory = run_directory;

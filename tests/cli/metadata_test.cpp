@@ -140,6 +140,12 @@ TEST_F(Metadata, OfARecordingStatesWhetherItsRobotIsStillTheSame) {
     for (const std::string& use : uses) EXPECT_THAT(folder_.run(use).errors, matcher) << use;
   };
   expect(Not(AnyOf(HasSubstr(changed), HasSubstr(assumed))));
+  // The robot's file is found beside the log, from wherever the program runs.
+  const ProgramFolder elsewhere;
+  const std::string there = (folder_ / "own.mpack").string();
+  for (const char* verb : {"estimate ", "check "}) {
+    EXPECT_THAT(elsewhere.run(verb + there).errors, Not(HasSubstr(assumed))) << verb;
+  }
   for (const std::string file : {"upkie.xml", "own.yaml"}) {
     const std::string before = folder_.text(file);
     folder_.write(file, before + "\n");
@@ -234,7 +240,7 @@ TEST_F(Metadata, IsPartOfAModelExportedAsAHeader) {
       {{"convert m.npz -o m.txt", {"expected a header, FILE.hpp, or a model, FILE.npz"}},
        {"convert m.npz -o m.npz", {"m.npz: is the model itself: name another file"}},
        {"convert m.npz", {"either --benchmark DIR"}},
-       {"convert a.mpack -o m.hpp", {"a.mpack: is not a readable"}}});
+       {"convert a.mpack -o m.hpp", {"m.hpp: expected FILE.mcap"}}});
 }
 
 /// A regression: the summary once reported "all good" for such a log.

@@ -116,7 +116,8 @@ TEST_F(Run, DrawsFiguresThatAgreeWithItsTables) {
   EXPECT_EQ(rows, 3);
   for (const auto& row : cells_of(folder_ / "a/tables/reliability.csv")) {
     if (row[0] != "mujoco" || row[4] != "wheels" || row[1] != "robust" || row[6] == "0") continue;
-    EXPECT_THAT(reliability, HasSubstr("\t" + row[6] + "\n"));
+    EXPECT_THAT(reliability, HasSubstr(fmt::format("wheels,{},", row[5])));
+    EXPECT_THAT(reliability, HasSubstr(fmt::format(",{},{}\n", row[6], row[7])));
   }
 }
 

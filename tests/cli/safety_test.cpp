@@ -86,9 +86,9 @@ TEST_F(RunDirectory, KeepsItsExperimentUnlessAnotherMayOverwriteIt) {
         {{run + "a" + changes + more, {"a: holds experiment 'tiny' (request ", "--overwrite"}}});
   }
   for (const auto& [change, named] :
-       {std::pair{"noise.seeds=3", "config.yaml was changed since (noise: seeds: 3)"},
-        {"seed=9", "config.yaml was changed since (seed: 9)"},
-        {"test.runs=2", "config.yaml was changed since (test: runs: 2)"}}) {
+       {std::pair{"noise.seeds=3", "config.yaml is of another request (noise: seeds: 3)"},
+        {"seed=9", "config.yaml is of another request (seed: 9)"},
+        {"test.runs=2", "config.yaml is of another request (test: runs: 2)"}}) {
     folder_.expect_refusals({{run + "a --set " + change, {named}}});
   }
   EXPECT_EQ(result_files(folder_ / "a"), before);

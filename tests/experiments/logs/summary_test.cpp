@@ -85,10 +85,13 @@ TEST(LogSummary, AccountsForTheDifferenceBetweenTheListOfTakeoffsAndTheirScore) 
                                                "false; landings"));
   EXPECT_THAT(text_of(truth, {{2000, 2200}, {5000, 5200}, {7000, 7020}}),
               AllOf(HasSubstr("takeoffs at (s) 2.000, 5.000; landings"),
-                    HasSubstr("2 false, 2 of these before a state under 50 ms and not listed")));
+                    HasSubstr("2 false, 2 of those that are found before a state under 50 ms and "
+                              "not listed")));
   EXPECT_THAT(text_of(truth, {{2000, 2200}, {5000, 5200}, {7000, 7100}}),
               AllOf(HasSubstr("takeoffs at (s) 2.000, 5.000, 7.000; landings"),
                     HasSubstr("2 false; landings")));
+  EXPECT_THAT(text_of({}, truth),
+              HasSubstr("F1 of takeoffs and landings none (the truth has no takeoff or landing"));
   EXPECT_THAT(text_of(truth, truth), HasSubstr("both 95.9 %, after the first 0.3 s\n"));
 }
 

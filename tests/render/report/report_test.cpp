@@ -242,6 +242,9 @@ TEST_F(Report, RefusesOtherDirectories) {
   const ScratchFolder empty;
   EXPECT_THAT([&] { read_subject(empty.path()); },
               ThrowsMessage<InputError>(HasSubstr("no run directory")));
+  std::filesystem::remove(folder_ / "manifest.json");
+  EXPECT_THAT([&] { read_subject(folder_.path()); },
+              ThrowsMessage<InputError>(HasSubstr("is not finished: `touchdown run ")));
   folder_.write("manifest.json", "{\"command\":");
   EXPECT_THAT([&] { read_subject(folder_.path()); },
               ThrowsMessage<InputError>(HasSubstr("manifest.json")));
