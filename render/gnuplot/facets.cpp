@@ -181,7 +181,11 @@ class FacetFigure {
         "set format {} '{}'\n",
         is_log ? "set" : "unset", name, name, range.from, range.to, name,
         is_log ? "autofreq" : fmt::format("{:.6g}", tick_step(range.to - range.from, most_tics)),
-        name, has_tics ? "%g" : "");
+        name,
+        // "100k": wide numbers would push the title out.
+        !has_tics                   ? ""
+        : is_log && range.to >= 1e4 ? "%.0s%c"
+                                    : "%g");
   }
 
   std::string axes_of(const FacetPanel& place, const FacetLayout& layout) const {
