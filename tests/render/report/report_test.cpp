@@ -210,8 +210,8 @@ TEST_F(Report, ShowsFiguresInTheExperimentsOrderOfEngines) {
 }
 
 TEST_F(Report, PutsThePapersNumbersBesideOurs) {
-  write_score_files(folder_, "mujoco,robust,1,5,nan,nan,nan\n",
-                    "mujoco,robust,1,5,nan,nan,nan,9.5,2.7,14.9,12.4\n");
+  write_score_files(folder_, "mujoco,reference,1,5,nan,nan,nan\n",
+                    "mujoco,reference,1,5,nan,nan,nan,9.5,2.7,14.9,12.4\n");
   EXPECT_THAT(page(), AllOf(HasSubstr("9.5 ± 12.4"), HasSubstr("[2.7, 14.9]"),
                             HasSubstr("77.1 ± 31.8 / 17.9 ± 9.1")));
 }
