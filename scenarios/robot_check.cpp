@@ -69,6 +69,15 @@ double mass_below(const models::RobotModel& robot, std::size_t leg) {
   return robot.mj->body_subtreemass[robot.mj->jnt_bodyid[robot.joint[top]]];
 }
 
+/// How far the axles are in front of the centre of mass in a stance with an upright torso (m).
+double axle_forward(const models::RobotModel& robot, const models::Stance& stance) {
+  const simulators::RobotState pose =
+      start_pose(robot, {}, {.hip = stance.hip, .knee = stance.knee});
+  const models::MjDataPtr data =
+      models::at_pose(robot, Eigen::Quaterniond::Identity(), pose.joint_position);
+  return data->xanchor[3 * robot.joint[2]] - data->subtree_com[3 * robot.base_body];
+}
+
 /// Knee torque per newton of load, in the stance: the distance of the axle from the knee, level.
 double lever_of(const models::RobotModel& robot, double hip, double knee) {
   LegSignals leg;
@@ -263,8 +272,7 @@ std::string read_robot(const Scene& scene, RobotCheck& check) {
   check.warnings = robot.warnings;
   check.differences = differences(robot);
   const models::MjDataPtr standing = models::at_pose(robot, pose.orientation, pose.joint_position);
-  check.axle_forward =
-      standing->xanchor[3 * robot.joint[2]] - standing->subtree_com[3 * robot.base_body];
+  check.axle_forward = axle_forward(robot, {check.hip, check.knee});
   return models::reason_to_fall(robot, *data, *standing);
 }
 
@@ -290,14 +298,35 @@ std::map<std::string, double> parts_near_terrain(const models::RobotModel& robot
   return parts;
 }
 
+/// The usual stance, or, if that has the axles elsewhere than below the centre of mass, one with
+/// other hips that has them there.
+models::Stance drafted_stance(const models::RobotModel& robot) {
+  constexpr double enough = 0.005;  // m: with more, a balancer rolls away at first
+  const models::Stance usual = models::usual_stance(robot);
+  if (robot.closed_leg[0] || !robot.has(0) || std::abs(axle_forward(robot, usual)) < enough) {
+    return usual;
+  }
+  models::Stance stance = usual;
+  for (int i = 0; i < 5; ++i) {  // Newton's method
+    constexpr double step = 0.01;
+    const double offset = axle_forward(robot, stance);
+    stance.hip -= step * offset / (axle_forward(robot, {stance.hip + step, stance.knee}) - offset);
+  }
+  constexpr double farthest = 0.3;  // rad: beyond, the mass is elsewhere than the file has it
+  const bool is_near = std::abs(stance.hip - usual.hip) < farthest;
+  return is_near && !models::stance_error(robot, stance) ? stance : usual;
+}
+
 /// What the robot's compiled model adds to its draft: the stance, colliders that would touch the
 /// terrain as it stands, and the signs of its joints.
 void complete_draft(const models::RobotModel& robot, std::vector<models::DraftLine>& draft) {
-  const models::Stance stance = models::usual_stance(robot);
+  const models::Stance stance = drafted_stance(robot);
   const models::Stance in_file = models::in_zeros_of_file(robot, stance);
   const std::string hip = robot.has(0) ? fmt::format("hip: {:.4f}, ", in_file.hip) : "";
   draft.push_back({"stance", fmt::format("{{{}knee: {:.4f}}}", hip, in_file.knee),
-                   "rad, in the zeros of the file's joints: what the robot would take anyway"});
+                   stance.hip == models::usual_stance(robot).hip
+                       ? "rad, in the zeros of the file's joints: what the robot would take anyway"
+                       : "rad, in the zeros of the file's joints: axles below the centre of mass"});
   const simulators::RobotState pose =
       start_pose(robot, {}, {.hip = stance.hip, .knee = stance.knee});
   const models::MjDataPtr data = models::at_reference(robot);

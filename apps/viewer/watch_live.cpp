@@ -24,8 +24,10 @@ namespace {
 /// "26 ± 1, – N": left and right wheel.
 std::string load_text(const std::array<WheelLoad, models::wheel_count>& load) {
   const auto text = [](const WheelLoad& wheel) {
-    return std::isnan(wheel.force) ? std::string("–")
-                                   : fmt::format("{:.0f} ± {:.0f}", wheel.force, wheel.deviation);
+    return std::isnan(wheel.force)
+               ? std::string("–")
+               : fmt::format("{:.0f} ± {:.0f}", std::round(wheel.force) + 0.0,  // no −0
+                             wheel.deviation);
   };
   return fmt::format("{}, {} N", text(load[0]), text(load[1]));
 }

@@ -41,6 +41,26 @@ TEST_P(RobotCheckOf, AShippedRobotHasNoComplaints) {
   }
 }
 
+/// In Upkie's crouch, longer shanks below a heavier torso roll half a metre away.
+TEST(RobotCheck, AcceptsTheDraftOfLegsOfOtherProportions) {
+  const ScratchFolder folder;
+  int n = 0;
+  for (const auto& [shank, torso, centre] : {std::tuple{"-0.22", "4.2", "-0.011451"},
+                                             {"-0.24", "6", "-0.011451"},
+                                             {"-0.14", "6", "-0.011451"},
+                                             {"-0.175", "4.2", "0.03"}}) {
+    std::string text = read_file(upkie_mjcf);
+    text = std::regex_replace(text, std::regex("-0\\.175\""), fmt::format("{}\"", shank));
+    text = std::regex_replace(text, std::regex("\"2\\.7945\""), fmt::format("\"{}\"", torso));
+    text = std::regex_replace(text, std::regex("pos=\"-0\\.011451 "),
+                              fmt::format("pos=\"{} ", centre));
+    const auto file = folder.write(fmt::format("robot_{}.xml", ++n), text);
+    const auto yaml = folder / fmt::format("robot_{}.yaml", n);
+    draft_robot(file, yaml);
+    EXPECT_THAT(check_robot(yaml).complaints, IsEmpty()) << shank << ' ' << torso << ' ' << centre;
+  }
+}
+
 TEST(RobotCheck, EndsWhenItIsAskedToStop) {
   EXPECT_THROW(check_robot(upkie_mjcf, [] { return false; }), Stopped);
 }
