@@ -48,7 +48,7 @@ def robots_program(source, build, touchdown, qemu):
     shutil.copytree(source / 'examples/robot', work / 'source')
     run(touchdown, 'simulate', source / 'scenarios/stairs.yaml', '--run', '1', '-o', work / 'stairs.mpack')
     run(touchdown, 'fit', work / 'stairs.mpack', '--estimator', 'robust', '-o', work / 'model.npz')
-    run(touchdown, 'export', work / 'model.npz', '-o', work / 'model.hpp')
+    run(touchdown, 'convert', work / 'model.npz', '-o', work / 'model.hpp')
     run('cmake', '--install', build, '--prefix', work / 'prefix')
     run('cmake', '-S', work / 'source', '-B', work / 'build', '-G', 'Ninja', '--toolchain',
         source / 'scripts/cmake/aarch64-linux-gnu.cmake', f'-DCMAKE_PREFIX_PATH={work / "prefix"}',
