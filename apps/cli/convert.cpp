@@ -245,6 +245,9 @@ void convert(const ConvertFlags& flags, const CliSession& session) {
         fmt::format("-o: {}: expected --mapping FILE.yaml, which describes the columns of {}",
                     flags.output, flags.source));
   }
+  if (flags.dry_run && flags.folder.empty()) {
+    throw InputError("--dry-run: expected --benchmark DIR, whose files it counts");
+  }
   if (!flags.mapping.empty() && !flags.folder.empty()) {
     throw InputError("--mapping: expected -o FILE.mpack, for a log in another layout");
   }

@@ -45,7 +45,8 @@ LogRobot robot_in_file(const std::filesystem::path& path) {
 std::filesystem::path found_robot(const logs::RecordingInfo& log) {
   std::filesystem::path robot = robot_file_of(log);
   std::filesystem::path beside = log.folder / robot;
-  return robot.is_relative() && !is_there(robot) && is_there(beside) ? beside : robot;
+  const bool is_missing = !robot.empty() && robot.is_relative() && !is_there(robot);
+  return is_missing && is_there(beside) ? beside : robot;
 }
 
 /// "its robot … was changed since the recording"; empty for the recorded robot. Errors:

@@ -68,8 +68,10 @@ bool SourceJoin::next(std::vector<double>& row) {
 /// The source's row of this time, or the last one before it; null if it is stale.
 const SourceRows::Row* SourceJoin::latest(const SourceRows& source,
                                           const SourceRows::Row& joints) const {
+  constexpr double rounding = 1e-6;  // s: of times since 1970
   auto at = std::ranges::upper_bound(source.rows, joints.time, {}, &SourceRows::Row::time);
-  while (at != source.rows.begin() && joints.time - (--at)->time <= config_.stale_after) {
+  while (at != source.rows.begin() &&
+         joints.time - (--at)->time <= config_.stale_after + rounding) {
     if (std::abs(at->arrival - joints.arrival) <= arrival_window + config_.stale_after) return &*at;
   }
   return nullptr;

@@ -145,6 +145,10 @@ TEST_F(Metadata, OfARecordingStatesWhetherItsRobotIsStillTheSame) {
   const std::string there = (folder_ / "own.mpack").string();
   for (const char* verb : {"estimate ", "check "}) {
     EXPECT_THAT(elsewhere.run(verb + there).errors, Not(HasSubstr(assumed))) << verb;
+    // A log of a robot that it does not name has no file to find.
+    const std::string mapped = fmt::format("{0}/robot.csv --mapping {0}/robot.yaml",
+                                           TOUCHDOWN_SOURCE_DIR "/examples/mapping");
+    EXPECT_THAT(elsewhere.run(verb + mapped).errors, Not(HasSubstr(assumed))) << verb;
   }
   for (const std::string file : {"upkie.xml", "own.yaml"}) {
     const std::string before = folder_.text(file);

@@ -127,6 +127,7 @@ TEST_F(WrongRequest, NamesWhatAFileIsAndWhatAKeyTakes) {
       {"estimate log.csv --mapping robot.yaml", {"robot.yaml: is a robot's file, which --robot"}},
       {"convert log.csv --mapping robot.yaml -o x.mpack", {"is a robot's file, which --robot"}},
       {"convert run.mpack -o x.bag", {"x.bag: expected FILE.mcap"}},
+      {"convert run.mpack -o x.mcap --dry-run", {"--dry-run: expected --benchmark DIR"}},
       {"convert run.mpack -o x.npz", {"x.npz: expected FILE.mcap"}},
       {"run tiny.yaml --dry-run --set hyperparameters.robust.threshold=2",
        {"hyperparameters.robust: threshold: expected 0 to 1, found 2"}},
