@@ -128,11 +128,11 @@ typedef struct touchdown_belief {
 /* Returns a record to fill in: all its measurements are NaN, the command is 0. */
 touchdown_record touchdown_empty_record(void);
 
-/* Creates an estimator from a model file that `touchdown fit` or `touchdown convert` wrote. Without one
- * (NULL), it is load_filter with Upkie's legs. `use` may be NULL. The caller destroys the estimator with
- * touchdown_destroy. On failure, returns NULL and writes one line with the reason to `error`, which
- * has `error_size` bytes, terminating zero included; `error` may be NULL and `error_size` 0. This
- * function is in the component `models`, as are all that read a file. */
+/* Creates an estimator from a model file that `touchdown fit` or `touchdown convert` wrote. Without
+ * one (NULL), it is load_filter with Upkie's legs. `use` may be NULL. The caller destroys the
+ * estimator with touchdown_destroy. On failure, returns NULL and writes one line with the reason to
+ * `error`, which has `error_size` bytes, terminating zero included; `error` may be NULL and
+ * `error_size` 0. This function is in the component `models`, as are all that read a file. */
 touchdown_estimator* touchdown_create(const char* model_path, const touchdown_use* use, char* error,
                                       size_t error_size);
 
