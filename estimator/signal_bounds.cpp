@@ -5,8 +5,6 @@
 #include <cstring>
 #include <limits>
 
-#include "core/error.hpp"
-
 namespace touchdown {
 
 namespace {

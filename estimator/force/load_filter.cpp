@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.hpp"
 #include "estimator/low_pass.hpp"
 
 namespace touchdown {
@@ -30,15 +29,10 @@ constexpr double lowest_lead_rate = 500.0;  // Hz
 /// Of a standard normal distribution.
 double probability_below(double x) noexcept { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 
-const LoadFilterConfig& checked(const LoadFilterConfig& config) {
-  check_members(config);
-  return config;
-}
-
 }  // namespace
 
 LoadFilter::LoadFilter(const LoadFilterConfig& config)
-    : config_(checked(config)),
+    : config_(config),
       guard_(config.guard, config.sample_rate),
       loads_(config.geometry, config.sample_rate, config.guard),
       lead_(config.sample_rate < lowest_lead_rate ? 0.0 : config.lead),
@@ -46,6 +40,7 @@ LoadFilter::LoadFilter(const LoadFilterConfig& config)
       evidence_share_(std::min(1.0, 1.0 / (evidence_time * config.sample_rate))),
       p_takeoff_(std::min(0.5, takeoff_rate / config.sample_rate)),
       p_landing_(std::min(0.5, landing_rate / config.sample_rate)) {
+  check_members(config);
   reset();
 }
 

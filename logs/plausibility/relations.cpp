@@ -166,6 +166,7 @@ constexpr double least_slow_turn = 0.25;  // rad/s
 constexpr double least_axis_turn = 0.1;   // rad/s, root mean square
 constexpr int least_turn_windows = 5;
 constexpr std::size_t half_second = 5;  // windows
+constexpr std::array axis_names = {" x", " y", " z"};
 
 constexpr int left_wheel = 2;
 constexpr int right_wheel = 5;
@@ -410,7 +411,7 @@ void Relations::report_turning(Findings& findings) const {
   if (!large.empty() && large.size() < 3 && factor > largest_factor) {
     for (const int i : large) {
       add(times(turns.measured(i) / turns.predicted(i)),
-          std::array{" x", " y", " z"}.at(static_cast<std::size_t>(i)));
+          axis_names.at(static_cast<std::size_t>(i)));
     }
   } else if (own > follows) {
     if (is_of_other_size) add(times(factor));
@@ -419,7 +420,7 @@ void Relations::report_turning(Findings& findings) const {
       const bool turns_here = std::min(turns.measured(i), turns.predicted(i)) > least_axis_turn;
       if (!turns_here || turns.correlation(i, i) > -follows) continue;
       add("turns the other way than the orientation: is its sign wrong",
-          std::array{" x", " y", " z"}.at(static_cast<std::size_t>(i)));
+          axis_names.at(static_cast<std::size_t>(i)));
     }
   } else if (factor > much) {
     add(times(factor));

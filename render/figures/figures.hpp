@@ -8,12 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "core/interval.hpp"
 #include "estimator/bayes/measurement_model.hpp"
 #include "experiments/results/drops.hpp"
 #include "experiments/results/result.hpp"
 #include "render/gnuplot/figure.hpp"
-#include "scoring/score.hpp"
 #include "scoring/transitions.hpp"
 
 namespace touchdown::render {

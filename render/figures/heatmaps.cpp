@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/interval.hpp"
 #include "core/rows.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/baselines.hpp"

@@ -14,6 +14,7 @@
 #include "render/gnuplot/facets.hpp"
 #include "render/gnuplot/frame.hpp"
 #include "render/palette.hpp"
+#include "scoring/score.hpp"
 #include "simulators/registry.hpp"
 
 namespace touchdown::render {
