@@ -3,15 +3,87 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace touchdown::logs {
 
 void SourceRows::add(double arrival, double time, std::span<const double> row,
                      std::uint64_t position) {
-  if (!std::isfinite(time)) return;
+  if (!std::isfinite(time)) {
+    if (without_time++ == 0) first_without_time = position;
+    return;
+  }
   rows.push_back({time, arrival, position, values.size()});
   values.insert(values.end(), row.begin(), row.end());
+}
+
+namespace {
+
+using Rows = std::deque<SourceRows::Row>;
+
+/// Rows in front of a step back and behind it that are wrong, if the clock did not start again.
+struct WrongRows {
+  std::size_t before = 0;
+  std::size_t behind = 0;
+};
+
+/// `latest` has the latest time up to each row of the recording before the step; `ahead` are its
+/// rows from the step on. Empty if few wrong rows do not explain it.
+std::optional<WrongRows> wrong_rows(std::span<const double> latest, const Rows& rows,
+                                    std::size_t step) {
+  for (std::size_t count = 1; count <= SourceJoin::longest_error; ++count) {
+    for (std::size_t before = 0; before <= std::min(count, latest.size() - 1); ++before) {
+      const std::size_t next = step + count - before;
+      if (next < rows.size() &&
+          rows[next].time >= latest[latest.size() - 1 - before] - SourceJoin::largest_disorder) {
+        return WrongRows{before, count - before};
+      }
+    }
+  }
+  if (latest.size() <= SourceJoin::longest_error) return WrongRows{latest.size(), 0};
+  if (rows.size() - step <= SourceJoin::longest_error) return WrongRows{0, rows.size() - step};
+  return std::nullopt;
+}
+
+}  // namespace
+
+ClockSteps split_recordings(std::deque<SourceRows::Row>& rows) {
+  ClockSteps steps;
+  std::vector<double> latest;  // up to each row of the recording
+  std::size_t kept = 0;
+  double span = 0.0;
+  const auto leave_out = [&](std::size_t from, std::size_t count) {
+    if (count > 0 && steps.left_out == 0) steps.first_left_out = rows[from];
+    steps.left_out += count;
+  };
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!latest.empty() && rows[i].time < latest.back() - SourceJoin::largest_disorder) {
+      if (steps.steps_back++ == 0) steps.first_back = rows[i];
+      if (const std::optional<WrongRows> wrong = wrong_rows(latest, rows, i)) {
+        leave_out(kept - wrong->before, wrong->before);
+        leave_out(i, wrong->behind);
+        kept -= wrong->before;
+        latest.resize(latest.size() - wrong->before);
+        i += wrong->behind;
+        if (i == rows.size()) break;
+      } else {
+        steps.restarts.push_back(rows[i].position);
+        span += latest.back() - rows[kept - latest.size()].time;
+        latest.clear();
+      }
+    }
+    latest.push_back(latest.empty() ? rows[i].time : std::max(latest.back(), rows[i].time));
+    rows[kept] = rows[i];
+    rows[kept++].recording = steps.restarts.size();
+  }
+  constexpr std::uint64_t few = 3;
+  constexpr double shortest = 0.5;  // s, of recordings that somebody keeps
+  const auto restarts = static_cast<double>(steps.restarts.size());
+  steps.is_scrambled = steps.left_out > few + rows.size() / 20 ||
+                       (steps.restarts.size() >= few && span < shortest * restarts);
+  rows.resize(kept);
+  return steps;
 }
 
 SourceJoin::SourceJoin(std::vector<SourceRows> sources, Config config)
@@ -20,24 +92,17 @@ SourceJoin::SourceJoin(std::vector<SourceRows> sources, Config config)
   for (std::size_t i = 0; i < sources.size(); ++i) {
     Source& source = sources_[i];
     source.all = std::move(sources[i]);
-    std::deque<SourceRows::Row>& rows = source.all.rows;
+    Rows& rows = source.all.rows;
+    const bool is_clock = i == config_.clock;
     std::ranges::stable_sort(rows, {}, &SourceRows::Row::arrival);
-    if (!rows.empty()) source.report = {rows.size(), rows.front().time, rows.back().time, {}, 0};
-    if (i != config_.clock) std::ranges::stable_sort(rows, {}, &SourceRows::Row::time);
-  }
-  sort_joints();
-}
-
-void SourceJoin::sort_joints() {
-  std::deque<SourceRows::Row>& rows = sources_[config_.clock].all.rows;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    std::size_t at = i;
-    while (at > 0 && rows[at - 1].time > rows[i].time &&
-           rows[at - 1].time <= rows[i].time + largest_disorder) {
-      --at;
+    if (is_clock || !config_.has_arrival) source.report.steps = split_recordings(rows);
+    if (!rows.empty()) {
+      source.report.rows = rows.size();
+      source.report.first = rows.front().time;
+      source.report.last = rows.back().time;
     }
-    const auto place = [&](std::size_t k) { return rows.begin() + static_cast<std::ptrdiff_t>(k); };
-    std::rotate(place(at), place(i), place(i + 1));
+    std::ranges::stable_sort(rows, {}, &SourceRows::Row::time);
+    if (is_clock) std::ranges::stable_sort(rows, {}, &SourceRows::Row::recording);
   }
 }
 
@@ -65,6 +130,11 @@ bool SourceJoin::next(std::vector<double>& row) {
   return false;
 }
 
+bool SourceJoin::are_together(const SourceRows::Row& one, const SourceRows::Row& other) const {
+  if (!config_.has_arrival) return one.recording == other.recording;
+  return std::abs(one.arrival - other.arrival) <= arrival_window + config_.stale_after;
+}
+
 /// The source's row of this time, or the last one before it; null if it is stale.
 const SourceRows::Row* SourceJoin::latest(const SourceRows& source,
                                           const SourceRows::Row& joints) const {
@@ -72,7 +142,7 @@ const SourceRows::Row* SourceJoin::latest(const SourceRows& source,
   auto at = std::ranges::upper_bound(source.rows, joints.time, {}, &SourceRows::Row::time);
   while (at != source.rows.begin() &&
          joints.time - (--at)->time <= config_.stale_after + rounding) {
-    if (std::abs(at->arrival - joints.arrival) <= arrival_window + config_.stale_after) return &*at;
+    if (are_together(*at, joints)) return &*at;
   }
   return nullptr;
 }

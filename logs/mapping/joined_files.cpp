@@ -16,21 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Times that never decrease: a step back of the clock, as of a simulation that starts again, is
-/// left out, so that the rows of all files before it come before those behind it.
-class Arrival {
- public:
-  double next(double time) {
-    if (time + shift_ < latest_ - SourceJoin::largest_disorder) shift_ = latest_ - time;
-    latest_ = std::max(latest_, time + shift_);
-    return latest_;
-  }
-
- private:
-  double shift_ = 0.0;
-  double latest_ = -1e300;
-};
-
 /// Whether a row has any number besides its time. In the outer join of two topics, others belong
 /// to the other one.
 bool has_numbers(std::span<const double> row, const SourceClock& clock,
@@ -48,16 +33,15 @@ bool has_numbers(std::span<const double> row, const SourceClock& clock,
 SourceRows rows_of(RowSource& file, const LogMapping& mapping, const SourceClock& clock,
                    const std::vector<std::size_t>& columns) {
   SourceRows rows;
-  Arrival arrival;
   std::vector<double> mapped(mapping.columns.size());
   std::vector<double> row;
   std::uint64_t position = 0;
   file.select(mapping);
   while (file.next(row)) {
+    ++position;
+    if (!has_numbers(row, clock, columns)) continue;
     for (std::size_t i = 0; i < row.size(); ++i) mapped[columns[i]] = row[i];
-    const double time = clock.at(mapped);
-    if (!std::isfinite(time) || !has_numbers(row, clock, columns)) continue;
-    rows.add(arrival.next(time), time, row, ++position);
+    rows.add(0.0, clock.at(mapped), row, position);
   }
   return rows;
 }

@@ -28,7 +28,9 @@ class JoinedSource : public RowSource {
     for (std::size_t i = 0; i < mapping.columns.size(); ++i) {
       columns_[mapping.columns[i].source].push_back(i);
     }
-    join_.emplace(read(mapping), SourceJoin::Config{columns_, clock_, stale_after_});
+    join_.emplace(read(mapping), SourceJoin::Config{columns_, clock_, are_topics(), stale_after_});
+    for (std::size_t i = 0; i < names_.size(); ++i) require_order(i);
+    if (!are_topics()) require_equal_restarts();
   }
 
   bool next(std::vector<double>& row) final {
@@ -57,6 +59,7 @@ class JoinedSource : public RowSource {
   std::vector<std::string> notes() const override {
     std::vector<std::string> notes;
     for (std::size_t i = 0; i < names_.size(); ++i) {
+      note_left_out(i, notes);
       if (names_[i].file == names_[clock_].file) continue;
       const SourceJoin::Report& report = join_->report(i);
       std::string note = fmt::format(
@@ -96,6 +99,56 @@ class JoinedSource : public RowSource {
   std::vector<SourceNames> names_;
 
  private:
+  bool are_topics() const { return names_[clock_].is_topic; }
+  const char* row_name() const { return are_topics() ? "message" : "row"; }
+
+  /// Errors: `InputError` for a source of which the times do not follow each other.
+  void require_order(std::size_t source) const {
+    const ClockSteps& steps = join_->report(source).steps;
+    if (!steps.is_scrambled) return;
+    throw InputError(fmt::format(
+        "{}: times of {} go back {} times, first at {} {} (to {:.6g} s): {}", log_.string(),
+        names_[source].file, steps.steps_back, row_name(), steps.first_back.position,
+        steps.first_back.time,
+        are_topics() ? "do publishers with clocks of their own share the topic? `time: {from: "
+                       "log_time}` takes the times of recording"
+                     : "sort its rows by time"));
+  }
+
+  /// Errors: `InputError` if one source started again where another one did not.
+  void require_equal_restarts() const {
+    const std::vector<std::uint64_t>& expected = join_->report(clock_).steps.restarts;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      const std::vector<std::uint64_t>& restarts = join_->report(i).steps.restarts;
+      if (restarts.size() == expected.size() || join_->report(i).rows == 0) continue;
+      const auto text = [](const std::vector<std::uint64_t>& rows) {
+        return rows.empty() ? "nowhere" : fmt::format("at row {}", fmt::join(rows, ", "));
+      };
+      throw InputError(fmt::format(
+          "{}: the clock of {} starts again {}, that of {} {}, so that it is unknown which rows "
+          "belong together: split the files there",
+          log_.string(), names_[clock_].file, text(expected), names_[i].file, text(restarts)));
+    }
+  }
+
+  void note_left_out(std::size_t source, std::vector<std::string>& notes) const {
+    const SourceRows& rows = join_->source(source);
+    const ClockSteps& steps = join_->report(source).steps;
+    if (rows.without_time > 0) {
+      notes.push_back(fmt::format("{}: {} of {} {}s without a time are left out, first {} {}",
+                                  names_[source].file, rows.without_time,
+                                  rows.without_time + rows.rows.size() + steps.left_out, row_name(),
+                                  row_name(), rows.first_without_time));
+    }
+    if (steps.left_out > 0) {
+      notes.push_back(fmt::format(
+          "{}: {} of {} {}s are left out because times around theirs contradict them, first {} {} "
+          "({:.6g} s)",
+          names_[source].file, steps.left_out, rows.rows.size() + steps.left_out, row_name(),
+          row_name(), steps.first_left_out.position, steps.first_left_out.time));
+    }
+  }
+
   /// Errors: `InputError` if no row was joined.
   void require_joined() const {
     if (join_->rows() > 0) return;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -374,6 +375,27 @@ TEST_F(JoinedLog, AClockThatStartsAtZeroAgainIsFollowed) {
   }
 }
 
+/// A stamp that a publisher filled in wrongly.
+TEST_F(JoinedLog, AMessageOfAWrongStampIsLeftOut) {
+  for (const std::int64_t wrong : {-400 * ms, 3000 * ms}) {
+    TestBag bag = robot_bag(1.0);
+    for (const std::size_t topic : {0U, 1U}) {
+      auto message = std::ranges::find_if(bag.messages, [&](const auto& one) {
+        return one.topic == topic && one.time > stamp(0.5);
+      });
+      const std::int64_t measured = message->time - (topic == 0 ? 3 : 8) * ms;
+      const double t = 1e-9 * static_cast<double>(measured - epoch);
+      message->data = topic == 0 ? bags::joint_state_cdr(measured + wrong, joints_at(t, all_joints))
+                                 : bags::imu_cdr(measured + wrong, imu_at(t));
+    }
+    EXPECT_EQ(convert(write_bag(bag), bag_mapping).size(), 498U);
+    EXPECT_EQ(converted_.time_reversals, 0U);
+    EXPECT_EQ(converted_.incomplete_rows, 0U);
+    EXPECT_THAT(converted_.notes, Contains(AllOf(HasSubstr("/joint_states: 1 of 500 messages"),
+                                                 HasSubstr("contradict"))));
+  }
+}
+
 TEST_F(JoinedLog, MalformedMessagesAreLeftOutAndCounted) {
   TestBag bag = robot_bag(0.5);
   bag.messages[100].data.resize(50);
@@ -521,6 +543,163 @@ TEST_F(JoinedLog, FilesAreJoinedAtTheJointsClock) {
     expect_joined(rows);
     EXPECT_THAT(converted_.notes,
                 Contains(AllOf(HasSubstr("imu.csv: held"), HasSubstr("ms (median)"))));
+  }
+}
+
+/// Rows of files by what their clocks show: joints at 500 Hz, an IMU at 200 Hz, measured at t.
+struct Shown {
+  std::string clock;
+  double t = 0.0;
+};
+
+std::vector<Shown> shown(double rate, double seconds) {
+  std::vector<Shown> rows;
+  for (int k = 0; k < static_cast<int>(rate * seconds); ++k) {
+    const double t = k / rate;
+    rows.push_back({fmt::format("{:.4f}", t), t});
+  }
+  return rows;
+}
+
+const std::string shown_mapping =
+    fmt::format(
+        "sources: {{joints: joints.csv, imu: imu.csv}}\ntime: {{from: t}}\n"
+        "joints: {{names: [{}]}}\n",
+        fmt::join(joint_names, ", ")) +
+    imu_columns;
+
+class ClocksOfFiles : public JoinedLog {
+ protected:
+  void write_files() const {
+    std::string joints = "t";
+    for (const char* field : {"position", "velocity", "effort"}) {
+      for (const std::string& name : joint_names) joints += fmt::format(",{}/{}", name, field);
+    }
+    for (const Shown& row : joints_) {
+      joints += fmt::format("\n{}", row.clock);
+      for (std::size_t i = 0; i < 6; ++i) joints += fmt::format(",{:.12g}", position(i, row.t));
+      for (std::size_t i = 0; i < 6; ++i) joints += fmt::format(",{:.12g}", velocity(i, row.t));
+      for (std::size_t i = 0; i < 6; ++i) joints += fmt::format(",{:.12g}", torque(i, row.t));
+    }
+    std::string imu = "t,qx,qy,qz,qw,gx,gy,gz,ax,ay,az";
+    for (const Shown& row : imu_)
+      imu += fmt::format("\n{},0,0,0,1,0,0,{},0,0,9.81", row.clock, row.t);
+    write("joints.csv", joints + "\n");
+    write("imu.csv", imu + "\n");
+  }
+  std::size_t converted_rows() {
+    write_files();
+    const std::vector<LogRow> rows = convert(folder_.path(), shown_mapping);
+    for (const LogRow& row : rows) {
+      // Each torque is its index and the time; the yaw rate is the IMU's time.
+      const double age = row.observation.servo[0].torque + row.observation.imu.angular_velocity.z();
+      EXPECT_GE(age, -1e-9);
+      EXPECT_LE(age, 0.005 * 4 + 1e-9);  // behind three rows that are left out
+    }
+    return rows.size();
+  }
+  std::string complaint_of_files() {
+    write_files();
+    return complaint(folder_.path(), shown_mapping);
+  }
+
+  std::vector<Shown> joints_ = shown(500.0, 1.0);
+  std::vector<Shown> imu_ = shown(200.0, 1.0);
+};
+
+TEST_F(ClocksOfFiles, AFewWrongTimesAreNoRestart) {
+  const auto joints = joints_;
+  const auto imu = imu_;
+  for (const std::size_t at :
+       {std::size_t{1}, std::size_t{70}, std::size_t{150}, std::size_t{198}}) {
+    for (const double wrong : {-1e9, -2.0, -0.3, 0.3, 2.0, 1.7e9}) {
+      for (const std::size_t count : {std::size_t{1}, std::size_t{2}}) {
+        if (at + count > 199) continue;
+        for (auto* file : {&joints_, &imu_}) {
+          for (std::size_t i = at; i < at + count; ++i) {
+            (*file)[i].clock = fmt::format("{:.4f}", (*file)[i].t + wrong);
+          }
+          const bool are_joints = file == &joints_;
+          EXPECT_EQ(converted_rows(), are_joints ? 500U - count : 500U) << at << ' ' << wrong;
+          EXPECT_THAT(
+              converted_.notes,
+              Contains(AllOf(HasSubstr(are_joints ? "joints.csv: " : "imu.csv: "),
+                             HasSubstr(fmt::format(": {} of ", count)), HasSubstr("contradict"),
+                             HasSubstr(fmt::format("row {} ", at + 1)))))
+              << at << ' ' << wrong;
+          joints_ = joints;
+          imu_ = imu;
+        }
+      }
+    }
+  }
+}
+
+TEST_F(ClocksOfFiles, RecordingsAreJoinedEachWithItsOwn) {
+  const auto begin_again = [](std::vector<Shown>& rows, double rate, int times) {
+    for (int k = 0; k < times; ++k) {
+      for (const Shown& row : shown(rate, 1.0 + 0.3 * k)) {
+        rows.push_back({row.clock, row.t + 10.0 * (k + 1)});
+      }
+    }
+  };
+  begin_again(joints_, 500.0, 2);
+  begin_again(imu_, 200.0, 2);
+  EXPECT_EQ(converted_rows(), 500U + 500U + 650U);
+  EXPECT_EQ(converted_.time_reversals, 2U);
+  EXPECT_EQ(converted_.incomplete_rows, 0U);
+}
+
+TEST_F(ClocksOfFiles, AFileThatLacksARecordingIsRefused) {
+  for (auto* rows : {&joints_, &imu_}) {
+    const auto once = *rows;
+    rows->insert(rows->end(), once.begin(), once.end());
+    EXPECT_THAT(complaint_of_files(),
+                AllOf(HasSubstr("joints.csv starts again"), HasSubstr("nowhere"),
+                      HasSubstr(fmt::format("at row {}", once.size() + 1)), HasSubstr("split")));
+    *rows = once;
+    // Its halves in the wrong order.
+    std::rotate(rows->begin(), rows->begin() + 90, rows->end());
+    EXPECT_THAT(complaint_of_files(), HasSubstr("nowhere"));
+    *rows = once;
+  }
+}
+
+TEST_F(ClocksOfFiles, ScrambledRowsAreRefused) {
+  for (auto* rows : {&joints_, &imu_}) {
+    const char* const file = rows == &joints_ ? "joints.csv go back" : "imu.csv go back";
+    const auto once = *rows;
+    std::ranges::reverse(*rows);
+    EXPECT_THAT(complaint_of_files(), AllOf(HasSubstr(file), HasSubstr("sort")));
+    *rows = once;
+    std::mt19937 random(7);
+    std::ranges::shuffle(*rows, random);
+    EXPECT_THAT(complaint_of_files(), AllOf(HasSubstr(file), HasSubstr("sort")));
+    *rows = once;
+  }
+}
+
+TEST_F(ClocksOfFiles, RowsOfSmallDisorderAreSorted) {
+  std::mt19937 random(7);
+  for (auto* rows : {&joints_, &imu_}) {
+    for (auto at = rows->begin(); rows->end() - at >= 10; at += 10) {
+      std::shuffle(at, at + 10, random);
+    }
+  }
+  EXPECT_EQ(converted_rows(), 500U);
+  EXPECT_EQ(converted_.time_reversals, 0U);
+}
+
+TEST_F(ClocksOfFiles, RowsWithoutATimeAreCounted) {
+  for (const char* nothing : {"", "nan", "inf"}) {
+    joints_[20].clock = nothing;
+    imu_[7].clock = imu_[8].clock = nothing;
+    EXPECT_EQ(converted_rows(), 499U);
+    EXPECT_THAT(converted_.notes,
+                AllOf(Contains(HasSubstr("joints.csv: 1 of 500 rows without a time are left out, "
+                                         "first row 21")),
+                      Contains(HasSubstr("imu.csv: 2 of 200 rows without a time are left out, "
+                                         "first row 8"))));
   }
 }
 
