@@ -42,12 +42,14 @@ struct FormerVerb {
   std::string_view name;
   const char* successor;
 };
-constexpr std::array former_verbs = {FormerVerb{"merge", "touchdown run DIR"},
-                                     FormerVerb{"figure", "touchdown report RUN --figure NAME"},
-                                     FormerVerb{"export", "touchdown convert"},
-                                     FormerVerb{"keys", "touchdown list KIND"},
-                                     FormerVerb{"manual", "touchdown list commands --markdown"},
-                                     FormerVerb{"clean", "rm -r runs/NAME/ID"}};
+constexpr std::array former_verbs = {
+    FormerVerb{"merge", "touchdown run DIR"},
+    FormerVerb{"figure", "touchdown report RUN --figure NAME"},
+    FormerVerb{"export", "touchdown convert"},
+    FormerVerb{"label", "touchdown estimate LOG --propose FILE.csv"},
+    FormerVerb{"keys", "touchdown list KIND"},
+    FormerVerb{"manual", "touchdown list commands --markdown"},
+    FormerVerb{"clean", "rm -r runs/NAME/ID"}};
 
 /// A one-line message about a wrong command line that suggests the nearest existing verb or flag.
 std::string complaint(const CLI::App& program, int argc, char** argv,
@@ -93,7 +95,6 @@ int run_command_line(int argc, char** argv) {
   add_watch(program, session);
   add_fit(program, session);
   add_estimate(program, session);
-  add_label(program, session);
   add_check(program, session);
   add_convert(program, session);
   add_score(program, session);

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,15 +13,20 @@
 #include "apps/cli/log_options.hpp"
 #include "apps/cli/verb.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/program.hpp"
 #include "core/progress.hpp"
 #include "core/stop.hpp"
+#include "core/table.hpp"
 #include "experiments/logs/estimator.hpp"
 #include "experiments/logs/fit.hpp"
+#include "experiments/logs/label_proposal.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/summary.hpp"
 #include "experiments/plan/rollouts.hpp"
+#include "experiments/results/captions.hpp"
 #include "logs/log/annotator.hpp"
+#include "logs/log/contact_intervals.hpp"
 #include "render/figures/log_figure.hpp"
 #include "scenarios/scenario.hpp"
 
@@ -38,10 +45,48 @@ struct EstimateFlags {
   std::vector<std::string> labels;
   LogOptions log;
   bool strict = false;
-  std::vector<std::string> outputs;
-  std::string figure;
+  EstimateRequest request;
   DrawnPart drawn;
 };
+
+/// The intervals that a person should look at first.
+std::string least_sure(std::vector<logs::ContactInterval> intervals) {
+  constexpr std::size_t most = 12;
+  std::stable_sort(intervals.begin(), intervals.end(),
+                   [](const auto& one, const auto& other) { return one.sure < other.sure; });
+  const std::size_t shown = std::min(intervals.size(), most);
+  TextTable table{{"sure", "from (s)", "to (s)", "left", "right"}, {}};
+  for (const logs::ContactInterval& one : std::span(intervals).first(shown)) {
+    const auto word = [](bool contact) { return contact ? "contact" : "air"; };
+    table.rows.push_back({fmt::format("{:.3f}", one.sure.value_or(1.0)),
+                          fmt::format("{:.3f}", one.start), fmt::format("{:.3f}", one.end),
+                          word(one.contact[0]), word(one.contact[1])});
+  }
+  return fmt::format(
+      "least sure first{}:\n{}",
+      shown < intervals.size() ? fmt::format(", {} of {}", shown, intervals.size()) : "",
+      to_text(table));
+}
+
+/// Writes labels for a person to correct. Errors: `InputError` for a file of other labels.
+std::string propose(const logs::ContactIntervals& labels, const std::string& path,
+                    const std::string& log, const LogOptions& options) {
+  const std::string proposal = logs::to_csv(labels);
+  if (is_there(path) && read_file(path) != proposal) {
+    throw InputError(fmt::format(
+        "{}: is there already, and differs from this proposal: expected a new file, because a "
+        "person may have corrected that one",
+        path));
+  }
+  write_atomically(path, proposal);
+  const std::string robot = options.robot.empty() ? "" : " --robot " + options.robot;
+  const std::string mapping = options.mapping.empty() ? "" : " --mapping " + options.mapping;
+  return fmt::format(
+      "{0:<12} {1}, {2}\n{3}{4:<12} touchdown watch {5} --labels {1}{6}{7}\n"
+      "{8:<12} touchdown estimate {5} --labels {1}{6}{7}\n",
+      "proposal", path, experiments::plural(labels.intervals.size(), "interval"),
+      least_sure(labels.intervals), "next", log, robot, mapping, "then");
+}
 
 /// Writes the beliefs about one log: table, annotated log, figure and summary.
 class BeliefWriter {
@@ -59,6 +104,7 @@ class BeliefWriter {
     is_labelled_ = labelled;
     threshold_ = scoring::force_threshold(labels_, log.robot_mass());
     summary_.emplace(log.period(), scoring::ScoringConfig{});
+    proposal_.emplace(log.period());
     score_.emplace(log.period_us(), labels_, log.robot_mass(), scoring::ScoringConfig{}, labelled);
   }
 
@@ -67,6 +113,7 @@ class BeliefWriter {
            const ContactEstimator& estimator, const Belief& belief) {
     const double time = step.signals.time;
     summary_->add(time, belief);
+    proposal_->add(time, belief);
     score_->add(step.normal_force, step.truth, belief);
     if (bag_) bag_->write(reader.stamp(), belief);
     if (csv_ == nullptr && !annotator_ && !drawn_) return;
@@ -106,6 +153,7 @@ class BeliefWriter {
   std::int64_t valid_steps() const { return summary_->valid_steps(); }
   double duration() const { return summary_->duration(); }
   const render::LogTrace& trace() const { return trace_; }
+  logs::ContactIntervals proposed_labels() { return proposal_->finish(); }
 
  private:
   /// What the truth of a score is.
@@ -143,6 +191,7 @@ class BeliefWriter {
   std::optional<DrawnPart> drawn_;
   std::optional<experiments::LogSummary> summary_;
   std::optional<experiments::LogScore> score_;
+  std::optional<experiments::LabelProposal> proposal_;
   render::LogTrace trace_;
 };
 
@@ -224,8 +273,10 @@ std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* 
                          const EstimateOutputs& outputs, const CliSession& session) {
   std::string summary;
   std::size_t findings = 0;
+  logs::ContactIntervals proposed;
   write_outputs(outputs, [&](const EstimateStreams& streams) {
-    BeliefWriter writer(streams, flags.figure.empty() ? std::nullopt : std::optional(flags.drawn));
+    BeliefWriter writer(streams,
+                        flags.request.figure.empty() ? std::nullopt : std::optional(flags.drawn));
     const bool live = path == "-";
     // A reader of a live stream gets every line before the program waits for the next record.
     const auto before_read = [&] {
@@ -237,6 +288,7 @@ std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* 
     const Evaluation evaluation = evaluate(reader, estimator, labels, writer, session);
     summary = evaluation.summary;
     findings = evaluation.findings.size();
+    proposed = writer.proposed_labels();
     if (!live) end_if(session.stop);
     print_warnings(reader.warnings());
     require_valid_steps(reader, writer, evaluation.findings);
@@ -256,6 +308,9 @@ std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* 
   }
   if (!outputs.mcap.empty()) summary += fmt::format("{:<12} {}\n", "bag", outputs.mcap.string());
   if (!outputs.mpack.empty()) summary += fmt::format("{:<12} {}\n", "log", outputs.mpack.string());
+  if (!outputs.proposal.empty()) {
+    summary += propose(proposed, outputs.proposal.string(), path, flags.log);
+  }
   print_text(outputs, summary);
   return findings;
 }
@@ -263,7 +318,7 @@ std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* 
 void estimate(const EstimateFlags& flags, const CliSession& session) {
   const experiments::LogEstimator estimator = estimator_for(flags.log);
   const std::vector<EstimateOutputs> outputs =
-      estimate_outputs(flags.logs, flags.log.model, flags.labels, flags.outputs, flags.figure);
+      estimate_outputs(flags.logs, flags.log.model, flags.labels, flags.request);
   const std::vector<logs::ContactIntervals> labels =
       logs::read_contact_intervals(flags.labels, flags.logs.size());
   std::size_t findings = 0;
@@ -283,7 +338,8 @@ void add_estimate(CLI::App& program, const CliSession& session) {
       "touchdown estimate robot.mpack\n"
       "touchdown estimate robot.mpack --model model.npz -o beliefs.csv --figure beliefs.png\n"
       "… | touchdown estimate - --model model.npz\n"
-      "touchdown estimate rosbag2_2026_03_01/ --mapping robot.yaml --model model.npz\n\n"
+      "touchdown estimate rosbag2_2026_03_01/ --mapping robot.yaml --model model.npz\n"
+      "touchdown estimate robot.mpack --propose labels.csv\n\n"
       "Estimates from Upkie's logs which wheels are in contact. With - it reads a live\n"
       "stream from standard input and prints one line per record. With --mapping it reads\n"
       "another robot's logs: ROS 2 bags, CSV or NumPy arrays. Signals that are not plausible\n"
@@ -301,14 +357,18 @@ void add_estimate(CLI::App& program, const CliSession& session) {
   verb.flag("--strict", &flags->strict,
             "Exit with code 1 if the signals of a log are not plausible");
   verb.option(
-          "-o,--output", &flags->outputs,
+          "-o,--output", &flags->request.outputs,
           "Beliefs as FILE.csv, as a ROS 2 bag FILE.mcap to play beside the log's, or the log "
           "with\nbeliefs in it as FILE.mpack, or all; - prints the table. With several logs, each "
           "file's\nname begins with the log's name")
       .value_name("FILE")
       .one_at_a_time();
-  verb.option("--figure", &flags->figure, "Figure of signals and beliefs over time")
+  verb.option("--figure", &flags->request.figure, "Figure of signals and beliefs over time")
       .value_name("FILE.png");
+  verb.option("--propose", &flags->request.proposal,
+              "Labels for a person to correct: the decisions, as rows "
+              "start,end,left,right,sure")
+      .value_name("FILE.csv");
   verb.option("--from", &flags->drawn.from, "Start of the figure in the log's time (s)");
   verb.option("--to", &flags->drawn.to, "End of the figure in the log's time (s)");
   verb.action([flags, &session] { estimate(*flags, session); });

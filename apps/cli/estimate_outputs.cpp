@@ -22,7 +22,7 @@ fs::path named_after(const std::string& log, const fs::path& output) {
   return output.parent_path() / (stem + "_" + output.filename().string());
 }
 
-EstimateOutputs sorted_by_kind(const std::vector<std::string>& outputs, const std::string& figure) {
+EstimateOutputs sorted_by_kind(const EstimateRequest& request) {
   EstimateOutputs result;
   const auto take = [](fs::path& path, const std::string& output) {
     if (!path.empty()) {
@@ -31,7 +31,7 @@ EstimateOutputs sorted_by_kind(const std::vector<std::string>& outputs, const st
     }
     path = output;
   };
-  for (const std::string& output : outputs) {
+  for (const std::string& output : request.outputs) {
     const fs::path extension = fs::path(output).extension();
     if (output == "-" || extension == ".csv") {
       take(result.csv, output);
@@ -47,7 +47,12 @@ EstimateOutputs sorted_by_kind(const std::vector<std::string>& outputs, const st
                       output));
     }
   }
-  result.figure = figure_stem(figure);
+  result.figure = figure_stem(request.figure);
+  result.proposal = request.proposal;
+  if (!request.proposal.empty() && extension_of(result.proposal) != ".csv") {
+    throw InputError(
+        fmt::format("--propose: '{}': expected a name that ends with .csv", request.proposal));
+  }
   return result;
 }
 
@@ -93,9 +98,8 @@ std::vector<fs::path> figure_files(const fs::path& stem) {
 std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& logs,
                                               const std::string& model,
                                               const std::vector<std::string>& labels,
-                                              const std::vector<std::string>& outputs,
-                                              const std::string& figure) {
-  EstimateOutputs given = sorted_by_kind(outputs, figure);
+                                              const EstimateRequest& request) {
+  EstimateOutputs given = sorted_by_kind(request);
   const bool live = std::find(logs.begin(), logs.end(), "-") != logs.end();
   if (live && logs.size() > 1) throw InputError("estimate: '-', a live stream, is read alone");
   if (live && given.csv.empty()) given.csv = "-";
@@ -110,9 +114,10 @@ std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& lo
     EstimateOutputs own = given;
     if (logs.size() > 1) {
       own = {named_after(log, given.csv), named_after(log, given.mpack),
-             named_after(log, given.mcap), named_after(log, given.figure)};
+             named_after(log, given.mcap), named_after(log, given.figure),
+             named_after(log, given.proposal)};
     }
-    for (const fs::path& output : {own.csv, own.mpack, own.mcap, own.figure}) {
+    for (const fs::path& output : {own.csv, own.mpack, own.mcap, own.figure, own.proposal}) {
       check(output, seen);
       if (!output.empty() && output != own.figure) files.push_back(output);
     }

@@ -13,7 +13,8 @@ struct EstimateOutputs {
   std::filesystem::path csv;  ///< "-" is standard output
   std::filesystem::path mpack;
   std::filesystem::path mcap;
-  std::filesystem::path figure;  ///< without its extension
+  std::filesystem::path figure;    ///< without its extension
+  std::filesystem::path proposal;  ///< of labels
 
   bool prints_csv() const { return csv == "-"; }
 };
@@ -25,6 +26,13 @@ std::filesystem::path figure_stem(const std::string& figure);
 /// The figure's files, with gnuplot's data and script; none without a figure.
 std::vector<std::filesystem::path> figure_files(const std::filesystem::path& stem);
 
+/// Output files as the command line gives them.
+struct EstimateRequest {
+  std::vector<std::string> outputs;
+  std::string figure;
+  std::string proposal;
+};
+
 /// Assigns outputs by their extensions, `.csv`, `.mpack` and `.mcap`. For several logs, each
 /// output's name begins with the log's name. Errors: `InputError` for another extension, two
 /// outputs of one kind, an output that two logs share, and those of `check_outputs`; `Error` for an
@@ -32,8 +40,7 @@ std::vector<std::filesystem::path> figure_files(const std::filesystem::path& ste
 std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& logs,
                                               const std::string& model,
                                               const std::vector<std::string>& labels,
-                                              const std::vector<std::string>& outputs,
-                                              const std::string& figure);
+                                              const EstimateRequest& request);
 
 /// The streams of the outputs; null where there is no output.
 struct EstimateStreams {

@@ -79,7 +79,6 @@ void add_train(CLI::App& program, const CliSession& session);
 void add_watch(CLI::App& program, const CliSession& session);
 void add_fit(CLI::App& program, const CliSession& session);
 void add_estimate(CLI::App& program, const CliSession& session);
-void add_label(CLI::App& program, const CliSession& session);
 void add_check(CLI::App& program, const CliSession& session);
 void add_convert(CLI::App& program, const CliSession& session);
 void add_score(CLI::App& program, const CliSession& session);

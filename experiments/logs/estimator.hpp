@@ -7,7 +7,6 @@
 #include "estimator/contact_estimator.hpp"
 #include "experiments/estimators/entry.hpp"
 #include "experiments/logs/log_steps.hpp"
-#include "logs/log/contact_intervals.hpp"
 #include "logs/recording.hpp"
 
 namespace touchdown::experiments {
@@ -52,11 +51,5 @@ LogEstimator log_estimator(LogEstimatorRequest request);
 
 /// The estimator of a model that was fitted for it, for any robot.
 LogEstimator log_estimator(const EstimatorEntry& entry, Model model, const LogRobot& robot);
-
-/// Contact of both wheels throughout a log by an estimator's decisions, as labels to correct by
-/// hand. An interval's `sure` is the lowest mean probability of a wheel's state over 20 ms in it.
-/// Where no step has usable signals for longer than a gap, no interval is. Errors: those of
-/// `LogEstimator::make`.
-logs::ContactIntervals proposed_labels(LogSteps& log, const LogEstimator& chosen);
 
 }  // namespace touchdown::experiments

@@ -146,14 +146,14 @@ TEST_F(Bag, OfAnotherRobotGivesBeliefsAsGoodAsTheRunsOwnLog) {
 }
 
 TEST_F(Bag, IsLabelledByItsMappingAsItsExportedLogIs) {
-  EXPECT_THAT(folder_.output_of("label bag.mcap --mapping robot.yaml -o bag.csv"),
+  EXPECT_THAT(folder_.output_of("estimate bag.mcap --mapping robot.yaml --propose bag.csv"),
               AllOf(HasSubstr("touchdown watch bag.mcap --labels bag.csv --mapping robot.yaml\n"),
                     HasSubstr("touchdown estimate bag.mcap --labels bag.csv ")));
   folder_.output_of("convert bag.mcap --mapping robot.yaml -o log.mpack");
-  folder_.output_of("label log.mpack -o log.csv");
+  folder_.output_of("estimate log.mpack --propose log.csv");
   EXPECT_EQ(folder_.text("log.csv"), folder_.text("bag.csv"));
   folder_.output_of("fit log.mpack --labels bag.csv -o model.npz --no-accuracy");
-  folder_.expect_refusals({{"label log.mpack --mapping robot.yaml -o x.csv",
+  folder_.expect_refusals({{"estimate log.mpack --mapping robot.yaml --propose x.csv",
                             {"log.mpack: a log in Upkie's layout needs no mapping"}}});
 }
 

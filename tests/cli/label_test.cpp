@@ -25,7 +25,7 @@ class Label : public InFolder {
     return logs::read_recording(folder_ / "run.mpack");
   }
   logs::ContactIntervals labels_of(const std::string& log) const {
-    folder_.output_of("label " + log + " -o labels.csv");
+    folder_.output_of("estimate " + log + " --propose labels.csv");
     return logs::read_contact_intervals(folder_ / "labels.csv");
   }
 };
@@ -80,7 +80,7 @@ TEST_F(Label, EdgesAreWithinMillisecondsOfTheTruth) {
 
 TEST_F(Label, ListsTheLeastSureIntervalsFirst) {
   (void)simulated();
-  const std::string text = folder_.output_of("label run.mpack -o labels.csv");
+  const std::string text = folder_.output_of("estimate run.mpack --propose labels.csv");
   const logs::ContactIntervals labels = logs::read_contact_intervals(folder_ / "labels.csv");
   const auto least =
       std::min_element(labels.intervals.begin(), labels.intervals.end(),
@@ -104,23 +104,23 @@ TEST_F(Label, NothingIsKnownWhereSignalsAreMissing) {
 
 TEST_F(Label, NeverReplacesWhatAPersonMayHaveCorrected) {
   logs::write_recording(test::robot_log(2.0), folder_ / "robot.mpack");
-  folder_.output_of("label robot.mpack -o labels.csv");
-  folder_.output_of("label robot.mpack -o labels.csv");  // the same proposal
+  folder_.output_of("estimate robot.mpack --propose labels.csv");
+  folder_.output_of("estimate robot.mpack --propose labels.csv");  // the same proposal
   const std::string proposed = folder_.text("labels.csv");
   const std::string first = proposed.substr(0, proposed.find('\n') + 1);
   for (const std::string& corrected : {proposed + "# looked at\n", first, std::string()}) {
     folder_.write("labels.csv", corrected);
     folder_.expect_refusals(
-        {{"label robot.mpack -o labels.csv", {"labels.csv: is there already"}}});
+        {{"estimate robot.mpack --propose labels.csv", {"labels.csv: is there already"}}});
     EXPECT_EQ(folder_.text("labels.csv"), corrected);
   }
 }
 
 TEST_F(Label, RefusesWhatItCannotLabel) {
   logs::write_recording(test::robot_log(2.0), folder_ / "robot.mpack");
-  folder_.expect_refusals({{"label robot.mpack -o l.csv --estimator robust", {"--model"}},
-                           {"label robot.mpack -o l.npz", {".csv"}},
-                           {"label robot.mpack -o robot.mpack", {"robot.mpack"}}});
+  folder_.expect_refusals({{"estimate robot.mpack --propose l.csv --estimator robust", {"--model"}},
+                           {"estimate robot.mpack --propose l.npz", {".csv"}},
+                           {"estimate robot.mpack --propose robot.mpack", {"robot.mpack"}}});
   EXPECT_FALSE(folder_.has("l.csv"));
 }
 

@@ -72,14 +72,13 @@ TEST_F(WrongRequest, AboutAFileNamesItsOptionOrThePlaceInIt) {
   folder_.write("bad.csv", "bad\n");
   folder_.write("bad.yaml", "a: [\n");
   const std::string simulate = "simulate scenarios/hop.yaml -o x.mpack ";
-  for (const std::string verb : {"estimate log.mpack ", "label log.mpack -o x.csv "}) {
-    folder_.expect_refusals(
-        {{verb + "--model bad.npz", {"touchdown: --model: bad.npz: "}},
-         {verb + "--model none.npz", {"touchdown: --model: none.npz: no such"}},
-         {verb + "--mapping none.yaml", {"touchdown: --mapping: none.yaml: "}},
-         {verb + "--mapping bad.yaml", {"touchdown: bad.yaml:2:1: "}},
-         {verb + "--robot none.xml", {"touchdown: --robot: none.xml: no such"}}});
-  }
+  const std::string estimate = "estimate log.mpack ";
+  folder_.expect_refusals(
+      {{estimate + "--model bad.npz", {"touchdown: --model: bad.npz: "}},
+       {estimate + "--model none.npz", {"touchdown: --model: none.npz: no such"}},
+       {estimate + "--mapping none.yaml", {"touchdown: --mapping: none.yaml: "}},
+       {estimate + "--mapping bad.yaml", {"touchdown: bad.yaml:2:1: "}},
+       {estimate + "--robot none.xml", {"touchdown: --robot: none.xml: no such"}}});
   folder_.expect_refusals({
       {"fit log.mpack -o x.npz --labels none.csv", {"touchdown: --labels: none.csv: no such file"}},
       {"fit log.mpack -o x.npz --labels bad.csv", {"touchdown: bad.csv:1:1: "}},
