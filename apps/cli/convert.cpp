@@ -102,7 +102,7 @@ void write_log(const ConvertFlags& flags, const CliSession& session) {
     if (!stream) return;
     if (!flags.labels.empty()) write_atomically(flags.labels, labels_text(flags, log));
   });
-  print_warnings(logs::warnings_of(log, flags.source));
+  print_warnings(log.warnings);
   const std::size_t findings = report_findings(flags, session);
   print("log       {}, {} records, from {:.3f} to {:.3f} s of {}\n", flags.output, log.rows,
         log.start, log.end, flags.source);

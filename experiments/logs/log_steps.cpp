@@ -163,7 +163,8 @@ LogSteps::LogSteps(logs::LogReader& reader, const logs::ContactIntervals* labels
       signals_(sample_rate_),
       plausibility_(1.0 / sample_rate_, robot_, reader.start_time()) {
   info_.control_period_us = std::llround(1e6 / sample_rate_);
-  if (!robot_.doubt.empty()) reader.warn(fmt::format("{}: {}", reader.name(), robot_.doubt));
+  if (!robot_.doubt.empty())
+    reader.notes().warnings.push_back(fmt::format("{}: {}", reader.name(), robot_.doubt));
   if (labels == nullptr) return;
   const LegGeometry legs = robot_.legs.value_or(LegGeometry{});
   label_check_ = std::make_unique<LabelCheck>(*labels, sample_rate_, legs);
@@ -210,7 +211,7 @@ void LogSteps::add_to_digest(const Signals& signals) {
 std::string LogSteps::digest() const { return fmt::format("{:016x}", digest_); }
 
 std::vector<std::string> LogSteps::findings() const {
-  std::vector<std::string> findings = reader_.findings();
+  std::vector<std::string> findings = reader_.notes().findings;
   std::ranges::move(plausibility_.findings(), std::back_inserter(findings));
   if (!label_check_) return findings;
   if (std::optional<std::string> label = label_check_->finding()) findings.push_back(*label);

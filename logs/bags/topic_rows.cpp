@@ -150,22 +150,23 @@ void TopicRows::count_kind() {
   last_kind_ = std::move(kind);
 }
 
-std::vector<std::string> TopicRows::notes() const {
-  std::vector<std::string> notes;
+void TopicRows::add_to(LogNotes& notes) const {
   if (malformed_ > 0) {
-    notes.push_back(fmt::format("{}: {} messages are left out, the first because {}", topic_.name,
-                                malformed_, first_malformed_));
+    notes.warnings.push_back(fmt::format("{}: {} messages are left out, the first because {}",
+                                         topic_.name, malformed_, first_malformed_));
   }
   if (ages_.count() > 0) {
-    notes.push_back(fmt::format(
+    notes.warnings.push_back(fmt::format(
         "{}: {} values that a message lacks are held from an earlier one, ages {:.1f} ms (median) "
         "to {:.1f} ms",
         topic_.name, ages_.count(), 1e3 * ages_.median(), 1e3 * ages_.largest()));
   }
-  return notes;
+  const std::string alternate = publishers();
+  if (!alternate.empty()) notes.findings.push_back(alternate);
 }
 
-std::vector<std::string> TopicRows::findings() const {
+/// Kinds of messages that alternate; empty without such.
+std::string TopicRows::publishers() const {
   std::uint64_t rows = 0;
   for (const auto& [names, count] : kinds_) rows += count;
   std::vector<std::string> kinds;
@@ -178,10 +179,10 @@ std::vector<std::string> TopicRows::findings() const {
   }
   // One kind after the other: a driver that was configured anew.
   if (kinds.size() < 2 || 2 * alternations_ < others) return {};
-  return {fmt::format(
+  return fmt::format(
       "{} kinds of messages alternate on {}: {}: do {} publishers share it, so that its rate is "
       "theirs together? Record one of them alone, or give each a topic of its own",
-      kinds.size(), topic_.name, fmt::join(kinds, ", "), kinds.size())};
+      kinds.size(), topic_.name, fmt::join(kinds, ", "), kinds.size());
 }
 
 }  // namespace touchdown::logs

@@ -15,6 +15,7 @@
 #include "logs/bags/message.hpp"
 #include "logs/bags/source_join.hpp"
 #include "logs/held_number.hpp"
+#include "logs/log/notes.hpp"
 
 namespace touchdown::logs {
 
@@ -154,12 +155,12 @@ class TopicRows {
   double time() const { return time_; }
 
   std::uint64_t malformed() const { return malformed_; }
-  /// One line for each thing that a user should know about the messages.
-  std::vector<std::string> notes() const;
-  /// One line for each thing that makes the rows wrong: several publishers with the same joints.
-  std::vector<std::string> findings() const;
+  /// Adds what a user should know about the messages, and a finding for several publishers with
+  /// the same joints.
+  void add_to(LogNotes& notes) const;
 
  private:
+  std::string publishers() const;
   /// The two latest values of a number: messages can come in another order than their stamps.
   using Held = std::array<HeldNumber, 2>;
   void find_columns();

@@ -258,7 +258,7 @@ class PackedRecords final : public RecordSource {
       }
       if (refill()) continue;
       if (!has_records_) complain_about_garbage(0);
-      warnings_.push_back(
+      notes().warnings.push_back(
           fmt::format("{}: byte {}: the last record is cut off after {} bytes and was left out",
                       name_, offset_, bytes.size()));
       begin_ = end_;
@@ -277,8 +277,6 @@ class PackedRecords final : public RecordSource {
   void read_origin(std::optional<RecordingInfo>& info, std::string& robot) const override {
     if (record_size_ > 0 && parser_.has_config()) unpack_origin(bytes(), name_, info, robot);
   }
-
-  std::vector<std::string> warnings() const override { return warnings_; }
 
  private:
   bool refill() {
@@ -318,7 +316,6 @@ class PackedRecords final : public RecordSource {
   std::uint64_t offset_ = 0;     ///< of `begin_` in the log
   bool has_records_ = false;
   bool at_end_ = false;
-  std::vector<std::string> warnings_;
 };
 
 }  // namespace

@@ -265,9 +265,7 @@ LogReader::LogReader(LogReader&& other) noexcept = default;
 LogReader::~LogReader() = default;
 
 std::vector<std::string> LogReader::warnings() const {
-  std::vector<std::string> all = problems_;
-  const std::vector<std::string> of_records = records_->warnings();
-  all.insert(all.end(), of_records.begin(), of_records.end());
+  std::vector<std::string> all = std::as_const(*records_).notes().warnings;
   const std::vector<std::string> of_values = cleaning_->warnings();
   all.insert(all.end(), of_values.begin(), of_values.end());
   return all;

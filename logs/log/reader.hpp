@@ -61,13 +61,11 @@ class LogReader {
   std::string_view record() const { return current_.record; }
   std::string_view skipped() const { return current_.skipped; }
 
-  /// One line per problem that was not fatal: of the log as a whole, of the records, then of their
-  /// values. Complete at the end of the log.
+  /// Of the log and its source; callers may add to them.
+  LogNotes& notes() { return records_->notes(); }
+  /// One line per problem that was not fatal: those of the notes, then of the records' values.
+  /// Complete at the end of the log.
   std::vector<std::string> warnings() const;
-  /// Those of the records' source.
-  std::vector<std::string> findings() const { return records_->findings(); }
-  /// Adds a problem of the log as a whole.
-  void warn(std::string problem) { problems_.push_back(std::move(problem)); }
 
  private:
   class Cleaning;
@@ -94,7 +92,6 @@ class LogReader {
   std::vector<double> first_times_;  ///< of a log that states its period
   std::deque<Entry> ahead_;
   Entry current_;
-  std::vector<std::string> problems_;
 };
 
 }  // namespace touchdown::logs

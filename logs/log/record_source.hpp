@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "logs/log/byte_source.hpp"
+#include "logs/log/notes.hpp"
 #include "logs/log/row.hpp"
 #include "logs/recording.hpp"
 #include "logs/sample_times.hpp"
@@ -18,7 +19,7 @@ namespace touchdown::logs {
 /// their values.
 class RecordSource {
  public:
-  RecordSource() = default;
+  explicit RecordSource(const std::atomic<bool>* stop = nullptr) : notes_{stop} {}
   RecordSource(const RecordSource&) = delete;
   RecordSource& operator=(const RecordSource&) = delete;
   virtual ~RecordSource() = default;
@@ -44,10 +45,11 @@ class RecordSource {
   /// wrote, or the name of the `robot`.
   virtual void read_origin(std::optional<RecordingInfo>& info, std::string& robot) const = 0;
 
-  /// One line per problem that was not fatal. Complete at the end.
-  virtual std::vector<std::string> warnings() const = 0;
-  /// One line for each thing that makes the records implausible, which their values do not show.
-  virtual std::vector<std::string> findings() const { return {}; }
+  LogNotes& notes() { return notes_; }
+  const LogNotes& notes() const { return notes_; }
+
+ private:
+  LogNotes notes_;
 };
 
 /// The records of a log in MessagePack, without building them in memory. Unknown keys are skipped.

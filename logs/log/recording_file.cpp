@@ -15,12 +15,13 @@ namespace {
 class RecordedRows final : public RecordSource {
  public:
   RecordedRows(std::shared_ptr<const Recording> recording, const std::atomic<bool>* stop)
-      : recording_(std::move(recording)),
-        stop_(stop),
+      : RecordSource(stop),
+        recording_(std::move(recording)),
         present_(written_values(truth_of(*recording_))) {}
 
   bool next() override {
-    if (next_ == recording_->steps() || (stop_ != nullptr && *stop_)) return false;
+    const bool is_stopped = notes().stop != nullptr && *notes().stop;
+    if (next_ == recording_->steps() || is_stopped) return false;
     values_ = to_values(recording_->observation[next_], recording_->action[next_],
                         recording_->truth.empty() ? nullptr : &recording_->truth[next_]);
     ++next_;
@@ -32,11 +33,9 @@ class RecordedRows final : public RecordSource {
   void read_origin(std::optional<RecordingInfo>& info, std::string& /*robot*/) const override {
     info = recording_->info;
   }
-  std::vector<std::string> warnings() const override { return {}; }
 
  private:
   std::shared_ptr<const Recording> recording_;
-  const std::atomic<bool>* stop_;
   LogPresence present_;
   LogValues values_{};
   std::size_t next_ = 0;

@@ -155,9 +155,10 @@ class MappedRecords final : public RecordSource {
  public:
   MappedRecords(const std::filesystem::path& log, const std::filesystem::path& mapping,
                 const MappingOptions& options)
-      : log_(log.string()),
+      : RecordSource(options.stop),
+        log_(log.string()),
         options_(options),
-        rows_(open_rows(log, read_log_sources(mapping), options.stop)),
+        rows_(open_rows(log, read_log_sources(mapping), notes())),
         mapping_(read_log_mapping(mapping, rows_->names())),
         present_(log_presence(mapping_)),
         hold_(mapping_),
@@ -191,8 +192,6 @@ class MappedRecords final : public RecordSource {
   void read_origin(std::optional<RecordingInfo>& /*info*/, std::string& robot) const override {
     robot = mapping_.robot;
   }
-  std::vector<std::string> warnings() const override { return warnings_of(converted_, log_); }
-  std::vector<std::string> findings() const override { return rows_->findings(); }
 
   const std::string& robot() const { return mapping_.robot; }
   /// Complete at the end.
@@ -208,7 +207,7 @@ class MappedRecords final : public RecordSource {
   /// Converts the next row that is a record. Returns false at the end.
   bool pull(Record& record) {
     while (!is_at_end_) {
-      end_if(options_.stop);
+      end_if(notes().stop);
       if (!rows_->next(row_)) {
         finish();
         break;
@@ -288,7 +287,24 @@ class MappedRecords final : public RecordSource {
     }
     check_clock();
     if (options_.with_labels) converted_.contact = intervals_.finish();
-    converted_.notes = rows_->notes();
+    note_rows();
+  }
+
+  void note_rows() {
+    const auto warn = [this](std::uint64_t count, const std::string& text) {
+      if (count > 0) notes().warnings.push_back(fmt::format("{}: {}", log_, text));
+    };
+    warn(converted_.incomplete_rows,
+         fmt::format("{} of {} rows lack a number, which is NaN in the log",
+                     converted_.incomplete_rows, converted_.rows));
+    warn(converted_.time_reversals,
+         fmt::format("time goes back at {} rows", converted_.time_reversals));
+    warn(converted_.completed_rows,
+         fmt::format("{} of {} records hold numbers of an earlier row, for up to {:.4g} ms",
+                     converted_.completed_rows, converted_.rows, 1e3 * converted_.oldest));
+    warn(converted_.rows_without_joints,
+         fmt::format("{} rows have no number of a joint: they are no records of their own",
+                     converted_.rows_without_joints));
   }
 
   std::string log_;
@@ -313,25 +329,6 @@ class MappedRecords final : public RecordSource {
 
 }  // namespace
 
-std::vector<std::string> warnings_of(const ConvertedLog& converted, const std::string& log) {
-  std::vector<std::string> warnings = converted.notes;
-  const auto warn = [&](std::uint64_t count, const std::string& text) {
-    if (count > 0) warnings.push_back(fmt::format("{}: {}", log, text));
-  };
-  warn(converted.incomplete_rows,
-       fmt::format("{} of {} rows lack a number, which is NaN in the log",
-                   converted.incomplete_rows, converted.rows));
-  warn(converted.time_reversals,
-       fmt::format("time goes back at {} rows", converted.time_reversals));
-  warn(converted.completed_rows,
-       fmt::format("{} of {} records hold numbers of an earlier row, for up to {:.4g} ms",
-                   converted.completed_rows, converted.rows, 1e3 * converted.oldest));
-  warn(converted.rows_without_joints,
-       fmt::format("{} rows have no number of a joint: they are no records of their own",
-                   converted.rows_without_joints));
-  return warnings;
-}
-
 std::unique_ptr<RecordSource> mapped_records(const std::filesystem::path& log,
                                              const std::filesystem::path& mapping,
                                              const MappingOptions& options) {
@@ -349,7 +346,9 @@ ConvertedLog convert_log(const std::filesystem::path& log, const std::filesystem
   MappedRecords records(log, mapping, options);
   LogWriter writer(stream, records.present(), records.robot());
   while (records.next()) writer.write(records.values());
-  return records.converted();
+  ConvertedLog converted = records.converted();
+  converted.warnings = records.notes().warnings;
+  return converted;
 }
 
 }  // namespace touchdown::logs

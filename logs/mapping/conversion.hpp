@@ -24,13 +24,10 @@ struct ConvertedLog {
   std::uint64_t completed_rows = 0;       ///< rows with numbers held from an earlier row (RowHold)
   double oldest = 0.0;                    ///< largest age of a held number (s)
   std::uint64_t rows_without_joints = 0;  ///< rows of another topic, which are no records
-  std::vector<std::string> notes;         ///< one line for each thing to know about the sources
+  std::vector<std::string> warnings;      ///< as those of `LogNotes`
   /// Contact labels, if the mapping specifies their columns. Times count from `start`.
   ContactIntervals contact;
 };
-
-/// One line for each thing that a user should know about the log of this name.
-std::vector<std::string> warnings_of(const ConvertedLog& converted, const std::string& log);
 
 /// How a log is converted.
 struct MappingOptions {

@@ -130,8 +130,9 @@ std::vector<std::string> first_joint_names(const std::filesystem::path& path, Jo
 /// A file: one source with columns of its own.
 class FileSource : public RowSource {
  public:
-  FileSource(const std::filesystem::path& path, const std::string& section, std::size_t source)
-      : source_(source) {
+  FileSource(const std::filesystem::path& path, LogNotes& notes, const std::string& section,
+             std::size_t source)
+      : RowSource(notes), source_(source) {
     names_.file = path.string();
     names_.section = section;
   }
@@ -154,8 +155,9 @@ class FileSource : public RowSource {
 
 class CsvFile final : public FileSource {
  public:
-  CsvFile(const std::filesystem::path& path, const std::string& section, std::size_t source)
-      : FileSource(path, section, source),
+  CsvFile(const std::filesystem::path& path, LogNotes& notes, const std::string& section,
+          std::size_t source)
+      : FileSource(path, notes, section, source),
         csv_(path,
              {.empty_cell = std::numeric_limits<double>::quiet_NaN(), .may_be_cut_off = true}),
         joints_(csv_.names()) {
@@ -184,7 +186,11 @@ class CsvFile final : public FileSource {
   }
 
   bool next(std::vector<double>& row) override {
-    if (wanted_.empty() || !csv_.next()) return false;
+    if (wanted_.empty()) return false;
+    if (!csv_.next()) {
+      if (!csv_.note().empty()) notes().warnings.push_back(csv_.note());
+      return false;
+    }
     if (needs_joints_) joints_.take_names(csv_);
     row.resize(wanted_.size());
     for (std::size_t i = 0; i < row.size(); ++i) {
@@ -197,10 +203,6 @@ class CsvFile final : public FileSource {
   }
 
   std::string place() const override { return fmt::format("{}:{}", names_.file, csv_.line()); }
-  std::vector<std::string> notes() const override {
-    if (csv_.note().empty()) return {};
-    return {csv_.note()};
-  }
 
  private:
   NumbersCsv csv_;
@@ -237,8 +239,9 @@ ArrayColumn column_of(const ModelArrays& arrays, const SourceColumn& column,
 
 class ArrayFile final : public FileSource {
  public:
-  ArrayFile(const std::filesystem::path& path, const std::string& section, std::size_t source)
-      : FileSource(path, section, source), path_(path) {
+  ArrayFile(const std::filesystem::path& path, LogNotes& notes, const std::string& section,
+            std::size_t source)
+      : FileSource(path, notes, section, source), path_(path) {
     names_.are_arrays = true;
     names_.names = npz_names(path);
     names_.width = [path](const std::string& name) -> std::size_t {
@@ -280,7 +283,6 @@ class ArrayFile final : public FileSource {
   }
 
   std::string place() const override { return fmt::format("{}: row {}", names_.file, next_ - 1); }
-  std::vector<std::string> notes() const override { return {}; }
 
  private:
   std::filesystem::path path_;
@@ -293,13 +295,13 @@ class ArrayFile final : public FileSource {
 
 }  // namespace
 
-std::unique_ptr<RowSource> open_file(const std::filesystem::path& file, const std::string& section,
-                                     std::size_t source) {
+std::unique_ptr<RowSource> open_file(const std::filesystem::path& file, LogNotes& notes,
+                                     const std::string& section, std::size_t source) {
   const std::string extension = extension_of(file);
   if (extension == ".csv" || extension == ".tsv") {
-    return std::make_unique<CsvFile>(file, section, source);
+    return std::make_unique<CsvFile>(file, notes, section, source);
   }
-  if (extension == ".npz") return std::make_unique<ArrayFile>(file, section, source);
+  if (extension == ".npz") return std::make_unique<ArrayFile>(file, notes, section, source);
   require_no_gzip(file);
   throw InputError(
       fmt::format("{}: expected a log as FILE.csv or FILE.npz, or a ROS 2 bag", file.string()));

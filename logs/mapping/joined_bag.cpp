@@ -47,17 +47,17 @@ void check_given(const fs::path& log, const LogMapping& mapping,
 
 class JoinedBag final : public JoinedSource {
  public:
-  JoinedBag(const fs::path& log, const LogSources& sources, const std::atomic<bool>* stop)
-      : JoinedSource(log, sources.stale_after), stop_(stop) {
+  JoinedBag(const fs::path& log, const LogSources& sources, LogNotes& notes)
+      : JoinedSource(log, sources.stale_after, notes) {
     const auto named = [&](const std::vector<std::string>& topics, const char* type) {
-      return topics.empty() ? std::vector{only_topic_of_type(log, type, stop)} : topics;
+      return topics.empty() ? std::vector{only_topic_of_type(log, type, notes.stop)} : topics;
     };
     add_topics("joints", named(sources.joints, joint_state_type));
     add_topics("imu", named(sources.imu, imu_type));
     add_topics("contact", sources.contact);
     std::vector<std::string> topics;
     for (const SourceNames& one : names_) topics.push_back(one.file);
-    topics_ = find_signal_topics(log, topics, stop);
+    topics_ = find_signal_topics(log, topics, notes.stop);
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const bool is_imu = names_[i].section == "imu";
       if (topics_[i].type == (is_imu ? joint_state_type : imu_type)) {
@@ -73,23 +73,6 @@ class JoinedBag final : public JoinedSource {
 
   std::string place() const override {
     return fmt::format("{}: message {} of {}", log_.string(), position(), names_[clock()].file);
-  }
-
-  std::vector<std::string> findings() const override {
-    std::vector<std::string> findings = JoinedSource::findings();
-    for (const TopicRows& one : rows_) std::ranges::move(one.findings(), back_inserter(findings));
-    return findings;
-  }
-
-  std::vector<std::string> notes() const override {
-    std::vector<std::string> notes = reader_->notes();
-    if (lacks_stamps_) {
-      notes.emplace_back("stamps are zero or missing: the times of recording are used instead");
-    }
-    std::ranges::move(clock_notes(), back_inserter(notes));
-    for (const TopicRows& one : rows_) std::ranges::move(one.notes(), back_inserter(notes));
-    std::ranges::move(JoinedSource::notes(), back_inserter(notes));
-    return notes;
   }
 
  private:
@@ -125,6 +108,13 @@ class JoinedBag final : public JoinedSource {
                    messages[i]);
       }
     }
+    std::ranges::copy(reader_->notes(), back_inserter(notes().warnings));
+    if (lacks_stamps_) {
+      notes().warnings.emplace_back(
+          "stamps are zero or missing: the times of recording are used instead");
+    }
+    std::ranges::move(clock_notes(), back_inserter(notes().warnings));
+    for (const TopicRows& one : rows_) one.add_to(notes());
     return all;
   }
 
@@ -144,10 +134,9 @@ class JoinedBag final : public JoinedSource {
     const auto is_named = [this](std::string_view topic) {
       return std::ranges::any_of(names_, [&](const SourceNames& one) { return one.file == topic; });
     };
-    reader_.emplace(log_, is_named, stop_);
+    reader_.emplace(log_, is_named, notes().stop);
   }
 
-  const std::atomic<bool>* stop_;
   std::vector<SignalTopic> topics_;
   bool uses_log_time_ = false;
   bool lacks_stamps_ = false;
@@ -158,14 +147,14 @@ class JoinedBag final : public JoinedSource {
 }  // namespace
 
 std::unique_ptr<RowSource> open_rows(const fs::path& log, const LogSources& sources,
-                                     const std::atomic<bool>* stop) {
+                                     LogNotes& notes) {
   if (extension_of(log) == ".mpack" && is_there(log)) {
     throw InputError(fmt::format("{}: a log in Upkie's layout needs no mapping", log.string()));
   }
-  if (sources.empty() && !is_bag(log)) return open_file(log);
+  if (sources.empty() && !is_bag(log)) return open_file(log, notes);
   if (!is_there(log)) throw InputError(fmt::format("{}: no such file or folder", log.string()));
-  if (sources.are_files()) return join_files(log, sources);
-  if (is_bag(log)) return std::make_unique<JoinedBag>(log, sources, stop);
+  if (sources.are_files()) return join_files(log, sources, notes);
+  if (is_bag(log)) return std::make_unique<JoinedBag>(log, sources, notes);
   throw InputError(fmt::format(
       "{}: is no ROS 2 bag (a folder with .mcap or .db3 files, or such a file), but the mapping's "
       "`sources` are topics",

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -47,7 +46,8 @@ SourceRows rows_of(RowSource& file, const LogMapping& mapping, const SourceClock
 }
 
 /// The files of the sources, in the folder of the log.
-std::vector<std::unique_ptr<RowSource>> files_of(const fs::path& log, const LogSources& sources) {
+std::vector<std::unique_ptr<RowSource>> files_of(const fs::path& log, const LogSources& sources,
+                                                 LogNotes& notes) {
   const bool is_whole_folder = is_folder(log);
   const fs::path folder = is_whole_folder ? log : log.parent_path();
   std::vector<std::string> all = sources.joints;
@@ -65,7 +65,7 @@ std::vector<std::unique_ptr<RowSource>> files_of(const fs::path& log, const LogS
                                        {"imu", &sources.imu},
                                        {"contact", &sources.contact}}) {
     for (const std::string& file : *files) {
-      opened.push_back(open_file(folder / file, section, opened.size()));
+      opened.push_back(open_file(folder / file, notes, section, opened.size()));
     }
   }
   return opened;
@@ -73,18 +73,13 @@ std::vector<std::unique_ptr<RowSource>> files_of(const fs::path& log, const LogS
 
 class JoinedFiles final : public JoinedSource {
  public:
-  JoinedFiles(const fs::path& log, const LogSources& sources)
-      : JoinedSource(log, sources.stale_after), files_(files_of(log, sources)) {
+  JoinedFiles(const fs::path& log, const LogSources& sources, LogNotes& notes)
+      : JoinedSource(log, sources.stale_after, notes), files_(files_of(log, sources, notes)) {
     for (const auto& file : files_) names_.push_back(file->names().front());
   }
 
   std::string place() const override {
     return fmt::format("{}: row {}", names_[clock()].file, position());
-  }
-  std::vector<std::string> notes() const override {
-    std::vector<std::string> notes = JoinedSource::notes();
-    notes.insert(notes.end(), notes_.begin(), notes_.end());
-    return notes;
   }
 
  private:
@@ -92,20 +87,19 @@ class JoinedFiles final : public JoinedSource {
     std::vector<SourceRows> rows(files_.size());
     for (std::size_t i = 0; i < files_.size(); ++i) {
       rows[i] = rows_of(*files_[i], mapping, mapping.clocks[i], columns()[i]);
-      std::ranges::move(files_[i]->notes(), back_inserter(notes_));
       files_[i].reset();  // and its arrays
     }
     return rows;
   }
 
   std::vector<std::unique_ptr<RowSource>> files_;  ///< until they are read
-  std::vector<std::string> notes_;
 };
 
 }  // namespace
 
-std::unique_ptr<RowSource> join_files(const fs::path& log, const LogSources& sources) {
-  return std::make_unique<JoinedFiles>(log, sources);
+std::unique_ptr<RowSource> join_files(const fs::path& log, const LogSources& sources,
+                                      LogNotes& notes) {
+  return std::make_unique<JoinedFiles>(log, sources, notes);
 }
 
 }  // namespace touchdown::logs

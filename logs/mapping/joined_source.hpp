@@ -29,58 +29,27 @@ class JoinedSource : public RowSource {
       columns_[mapping.columns[i].source].push_back(i);
     }
     join_.emplace(read(mapping), SourceJoin::Config{columns_, clock_, are_topics(), stale_after_});
-    for (std::size_t i = 0; i < names_.size(); ++i) require_order(i);
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      require_order(i);
+      note_left_out(i);
+    }
     if (!are_topics()) require_equal_restarts();
   }
 
   bool next(std::vector<double>& row) final {
     if (join_->next(row)) return true;
     require_joined();
+    for (std::size_t i = 0; i < names_.size(); ++i) note_ages(i);
+    if (join_->rows_before() > 0) {
+      warn(clock_, fmt::format("{} rows before the first of the other sources are left out",
+                               join_->rows_before()));
+    }
     return false;
   }
 
-  /// A line for each source of which most rows of the joints have no values.
-  std::vector<std::string> findings() const override {
-    std::vector<std::string> findings;
-    const auto all = static_cast<double>(join_->rows_before() + join_->rows());
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      // Labels may be of a part of the log.
-      if (names_[i].file == names_[clock_].file || names_[i].section == "contact") continue;
-      const double joined = static_cast<double>(join_->rows() - join_->report(i).stale);
-      if (2.0 * joined >= all) continue;
-      findings.push_back(fmt::format(
-          "{} has values at {:.1f} % of the rows of {}: do both cover one time, by one clock?",
-          names_[i].file, 100.0 * joined / all, names_[clock_].file));
-    }
-    return findings;
-  }
-
-  /// One line for each source that is held, and for rows that are left out.
-  std::vector<std::string> notes() const override {
-    std::vector<std::string> notes;
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      note_left_out(i, notes);
-      if (names_[i].file == names_[clock_].file) continue;
-      const SourceJoin::Report& report = join_->report(i);
-      std::string note = fmt::format(
-          "{}: held at the rows of {}, ages {:.1f} ms (median) to {:.1f} ms", names_[i].file,
-          names_[clock_].file, 1e3 * report.ages.median(), 1e3 * report.ages.largest());
-      if (report.stale > 0) {
-        note += fmt::format("; missing at {} of {} rows, where it is older than {:.0f} ms",
-                            report.stale, join_->rows(), 1e3 * stale_after_);
-      }
-      notes.push_back(std::move(note));
-    }
-    if (join_->rows_before() > 0) {
-      notes.push_back(fmt::format("{}: {} rows before the first of the other sources are left out",
-                                  names_[clock_].file, join_->rows_before()));
-    }
-    return notes;
-  }
-
  protected:
-  JoinedSource(std::filesystem::path log, double stale_after)
-      : log_(std::move(log)), stale_after_(stale_after) {}
+  JoinedSource(std::filesystem::path log, double stale_after, LogNotes& notes)
+      : RowSource(notes), log_(std::move(log)), stale_after_(stale_after) {}
 
   /// All rows of each source, with the values of `columns`.
   virtual std::vector<SourceRows> read(const LogMapping& mapping) = 0;
@@ -131,22 +100,47 @@ class JoinedSource : public RowSource {
     }
   }
 
-  void note_left_out(std::size_t source, std::vector<std::string>& notes) const {
+  void warn(std::size_t source, const std::string& what) const {
+    notes().warnings.push_back(fmt::format("{}: {}", names_[source].file, what));
+  }
+
+  void note_left_out(std::size_t source) const {
     const SourceRows& rows = join_->source(source);
     const ClockSteps& steps = join_->report(source).steps;
+    const std::size_t with_time = rows.rows.size() + steps.left_out;
     if (rows.without_time > 0) {
-      notes.push_back(fmt::format("{}: {} of {} {}s without a time are left out, first {} {}",
-                                  names_[source].file, rows.without_time,
-                                  rows.without_time + rows.rows.size() + steps.left_out, row_name(),
-                                  row_name(), rows.first_without_time));
+      warn(source, fmt::format("{} of {} {}s without a time are left out, first {} {}",
+                               rows.without_time, rows.without_time + with_time, row_name(),
+                               row_name(), rows.first_without_time));
     }
     if (steps.left_out > 0) {
-      notes.push_back(fmt::format(
-          "{}: {} of {} {}s are left out because times around theirs contradict them, first {} {} "
-          "({:.6g} s)",
-          names_[source].file, steps.left_out, rows.rows.size() + steps.left_out, row_name(),
-          row_name(), steps.first_left_out.position, steps.first_left_out.time));
+      warn(source, fmt::format("{} of {} {}s are left out because times around theirs contradict "
+                               "them, first {} {} ({:.6g} s)",
+                               steps.left_out, with_time, row_name(), row_name(),
+                               steps.first_left_out.position, steps.first_left_out.time));
     }
+  }
+
+  /// How old the source's values are where they are held. Most rows without one are a finding.
+  void note_ages(std::size_t source) const {
+    if (names_[source].file == names_[clock_].file) return;
+    const SourceJoin::Report& report = join_->report(source);
+    const std::string& joints = names_[clock_].file;
+    warn(source,
+         fmt::format(
+             "held at the rows of {}, ages {:.1f} ms (median) to {:.1f} ms{}", joints,
+             1e3 * report.ages.median(), 1e3 * report.ages.largest(),
+             report.stale == 0
+                 ? std::string()
+                 : fmt::format("; missing at {} of {} rows, where it is older than {:.0f} ms",
+                               report.stale, join_->rows(), 1e3 * stale_after_)));
+    const auto all = static_cast<double>(join_->rows_before() + join_->rows());
+    const double joined = static_cast<double>(join_->rows() - report.stale);
+    // Labels may be of a part of the log.
+    if (names_[source].section == "contact" || 2.0 * joined >= all) return;
+    notes().findings.push_back(fmt::format(
+        "{} has values at {:.1f} % of the rows of {}: do both cover one time, by one clock?",
+        names_[source].file, 100.0 * joined / all, joints));
   }
 
   /// Errors: `InputError` if no row was joined.
@@ -179,6 +173,7 @@ class JoinedSource : public RowSource {
 };
 
 /// Files of one folder as sources. `log` is the folder, or one of them.
-std::unique_ptr<RowSource> join_files(const std::filesystem::path& log, const LogSources& sources);
+std::unique_ptr<RowSource> join_files(const std::filesystem::path& log, const LogSources& sources,
+                                      LogNotes& notes);
 
 }  // namespace touchdown::logs

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -8,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "logs/log/notes.hpp"
 #include "logs/mapping/mapping.hpp"
 
 namespace touchdown::logs {
@@ -16,7 +16,7 @@ namespace touchdown::logs {
 /// their own, the topics of a ROS 2 bag, or the arrays of a robot's loop.
 class RowSource {
  public:
-  RowSource() = default;
+  explicit RowSource(LogNotes& notes) : notes_(notes) {}
   RowSource(const RowSource&) = delete;
   RowSource& operator=(const RowSource&) = delete;
   virtual ~RowSource() = default;
@@ -30,11 +30,12 @@ class RowSource {
   virtual bool next(std::vector<double>& row) = 0;
   /// Where the row is, for messages.
   virtual std::string place() const = 0;
-  /// One line for each thing that a user should know about the rows, such as the ages of held
-  /// values. Complete at the end.
-  virtual std::vector<std::string> notes() const = 0;
-  /// One line for each thing that makes the rows wrong.
-  virtual std::vector<std::string> findings() const { return {}; }
+
+ protected:
+  LogNotes& notes() const { return notes_; }
+
+ private:
+  LogNotes& notes_;
 };
 
 /// Opens a log: a file by its extension (comma-separated values with a line of names, or NumPy's
@@ -46,13 +47,13 @@ class RowSource {
 /// - a cell that is not a number;
 /// - rows or arrays of different length, or an array without the wanted columns;
 /// - sources without a time in common; and as in `BagReader` and `find_signal_topics`.
-/// Reading a bag ends with `Stopped` once `stop` is true; it may be null.
+/// Reading a bag ends with `Stopped` once `notes.stop` is true. `notes` must outlive the source.
 std::unique_ptr<RowSource> open_rows(const std::filesystem::path& log, const LogSources& sources,
-                                     const std::atomic<bool>* stop);
+                                     LogNotes& notes);
 
 /// Opens one file; its columns have the number `source` in the mapping. `section` is that of
 /// `SourceNames`.
-std::unique_ptr<RowSource> open_file(const std::filesystem::path& file,
+std::unique_ptr<RowSource> open_file(const std::filesystem::path& file, LogNotes& notes,
                                      const std::string& section = {}, std::size_t source = 0);
 
 }  // namespace touchdown::logs

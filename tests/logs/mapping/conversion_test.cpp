@@ -391,11 +391,11 @@ TEST_F(Conversion, LastRowThatIsCutOffIsLeftOutAndNamed) {
     const bool is_whole = cut == last.substr(0, last.size() - 1);  // an empty last cell
     EXPECT_EQ(rows.size(), is_whole ? 4U : 3U) << cut;
     if (is_whole) continue;
-    EXPECT_THAT(converted_.notes,
+    EXPECT_THAT(converted_.warnings,
                 ::testing::ElementsAre(HasSubstr("log.csv:5: the last row is cut off")));
   }
   EXPECT_EQ(convert(before + last).size(), 4U) << "a whole row needs no line end";
-  EXPECT_THAT(converted_.notes, ::testing::IsEmpty());
+  EXPECT_THAT(converted_.warnings, ::testing::IsEmpty());
   EXPECT_THAT(complaint(before + last.substr(0, 40) + "\n" + last),
               HasSubstr("expected 29 values"));
 }

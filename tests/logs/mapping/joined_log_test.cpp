@@ -119,7 +119,7 @@ TEST_F(JoinedLog, TopicsOfABagAreJoinedAtTheJointsClock) {
     EXPECT_EQ(rows.size(), 499U);  // the first row is before the first IMU message
     EXPECT_EQ(converted_.incomplete_rows, 0U);
     expect_joined(rows);
-    EXPECT_THAT(converted_.notes,
+    EXPECT_THAT(converted_.warnings,
                 Contains(AllOf(HasSubstr("/imu: held at the rows of /joint_states"),
                                HasSubstr("ms (median)"))));
   }
@@ -138,7 +138,7 @@ TEST_F(JoinedLog, OfWhichFewRowsAreJoinedHasAFinding) {
     const auto records = mapped_records(write_bag(bag), write("map.yaml", bag_mapping));
     while (records->next()) {
     }
-    return records->findings();
+    return records->notes().findings;
   };
   EXPECT_THAT(findings(0.0, 3.0), IsEmpty());
   EXPECT_THAT(findings(0.0, 1.5), IsEmpty());
@@ -206,7 +206,8 @@ TEST_F(JoinedLog, MessagesMayDifferInOrderBytesAndFrames) {
     EXPECT_EQ(rows.size(), 249U);
     EXPECT_EQ(converted_.incomplete_rows, 0U);
     expect_joined(rows);
-    EXPECT_EQ(converted_.notes.size(), 2U) << fmt::format("{}", fmt::join(converted_.notes, "; "));
+    EXPECT_EQ(converted_.warnings.size(), 2U)
+        << fmt::format("{}", fmt::join(converted_.warnings, "; "));
   }
 }
 
@@ -268,7 +269,7 @@ TEST_F(JoinedLog, JointsOfSeveralPublishersAreHeld) {
     EXPECT_NEAR(t, 0.398, 1e-6);
     EXPECT_NEAR(last.observation.servo[0].position, position(0, t), 1e-6);
     EXPECT_NEAR(last.observation.servo[3].position, position(3, t - 0.0013), 1e-6);
-    EXPECT_THAT(converted_.notes, Contains(HasSubstr("1.3 ms")));
+    EXPECT_THAT(converted_.warnings, Contains(HasSubstr("1.3 ms")));
   }
 }
 
@@ -304,7 +305,7 @@ TEST_F(JoinedLog, AValueThatIsTooOldIsMissing) {
   const auto rows = convert(write_bag(bag), bag_mapping);
   EXPECT_EQ(rows.size(), 499U);
   EXPECT_NEAR(static_cast<double>(converted_.incomplete_rows), 125.0, 3.0);  // 300 − 50 ms
-  EXPECT_THAT(converted_.notes,
+  EXPECT_THAT(converted_.warnings,
               Contains(AllOf(HasSubstr("missing at 12"), HasSubstr("older than 50 ms"))));
   std::string longer = bag_mapping;
   longer.replace(longer.find("imu: /imu"), 9, "imu: /imu, stale_after: 1");
@@ -321,7 +322,7 @@ TEST_F(JoinedLog, MessagesWithoutStampsHaveTheTimeOfRecording) {
   }
   const auto rows = convert(write_bag(bag), bag_mapping);
   EXPECT_GE(rows.size(), 240U);
-  EXPECT_THAT(converted_.notes, Contains(HasSubstr("times of recording")));
+  EXPECT_THAT(converted_.warnings, Contains(HasSubstr("times of recording")));
   EXPECT_NEAR(start_, 1e-9 * static_cast<double>(epoch), 0.1);
 }
 
@@ -391,8 +392,8 @@ TEST_F(JoinedLog, AMessageOfAWrongStampIsLeftOut) {
     EXPECT_EQ(convert(write_bag(bag), bag_mapping).size(), 498U);
     EXPECT_EQ(converted_.time_reversals, 0U);
     EXPECT_EQ(converted_.incomplete_rows, 0U);
-    EXPECT_THAT(converted_.notes, Contains(AllOf(HasSubstr("/joint_states: 1 of 500 messages"),
-                                                 HasSubstr("contradict"))));
+    EXPECT_THAT(converted_.warnings, Contains(AllOf(HasSubstr("/joint_states: 1 of 500 messages"),
+                                                    HasSubstr("contradict"))));
   }
 }
 
@@ -402,7 +403,7 @@ TEST_F(JoinedLog, MalformedMessagesAreLeftOutAndCounted) {
   bag.messages[101].data.clear();
   bag.messages[102].data[1] = '\7';
   (void)convert(write_bag(bag), bag_mapping);
-  EXPECT_THAT(converted_.notes, Contains(HasSubstr("messages are left out, the first because")));
+  EXPECT_THAT(converted_.warnings, Contains(HasSubstr("messages are left out, the first because")));
 }
 
 TEST_F(JoinedLog, WhatABagLacksIsNamed) {
@@ -471,7 +472,7 @@ TEST_F(JoinedLog, AClockAheadOrBehindIsNamedByTheTimesOfRecording) {
       message.data = bags::imu_cdr(measured + std::llround(1e9 * ahead), {});
     }
     convert(write_bag(bag), bag_mapping + more);
-    return fmt::format("{}", fmt::join(converted_.notes, "\n"));
+    return fmt::format("{}", fmt::join(converted_.warnings, "\n"));
   };
   EXPECT_THAT(notes(0.5),
               HasSubstr("/imu: its stamps are 0.495 s ahead of those of /joint_states"));
@@ -541,7 +542,7 @@ TEST_F(JoinedLog, FilesAreJoinedAtTheJointsClock) {
     const auto rows = convert(log, csv_mapping);
     EXPECT_EQ(rows.size(), 499U);
     expect_joined(rows);
-    EXPECT_THAT(converted_.notes,
+    EXPECT_THAT(converted_.warnings,
                 Contains(AllOf(HasSubstr("imu.csv: held"), HasSubstr("ms (median)"))));
   }
 }
@@ -622,7 +623,7 @@ TEST_F(ClocksOfFiles, AFewWrongTimesAreNoRestart) {
           const bool are_joints = file == &joints_;
           EXPECT_EQ(converted_rows(), are_joints ? 500U - count : 500U) << at << ' ' << wrong;
           EXPECT_THAT(
-              converted_.notes,
+              converted_.warnings,
               Contains(AllOf(HasSubstr(are_joints ? "joints.csv: " : "imu.csv: "),
                              HasSubstr(fmt::format(": {} of ", count)), HasSubstr("contradict"),
                              HasSubstr(fmt::format("row {} ", at + 1)))))
@@ -695,7 +696,7 @@ TEST_F(ClocksOfFiles, RowsWithoutATimeAreCounted) {
     joints_[20].clock = nothing;
     imu_[7].clock = imu_[8].clock = nothing;
     EXPECT_EQ(converted_rows(), 499U);
-    EXPECT_THAT(converted_.notes,
+    EXPECT_THAT(converted_.warnings,
                 AllOf(Contains(HasSubstr("joints.csv: 1 of 500 rows without a time are left out, "
                                          "first row 21")),
                       Contains(HasSubstr("imu.csv: 2 of 200 rows without a time are left out, "

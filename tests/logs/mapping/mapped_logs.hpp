@@ -44,8 +44,7 @@ class MappedLogs : public ::testing::Test {
     EXPECT_FALSE(pulled.next()) << "more rows are pulled than exported";
     start_ = exported.start_time();
     EXPECT_EQ(pulled.start_time(), start_);
-    EXPECT_EQ(pulled.warnings().size(),
-              warnings_of(converted_, "log").size() + exported.warnings().size());
+    EXPECT_EQ(pulled.warnings().size(), converted_.warnings.size() + exported.warnings().size());
     return rows;
   }
 
