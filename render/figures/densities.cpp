@@ -236,15 +236,33 @@ DensityAxes axes_of(const LikelihoodGrids& grids) {
 
 Figure draw_density_figure(const DensityFigure& figure, const FigureFile& target) {
   if (figure.rows.empty()) throw InputError("a density figure without models");
-  // Printed narrow, a model's panels are below each other, with their scales between them.
-  const PanelColumns across = columns_in(target.room(), density_left + 30.0,
-                                         {3, density_width, density_gap_x}, density_width);
-  const bool is_stacked = across.count < 3;
-  const auto lines = static_cast<double>(figure.rows.size()) * (is_stacked ? 3.0 : 1.0);
+  // Printed narrow, a model's panels are below each other, with their scales between them, and
+  // models are side by side.
+  const double margins = density_left + 30.0;
+  const std::size_t kinds = std::size(density_columns), models = figure.rows.size();
+  PanelColumns across =
+      columns_in(target.room(), margins, {kinds, density_width, density_gap_x}, density_width);
+  const bool is_stacked = across.count < kinds;
+  if (is_stacked) {
+    across = columns_in(target.room(), margins, {models, density_width, density_gap_x}, 150.0);
+  }
+  const std::size_t beside = is_stacked ? across.count : 1, below = is_stacked ? kinds : 1;
+  const std::size_t blocks = (models + beside - 1) / beside;
+  std::vector<std::string> titles;
+  double title_height = 0.0;  // of the lines above the last one
+  for (const DensityRow& row : figure.rows) {
+    const double letters = is_stacked ? (across.width + 40.0) / text_width({"x"}) : 1e3;
+    titles.push_back(wrapped(row.title, static_cast<std::size_t>(letters)));
+    const auto breaks = static_cast<double>(std::ranges::count(titles.back(), '\n'));
+    title_height = std::max(title_height, 18.0 * breaks);
+  }
   const double step = density_height + density_gap_y + (is_stacked ? 64.0 : 0.0);
-  const FigureFrame frame(target, {figure.title, figure.caption, described(figure)},
-                          density_left + across.left(is_stacked ? 0 : 2) + across.width + 30.0,
-                          density_top + lines * step - density_gap_y + (is_stacked ? 62.0 : 126.0));
+  const FigureFrame frame(
+      target, {figure.title, figure.caption, described(figure)},
+      density_left + across.left(across.count - 1) + across.width + 30.0,
+      density_top +
+          static_cast<double>(blocks) * (title_height + static_cast<double>(below) * step) -
+          density_gap_y + (is_stacked ? 62.0 : 126.0));
   const std::string file = gnuplot_file(target.name() + ".dat");
   std::string commands =
       "unset key\nset border 15\nset tics out\nunset grid\n"
@@ -253,11 +271,13 @@ Figure draw_density_figure(const DensityFigure& figure, const FigureFile& target
     const DensityAxes axes = axes_of(figure.rows[r].grids);
     for (std::size_t c = 0; c < std::size(density_columns); ++c) {
       const DensityColumn& column = density_columns[c];
-      const double left = density_left + across.left(is_stacked ? 0 : c);
-      const double top = density_top + static_cast<double>(is_stacked ? 3 * r + c : r) * step;
+      const std::size_t block = r / beside, line = block * below + (is_stacked ? c : 0);
+      const double left = density_left + across.left(is_stacked ? r % beside : c);
+      const double top = density_top + static_cast<double>(block + 1) * title_height +
+                         static_cast<double>(line) * step;
       commands += frame.panel(left, top, across.width, density_height);
       if (c == 0) {
-        commands += frame.label(figure.rows[r].title, left, top - 34.0, "left font ',11'");
+        commands += frame.label(titles[r], left, top - 34.0 - title_height, "left font ',11'");
       }
       commands +=
           r + 1 == figure.rows.size() || is_stacked
@@ -268,7 +288,7 @@ Figure draw_density_figure(const DensityFigure& figure, const FigureFile& target
           "set title '{}' offset 0,-0.7\nset palette defined {}\n{}"
           "set xrange [{:.5g}:{:.5g}]\nset yrange [{:.5g}:{:.5g}]\nset ylabel '{}' offset 1,0\n",
           column.title, column.palette, column.scale, axes.knee_low, axes.knee_high, axes.wheel_low,
-          axes.wheel_high, c == 0 || is_stacked ? "wheel torque (N·m)" : "");
+          axes.wheel_high, left == density_left ? "wheel torque (N·m)" : "");
       commands += plot(figure.rows[r], file, r, column.value) + FigureFrame::end_panel();
     }
   }
