@@ -28,33 +28,39 @@ namespace {
 constexpr std::size_t progress_unit = 1024;             // bytes
 constexpr std::uintmax_t read_at_once = 32'000 * 1024;  // bytes: read in less than a second
 
-/// The progress of reading logs, some of them more than once: `passes` in all.
-using OptionalProgress = std::optional<Progress>;
-
-void show_progress(OptionalProgress& progress, const char* what, std::span<const FitLog> logs,
-                   std::size_t passes, const LogFitConfig& config) {
-  progress.reset();
-  std::uintmax_t bytes = 0;
-  for (const FitLog& log : logs) {
-    std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(log.path, error);
-    if (!error) bytes += size;
+/// A reading of logs, perhaps several times, and its progress.
+class Reading {
+ public:
+  /// Each log is read `times`.
+  Reading(const LogFitConfig& how, const char* what, std::span<const FitLog> logs,
+          std::size_t times)
+      : config(how) {
+    std::uintmax_t bytes = 0;
+    for (const FitLog& log : logs) {
+      std::error_code error;
+      const std::uintmax_t size = std::filesystem::file_size(log.path, error);
+      if (!error) bytes += times * size;
+    }
+    if (!config.shows_progress || bytes < read_at_once) return;
+    progress_.emplace(what, "kB", static_cast<std::int64_t>(bytes / progress_unit));
   }
-  if (!config.shows_progress || passes * bytes < read_at_once) return;
-  progress.emplace(what, "kB", static_cast<std::int64_t>(passes * bytes / progress_unit));
-}
 
-logs::LogReader reader_of(const FitLog& log, const LogFitConfig& config,
-                          OptionalProgress& progress) {
-  if (log.recording) return {logs::records_of(log.recording, config.stop), log.path.string()};
-  if (!progress || log.path == "-") return logs::LogReader(log.path, config.stop);
-  return {[&progress, bytes = logs::file_source(log.path, config.stop)](std::span<char> buffer) {
-            const std::size_t size = bytes(buffer);
-            progress->advance(static_cast<std::int64_t>(size / progress_unit));
-            return size;
-          },
-          log.path.string()};
-}
+  logs::LogReader open(const FitLog& log) {
+    if (log.recording) return {logs::records_of(log.recording, config.stop), log.path.string()};
+    if (!progress_ || log.path == "-") return logs::LogReader(log.path, config.stop);
+    return {[this, bytes = logs::file_source(log.path, config.stop)](std::span<char> buffer) {
+              const std::size_t size = bytes(buffer);
+              progress_->advance(static_cast<std::int64_t>(size / progress_unit));
+              return size;
+            },
+            log.path.string()};
+  }
+
+  const LogFitConfig& config;
+
+ private:
+  std::optional<Progress> progress_;
+};
 
 /// A declared class is a label of all times. Null: the log's own truth counts.
 std::shared_ptr<const logs::ContactIntervals> labels_of(const FitLog& log) {
@@ -66,10 +72,10 @@ std::shared_ptr<const logs::ContactIntervals> labels_of(const FitLog& log) {
 
 /// A log of a fit, opened.
 struct OpenLog {
-  OpenLog(const FitLog& log, const LogFitConfig& config, OptionalProgress& progress)
+  OpenLog(const FitLog& log, Reading& reading)
       : labels(labels_of(log)),
-        reader(reader_of(log, config, progress)),
-        steps(reader, labels.get(), config.robot) {}
+        reader(reading.open(log)),
+        steps(reader, labels.get(), reading.config.robot) {}
 
   std::shared_ptr<const logs::ContactIntervals> labels;
   logs::LogReader reader;
@@ -147,9 +153,10 @@ using Samples = std::array<std::vector<TorqueSample>, 2>;  ///< without contact,
 
 /// Errors: `InputError` for a step without ground truth of contact, if there are no labels; those
 /// of the functions above and of `LogSteps`.
-void read_log(const FitLog& log, const TorqueConfig& torque, const LogFitConfig& config,
-              OptionalProgress& progress, Samples& samples, LogFitReport& report) {
-  OpenLog opened(log, config, progress);
+void read_log(const FitLog& log, const TorqueConfig& torque, Reading& reading, Samples& samples,
+              LogFitReport& report) {
+  const LogFitConfig& config = reading.config;
+  OpenLog opened(log, reading);
   LogSteps& steps = opened.steps;
   add_source(log, steps, report.fitted_to);
   /// Samples of a leg wait until later forces decide about their labels.
@@ -242,9 +249,10 @@ bool names(const std::string& provenance, std::string_view key, const std::strin
 
 /// Adds the score of an estimator on the covered steps of a log with contact that is known by its
 /// truth, labels or class.
-void add_score(const LogEstimator& chosen, const FitLog& log, const LogFitConfig& config,
-               OptionalProgress& progress, scoring::RobotScore& total) {
-  OpenLog opened(log, config, progress);
+void add_score(const LogEstimator& chosen, const FitLog& log, Reading& reading,
+               scoring::RobotScore& total) {
+  const LogFitConfig& config = reading.config;
+  OpenLog opened(log, reading);
   LogSteps& steps = opened.steps;
   const auto estimator = chosen.make(steps.sample_rate(), steps.info());
   LogScore score(steps.period_us(), config.labels, steps.robot_mass(), {.skip = config.skip}, true);
@@ -287,8 +295,9 @@ std::vector<Fold> folds_of(std::span<const FitLog> logs, bool by_parts) {
   return folds;
 }
 
-Model model_of(const EstimatorEntry& entry, std::span<const FitLog> logs,
-               const LogFitConfig& config, OptionalProgress& progress, LogFitReport& report) {
+Model model_of(const EstimatorEntry& entry, std::span<const FitLog> logs, Reading& reading,
+               LogFitReport& report) {
+  const LogFitConfig& config = reading.config;
   check_names(config.hyperparameters, entry);
   const EstimatorEntry chosen = with_hyperparameters(entry, config.hyperparameters);
   const MeasurementConfig& measurement = *chosen.fitting.torques;
@@ -296,7 +305,7 @@ Model model_of(const EstimatorEntry& entry, std::span<const FitLog> logs,
   report = {};
   for (const FitLog& log : logs) {
     end_if(config.stop);
-    read_log(log, measurement.torque, config, progress, samples, report);
+    read_log(log, measurement.torque, reading, samples, report);
   }
   require_both_classes(samples);
   MeasurementFit fit = fit_measurement(samples[1], samples[0], measurement.fit);
@@ -318,24 +327,23 @@ Model model_of(const EstimatorEntry& entry, std::span<const FitLog> logs,
   return model;
 }
 
-/// Nothing with one fold alone, or if a fold's logs lack a class or a takeoff.
+/// Nothing if a fold's logs lack a class or a takeoff.
 std::optional<double> held_out(const EstimatorEntry& entry, const std::vector<Fold>& folds,
-                               const LogFitConfig& config, OptionalProgress& progress) {
-  if (folds.size() < 2) return {};
+                               Reading& reading) {
   std::vector<scoring::RobotScore> scores(folds.size());
   std::atomic<bool> is_judged = true;
   tbb::parallel_for(std::size_t{0}, folds.size(), [&](std::size_t fold) {
     LogFitReport unused;
     Model other;
     try {
-      other = model_of(entry, folds[fold].fitted, config, progress, unused);
+      other = model_of(entry, folds[fold].fitted, reading, unused);
     } catch (const InputError&) {
       is_judged = false;
       return;
     }
-    const LogEstimator estimator = log_estimator(entry, std::move(other), config.robot);
+    const LogEstimator estimator = log_estimator(entry, std::move(other), reading.config.robot);
     for (const FitLog& log : folds[fold].tested) {
-      add_score(estimator, log, config, progress, scores[fold]);
+      add_score(estimator, log, reading, scores[fold]);
     }
   });
   if (!is_judged) return {};
@@ -344,12 +352,10 @@ std::optional<double> held_out(const EstimatorEntry& entry, const std::vector<Fo
 }
 
 std::vector<scoring::RobotScore> scores_on(std::span<const FitLog> logs,
-                                           const LogEstimator& estimator,
-                                           const LogFitConfig& config, OptionalProgress& progress) {
+                                           const LogEstimator& estimator, Reading& reading) {
   std::vector<scoring::RobotScore> scores(logs.size());
-  tbb::parallel_for(std::size_t{0}, logs.size(), [&](std::size_t i) {
-    add_score(estimator, logs[i], config, progress, scores[i]);
-  });
+  tbb::parallel_for(std::size_t{0}, logs.size(),
+                    [&](std::size_t i) { add_score(estimator, logs[i], reading, scores[i]); });
   return scores;
 }
 
@@ -366,29 +372,24 @@ bool was_fitted_to(const Model& model, const LogSteps& log) {
 
 Model fit_to_logs(const EstimatorEntry& entry, std::span<const FitLog> logs,
                   const LogFitConfig& config, LogFitReport& report) {
-  OptionalProgress progress;
-  show_progress(progress, "fitting", logs, 1, config);
-  return model_of(entry, logs, config, progress, report);
+  Reading reading(config, "fitting", logs, 1);
+  return model_of(entry, logs, reading, report);
 }
 
 FitAccuracy accuracy_of_fit(const EstimatorEntry& entry, std::span<const FitLog> logs,
                             const LogFitConfig& config, const Model& model) {
   FitAccuracy accuracy;
-  OptionalProgress progress;
-  std::vector<Fold> folds = folds_of(logs, false);
-  if (folds.size() > 1) show_progress(progress, "judging", logs, folds.size(), config);
-  accuracy.held_out = held_out(entry, folds, config, progress);
-  if (!accuracy.held_out) {
-    folds = folds_of(logs, true);
-    show_progress(progress, "judging", logs, 2 * folds.size(), config);
-    accuracy.held_out = held_out(entry, folds, config, progress);
-    accuracy.by_parts = accuracy.held_out.has_value();
+  for (const bool by_parts : {false, true}) {
+    const std::vector<Fold> folds = folds_of(logs, by_parts);
+    if (accuracy.held_out || folds.size() < 2) continue;
+    Reading reading(config, "judging", logs, (by_parts ? 2 : 1) * folds.size());
+    accuracy.held_out = held_out(entry, folds, reading);
+    accuracy.by_parts = by_parts && accuracy.held_out;
   }
-  show_progress(progress, "scoring", logs, 2, config);
-  accuracy.fitted =
-      balanced(scores_on(logs, log_estimator(entry, model, config.robot), config, progress));
+  Reading reading(config, "scoring", logs, 2);
+  accuracy.fitted = balanced(scores_on(logs, log_estimator(entry, model, config.robot), reading));
   const std::vector<scoring::RobotScore> scores =
-      scores_on(logs, log_estimator({.robot = config.robot}), config, progress);
+      scores_on(logs, log_estimator({.robot = config.robot}), reading);
   accuracy.load_filter = balanced(scores);
   for (std::size_t i = 0; i < logs.size(); ++i) {
     const scoring::Score score = scores[i].wheels();
