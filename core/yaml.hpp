@@ -9,6 +9,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "core/error.hpp"
+#include "core/nearest.hpp"
 
 namespace touchdown {
 
@@ -55,12 +56,6 @@ class YamlDocument {
   std::string name_;
   std::vector<Origin> origins_ = {{}};
 };
-
-/// The entry of `candidates` with the smallest edit distance to `word`; empty if none is near.
-std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
-
-/// " (did you mean 'nearest'?)", or nothing if none is near.
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
 
 /// Empty for one of the `candidates`; else "'bulet': expected mujoco or bullet (did you mean ...)".
 std::string not_one_of(std::string_view word, const std::vector<std::string>& candidates);

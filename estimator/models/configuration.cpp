@@ -39,8 +39,8 @@ class MemberReader {
   explicit MemberReader(const ConfigurationText& text) : left_(text) {}
 
   /// Ranges are those of whole configurations (`check_members`).
-  void operator()(const std::string& key, double& value, const Range& /*range*/) {
-    take(key, [&](const std::string& text) {
+  void operator()(const std::string& key, double& value, const Range& range) {
+    take(key, range.text, [&](const std::string& text) {
       const std::optional<double> number = number_of(text);
       if (!number || std::abs(*number) > Range::any.high) return false;
       value = *number;
@@ -48,20 +48,22 @@ class MemberReader {
     });
   }
   void operator()(const std::string& key, int& value) {
-    take(key, [&](const std::string& text) {
+    take(key, "a whole number", [&](const std::string& text) {
       const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
       return error == std::errc{} && end == text.data() + text.size();
     });
   }
   void operator()(const std::string& key, bool& value) {
-    take(key, [&](const std::string& text) {
+    take(key, "true or false", [&](const std::string& text) {
       value = text == "true";
       return value || text == "false";
     });
   }
   template <typename Enum>
   void choose(const std::string& key, Names names, Enum& value) {
-    take(key, [&](const std::string& text) {
+    std::string expected;
+    for (const char* name : names) expected.append(expected.empty() ? "" : " or ").append(name);
+    take(key, expected, [&](const std::string& text) {
       const auto found = std::find(names.begin(), names.end(), text);
       if (found == names.end()) return false;
       value = static_cast<Enum>(found - names.begin());
@@ -78,12 +80,12 @@ class MemberReader {
 
  private:
   template <typename Read>
-  void take(const std::string& key, const Read& read) {
+  void take(const std::string& key, const std::string& expected, const Read& read) {
     const auto found = left_.find(key);
     if (found == left_.end()) return;
     if (!read(found->second)) {
       throw InputError("metadata: configuration." + key + ": '" + found->second +
-                       "' is no value for it");
+                       "' is no value for it: expected " + expected);
     }
     left_.erase(found);
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/nearest.hpp"
 #include "estimator/bayes/ablation.hpp"
 #include "estimator/bayes/filter.hpp"
 #include "estimator/bayes/measurement_only.hpp"
@@ -113,8 +114,11 @@ const Recipe& recipe(std::string_view name) {
 
 std::string no_such_member(const std::string& estimator, const std::string& key,
                            const ConfigurationText& known) {
-  return "the configuration of '" + estimator + "' has no '" + key + "': expected one of " +
-         listed(known, [](const auto& member) { return member.first; });
+  std::vector<std::string> names;
+  for (const auto& [name, value] : known) names.push_back(name);
+  std::string near = did_you_mean(key, names);
+  if (near.empty()) near = ": expected one of " + listed(names, std::identity());
+  return "the configuration of '" + estimator + "' has no '" + key + "'" + near;
 }
 
 /// The model's own configuration, if it was fitted for this estimator, with `replaced` members.

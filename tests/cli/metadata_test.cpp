@@ -191,7 +191,8 @@ TEST_F(Metadata, OfAModelExportedFromARobotsFileHasItsLegs) {
         {"long.npz: is a model of 'load_filter', which 'robust' cannot use"}},
        {"convert m.npz --robot upkie_heavy -o x.npz", {"not to 'upkie_heavy'"}},
        {"convert m.npz --robot models/upkie.xml -o x.npz", {"m.npz: 'robust' uses no kinematics"}},
-       {robot + "--set leave_bellow=0.25 -o x.npz", {"has no 'leave_bellow': expected one of"}},
+       {robot + "--set leave_bellow=0.25 -o x.npz",
+        {"has no 'leave_bellow' (did you mean 'leave_below'?)"}},
        {robot + "--set leave_below -o x.npz", {"--set: leave_below: expected NAME=VALUE"}}});
   EXPECT_FALSE(folder_.has("x.npz"));
 }

@@ -17,6 +17,7 @@ namespace touchdown {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
 std::string complaint_about(const ModelArrays& arrays, const ModelUse& use = {}) {
@@ -148,9 +149,13 @@ TEST(MakeEstimator, CallersConfigurationReplacesThatOfTheMetadata) {
   EXPECT_EQ(beliefs_of(*make_estimator(arrays, use)), beliefs_of(expected));
   EXPECT_NE(beliefs_of(*make_estimator(arrays)), beliefs_of(expected));
   EXPECT_THAT(complaint_about(arrays, {.configuration = {{"thresold", "0.3"}}}),
-              AllOf(HasSubstr("has no 'thresold'"), HasSubstr("threshold")));
-  EXPECT_THAT(complaint_about(arrays, {.configuration = {{"threshold", "low"}}}),
-              HasSubstr("'low' is no value for it"));
+              EndsWith("has no 'thresold' (did you mean 'threshold'?)"));
+  EXPECT_THAT(complaint_about(arrays, {.configuration = {{"speed", "0.3"}}}),
+              AllOf(HasSubstr("has no 'speed': expected one of "), HasSubstr("threshold")));
+  for (const std::string wrong : {"low", "1e308", "nan", "-inf"}) {
+    EXPECT_THAT(complaint_about(arrays, {.configuration = {{"threshold", wrong}}}),
+                HasSubstr("'" + wrong + "' is no value for it: expected 0 to 1"));
+  }
 }
 
 TEST(MakeEstimator, NamesANumberBeyondItsRange) {

@@ -86,7 +86,7 @@ TEST(ModelFor, AMismatchIsAnError) {
   EXPECT_THAT(complaint(loads, {.sample_rate = 50.0}),
               HasSubstr("serves 100 to 20000 Hz, not at 50 Hz"));
   EXPECT_THAT(complaint(loads, {.configuration = {{"leave_bellow", "0.25"}}}),
-              HasSubstr("has no 'leave_bellow': expected one of"));
+              HasSubstr("has no 'leave_bellow' (did you mean 'leave_below'?)"));
   EXPECT_THAT(complaint(loads, {.configuration = {{"leave_below", "often"}}}),
               HasSubstr("leave_below: 'often' is no value"));
   EXPECT_THAT(complaint(loads, {.geometry = LegGeometry{.robot_mass = 0.0}}),
