@@ -273,9 +273,19 @@ std::string to_text(const TextTable& raw, std::size_t text_columns) {
 }
 
 std::string fixed(double value, int decimals) {
+  constexpr double beyond = 1e15;
+  if (std::abs(value) >= beyond) return readable(value, 3);
   std::string text = fmt::format("{:.{}f}", value, decimals);
   if (text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
   return text;
+}
+
+std::string readable(double value, int digits) {
+  constexpr double most = 1e7;
+  const bool is_long = std::abs(value) > 1.0 && std::abs(value) < most;
+  const int whole =
+      is_long ? static_cast<int>(std::to_string(std::llround(std::abs(value))).size()) : 0;
+  return fmt::format("{:.{}g}", value, std::max(digits, whole));
 }
 
 std::string exact(double value) { return std::isnan(value) ? "nan" : fmt::format("{}", value); }

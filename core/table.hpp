@@ -132,8 +132,11 @@ std::string to_text(const Table& table, std::size_t text_columns = 1);
 /// Number of characters of a UTF-8 text, as a terminal counts them.
 std::size_t width(const std::string& text);
 
-/// A number with so many decimals; never a negative zero.
+/// A number with so many decimals, or like 1e+18 if it is beyond any quantity; never a negative
+/// zero.
 std::string fixed(double value, int decimals);
+/// A number with so many digits, also more before its point: 1234, 0.0123, 1e+18.
+std::string readable(double value, int digits);
 
 /// Numbers for CSV files: `exact` is the shortest text that reads back to the same number, `metric`
 /// has six decimals. Undefined values are `nan`.

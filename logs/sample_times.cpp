@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "core/table.hpp"
+
 namespace touchdown::logs {
 
 namespace {
@@ -21,12 +23,6 @@ std::vector<double> steps_of(std::span<const double> times) {
     before = time;
   }
   return steps;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Times as whole multiples of a base step: some samples were lost, others are on time.
@@ -113,6 +109,12 @@ std::int64_t nanoseconds(double seconds) {
   constexpr double furthest = 9e9;  // s, whose nanoseconds an integer holds
   if (!(std::abs(whole) < furthest)) return 0;
   return 1'000'000'000 * static_cast<std::int64_t>(whole) + std::llround(1e9 * (seconds - whole));
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 std::optional<double> typical_step(std::span<const double> times) {
@@ -232,7 +234,7 @@ std::string bursts_of(const std::vector<double>& times, double mean) {
       periods, [&](double one) { return std::abs(one - period) < 0.25 * period; });
   if (static_cast<double>(regular) < 0.8 * static_cast<double>(periods.size())) return {};
   const double size = static_cast<double>(last - first) / static_cast<double>(periods.size());
-  return fmt::format("bursts of {:.2g} every {:.3g} ms", size, 1e3 * period);
+  return fmt::format("bursts of {} every {} ms", readable(size, 2), readable(1e3 * period, 3));
 }
 
 }  // namespace
@@ -255,7 +257,8 @@ std::string interleaved_clocks(std::span<const double> times) {
   const auto is_pause = [&](double step) { return step > 0.49 * clocks.front(); };
   if (bursts.empty() && clocks.size() > 1 && !are_publishers &&
       static_cast<std::size_t>(std::ranges::count_if(steps, is_pause)) > finite.size() / 40) {
-    bursts = fmt::format("bursts of {} every {:.3g} ms", clocks.size(), 1e3 * clocks.front());
+    bursts =
+        fmt::format("bursts of {} every {} ms", clocks.size(), readable(1e3 * clocks.front(), 3));
   }
   constexpr std::size_t most_publishers = 3;
   if (!bursts.empty() && (!are_publishers || clocks.size() > most_publishers)) {
@@ -268,7 +271,7 @@ std::string interleaved_clocks(std::span<const double> times) {
   if (!are_publishers) return {};
   std::string each;
   for (const double clock : clocks) {
-    each += fmt::format("{}one every {:.3g} ms", each.empty() ? "" : ", ", 1e3 * clock);
+    each += fmt::format("{}one every {} ms", each.empty() ? "" : ", ", readable(1e3 * clock, 3));
   }
   return fmt::format(
       "stamps of {} clocks alternate, {}: do {} publishers share a topic? The rate is theirs "

@@ -4,12 +4,16 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace touchdown::logs {
 
 /// To the nanosecond, also of times since 1970, whose seconds a product with 1e9 would round to a
 /// multiple of 256.
 std::int64_t nanoseconds(double seconds);
+
+/// The upper one of two in the middle. `values` has at least one.
+double median(std::vector<double> values);
 
 /// The time between two samples of a log with these times, in their unit, however the log stamps
 /// them: rounded to a coarse tick (2, 3, 2, 3 ms at 400 Hz), with jitter, in bursts (1, 1, 1, 7

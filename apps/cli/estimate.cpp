@@ -161,8 +161,8 @@ class BeliefWriter {
     constexpr double all = 0.9995;
     if (!is_labelled_) {
       return fmt::format(
-          "{:<12} contact is a normal force above {:.2g} N, {:g} of the weight, over {:g} ms\n",
-          "labels", threshold_, labels_.share, 1e3 * labels_.window);
+          "{:<12} contact is a normal force above {} N, {:g} of the weight, over {:g} ms\n",
+          "labels", readable(threshold_, 2), labels_.share, 1e3 * labels_.window);
     }
     if (labelled_share >= all) return {};
     return fmt::format("{:<12} cover {:.1f} % of the steps: the others are not scored\n", "labels",
@@ -251,8 +251,8 @@ Evaluation evaluate(logs::LogReader& reader, const experiments::LogEstimator& ch
   if (!*session.stop) log.require_labels_within();
   std::vector<std::string> findings = log.findings();
   const std::string summary = writer.finish(reader, log, findings.size());
-  return {fmt::format("{}: {} steps, {:.3f} s at {:.6g} Hz, {}\n", reader.name(), writer.steps(),
-                      writer.duration(), log.sample_rate(), chosen.entry.title) +
+  return {fmt::format("{}: {} steps, {} s at {:.6g} Hz, {}\n", reader.name(), writer.steps(),
+                      fixed(writer.duration(), 3), log.sample_rate(), chosen.entry.title) +
               outcome_line(log.info(), writer.duration()) + summary + gravity_line(log) +
               model_line(chosen, log),
           std::move(findings)};

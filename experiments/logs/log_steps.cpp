@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/table.hpp"
 #include "logs/sample_times.hpp"
 #include "scoring/labels.hpp"
 
@@ -26,9 +27,9 @@ double usable_rate(logs::LogReader& reader) {
   constexpr double highest = 20'000.0;
   if (!(rate >= lowest && rate <= highest)) {
     throw InputError(
-        fmt::format("{}: {:.4g} steps per second: expected 100 to 20000, since estimators bridge "
+        fmt::format("{}: {} steps per second: expected 100 to 20000, since estimators bridge "
                     "gaps of 20 ms",
-                    reader.name(), rate));
+                    reader.name(), readable(rate, 4)));
   }
   return rate;
 }

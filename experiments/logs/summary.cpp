@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/table.hpp"
 #include "estimator/signal_guard.hpp"
 #include "experiments/results/captions.hpp"
 #include "logs/bags/topic_rows.hpp"
@@ -266,9 +267,9 @@ void LogSummary::add_decision(double time, bool contact, Wheel& wheel) const {
 
 std::string LogSummary::time_text(double start) const {
   if (std::isnan(first_)) return "no finite value";
-  std::string text = fmt::format("from {:.3f} to {:.3f} s", first_, last_);
-  if (start != 0.0) text += fmt::format(", 0 being {:.3f} s of the log's clock", start);
-  if (lost_ > 0.0) text += fmt::format("; {:.3f} s without records", lost_);
+  std::string text = fmt::format("from {} to {} s", fixed(first_, 3), fixed(last_, 3));
+  if (start != 0.0) text += fmt::format(", 0 being {} s of the log's clock", fixed(start, 3));
+  if (lost_ > 0.0) text += fmt::format("; {} s without records", fixed(lost_, 3));
   if (gaps_ > 1) text += fmt::format(" in {} gaps", gaps_);
   if (steps_back_ > 0)
     text += fmt::format("; it goes back {}", plural(static_cast<std::size_t>(steps_back_), "time"));

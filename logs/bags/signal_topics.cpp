@@ -8,9 +8,11 @@
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "core/table.hpp"
 #include "core/yaml.hpp"
 #include "logs/bags/bag.hpp"
 #include "logs/bags/topic_rows.hpp"
+#include "logs/sample_times.hpp"
 
 namespace touchdown::logs {
 
@@ -33,9 +35,9 @@ std::vector<std::string> clock_notes(const SignalTopic& topic, const SignalTopic
   // A simulation's clock has another rate, too.
   if (!(std::abs(joints.stamp_delay) < longest_delay && std::abs(ahead) > most)) return {};
   return {fmt::format(
-      "{}: its stamps are {:.3g} s {} those of {} by the times of recording: are they of another "
+      "{}: its stamps are {} s {} those of {} by the times of recording: are they of another "
       "computer's clock? `time: {{from: log_time}}` takes the times of recording",
-      topic.name, std::abs(ahead), ahead > 0.0 ? "ahead of" : "behind", joints.name)};
+      topic.name, readable(std::abs(ahead), 3), ahead > 0.0 ? "ahead of" : "behind", joints.name)};
 }
 
 namespace {
@@ -86,9 +88,8 @@ void look_at_joints(const MessageNumbers& numbers, SignalTopic& topic) {
 void count(const MessageStamp& stamp, std::int64_t recorded, SignalTopic& topic) {
   ++topic.messages;
   if (stamp.is_zero()) return;
-  const double delay = 1e-9 * static_cast<double>(recorded - stamp.time());
-  topic.stamp_delay = topic.has_stamps ? std::min(topic.stamp_delay, delay) : delay;
   topic.has_stamps = true;
+  topic.stamp_delays.push_back(1e-9 * static_cast<double>(recorded - stamp.time()));
 }
 
 /// `numbers`: of the message before.
@@ -163,7 +164,8 @@ std::vector<SignalTopic> find_signal_topics(const std::filesystem::path& path,
       look_at(message, one, numbers[i]);
     }
   }
-  for (const SignalTopic& one : found) {
+  for (SignalTopic& one : found) {
+    if (one.has_stamps) one.stamp_delay = median(one.stamp_delays);
     if (one.messages > 0) continue;
     if (!one.type.empty()) {
       throw InputError(fmt::format("{}: no message of topic {} can be decoded: {}", path.string(),
@@ -185,13 +187,19 @@ std::string only_topic_of_type(const std::filesystem::path& path, const std::str
   BagReader bag(path, {}, stop);
   const std::string all = all_topics(bag);
   std::vector<std::string> names;
+  bool is_there = false;
   for (const BagTopic& topic : bag.topics()) {
-    if (topic.type == type && topic.messages > 0) names.push_back(topic.name);
+    if (topic.type != type) continue;
+    is_there = true;
+    if (topic.messages > 0) names.push_back(topic.name);
   }
   if (names.size() == 1) return names.front();
-  throw InputError(fmt::format("{}: {} topic of {}: name it in the mapping's `sources`: {}",
-                               path.string(), names.empty() ? "has no" : "has more than one", type,
-                               all));
+  const bool is_empty = names.empty() && is_there;
+  throw InputError(fmt::format("{}: {} of {}: {}{}", path.string(),
+                               is_empty        ? "has no message"
+                               : names.empty() ? "has no topic"
+                                               : "has more than one topic",
+                               type, is_empty ? "" : "name it in the mapping's `sources`: ", all));
 }
 
 }  // namespace touchdown::logs

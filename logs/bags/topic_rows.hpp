@@ -116,7 +116,8 @@ struct SignalTopic {
   std::shared_ptr<const MessageType> definition;
   std::vector<std::string> numbers;  ///< of another type
   bool has_stamps = false;           ///< whether a header has a stamp that is not zero
-  double stamp_delay = 0.0;          ///< the least time of recording − stamp of such headers (s)
+  std::vector<double> stamp_delays;  ///< times of recording − such stamps (s) …
+  double stamp_delay = 0.0;          ///< … and their median: a single one may be wrong
   std::uint64_t messages = 0;        ///< decoded so far
   std::string fault;                 ///< of the last message that cannot be decoded
 

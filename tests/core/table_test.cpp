@@ -68,6 +68,20 @@ TEST(Fixed, HasNoNegativeZero) {
   EXPECT_EQ(with_interval({-0.0001, -0.0002, 0.0001}), "0.000 [0.000, 0.000]");
 }
 
+TEST(Fixed, IsShortBeyondAnyQuantity) {
+  EXPECT_EQ(fixed(999999999999999872.0, 3), "1e+18");
+  EXPECT_EQ(fixed(-3e300, 0), "-3e+300");
+  EXPECT_EQ(fixed(1.7e9, 3), "1700000000.000");
+}
+
+TEST(Readable, HasNoPowerOfTenWherePeopleUseNone) {
+  const std::tuple<double, int, const char*> cases[] = {
+      {1000.0, 3, "1000"},    {999.9, 2, "999.9"},    {99.96, 2, "100"},    {-2e4, 3, "-20000"},
+      {20'000.0, 4, "20000"}, {0.01234, 3, "0.0123"}, {2.0, 3, "2"},        {123.456, 2, "123"},
+      {1e18, 3, "1e+18"},     {-1e300, 3, "-1e+300"}, {INFINITY, 3, "inf"}, {0.0, 3, "0"}};
+  for (const auto& [value, digits, text] : cases) EXPECT_EQ(readable(value, digits), text);
+}
+
 TEST(WithInterval, OfOneRunHasNone) {
   EXPECT_EQ(with_interval({0.977, std::nan(""), std::nan("")}), "0.977");
 }

@@ -357,7 +357,23 @@ TEST_F(Bag, MissingAndOtherTopicsAreRefusedWithTheBagsTopics) {
   EXPECT_THAT(complaint("/b"), AllOf(HasSubstr("has the type 'pkg/msg/B'"),
                                      HasSubstr("/b (pkg/msg/B, 14 messages)")));
   EXPECT_EQ(only_topic_of_type(path, joint_state_type), "/joint_states");
-  EXPECT_THROW((void)only_topic_of_type(path, imu_type), InputError);
+  EXPECT_THAT(complaint_of([&] { (void)only_topic_of_type(path, imu_type); }),
+              HasSubstr("has no topic of sensor_msgs/msg/Imu: name it in the mapping's `sources`"));
+  bag.topics.push_back({"/imu", imu_type});
+  const fs::path empty = folder_ / "empty.db3";
+  test::write_db3(bag, empty);
+  EXPECT_THAT(complaint_of([&] { (void)only_topic_of_type(empty, imu_type); }),
+              AllOf(HasSubstr("has no message of sensor_msgs/msg/Imu: it has "),
+                    HasSubstr("/imu (sensor_msgs/msg/Imu, 0 messages)")));
+}
+
+TEST_F(Bag, ATextWithABinaryZeroDoesNotEndTheMessageAboutIt) {
+  TestBag bag = two_topics();
+  bag.topics.push_back({std::string("/jo\0int", 7), "pkg/msg/B"});
+  bag.messages.push_back({2, 5000, ""});
+  const fs::path path = write("zero.mcap", test::mcap_bytes(bag));
+  EXPECT_THAT(complaint_of([&] { (void)only_topic_of_type(path, imu_type); }),
+              HasSubstr("/jo\u2400int (pkg/msg/B, 1 messages)"));
 }
 
 /// Bags that ROS 2 itself recorded.

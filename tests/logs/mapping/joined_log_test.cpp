@@ -464,12 +464,14 @@ TEST_F(JoinedLog, TopicsWithoutACommonTimeAreRefusedWithTheirTimes) {
 
 /// Stamps of one robot are recorded about as late, whatever their topic; 5 ms differ here.
 TEST_F(JoinedLog, AClockAheadOrBehindIsNamedByTheTimesOfRecording) {
+  std::int64_t slip = 0;  // of the time of recording of one message
   const auto notes = [&](double ahead, const std::string& more = "") {
     TestBag bag = robot_bag(2.0);
     for (auto& message : bag.messages) {
       if (message.topic != 1) continue;
       const std::int64_t measured = message.time - 8 * ms;
       message.data = bags::imu_cdr(measured + std::llround(1e9 * ahead), {});
+      message.time += std::exchange(slip, 0);
     }
     convert(write_bag(bag), bag_mapping + more);
     return fmt::format("{}", fmt::join(converted_.warnings, "\n"));
@@ -484,6 +486,12 @@ TEST_F(JoinedLog, AClockAheadOrBehindIsNamedByTheTimesOfRecording) {
     EXPECT_THAT(notes(small), ::testing::Not(HasSubstr("its stamps are"))) << small;
   }
   EXPECT_THAT(notes(0.2, "time: {from: log_time}\n"), ::testing::Not(HasSubstr("its stamps are")));
+  for (const std::int64_t wrong : {-900 * ms, 900 * ms}) {
+    slip = wrong;
+    EXPECT_THAT(notes(0.0), ::testing::Not(HasSubstr("its stamps are")));
+    slip = wrong;
+    EXPECT_THAT(notes(0.5), HasSubstr("/imu: its stamps are 0.495 s ahead of"));
+  }
 }
 
 // Files ------------------------------------------------------------------------------------------
