@@ -233,9 +233,13 @@ std::size_t check_log(const std::string& path, const std::string& mapping,
   end_if(session.stop);
   print_warnings(reader.warnings());
   const std::vector<std::string> findings = log.findings();
-  std::string text =
-      fmt::format("{}: {} records at {:.6g} Hz, up to {:.3f} s: {}\n", reader.name(), steps,
-                  log.sample_rate(), last, findings.empty() ? "plausible" : "check it");
+  const bool is_short = static_cast<double>(steps) / log.sample_rate() < logs::shortest_log;
+  std::string text = fmt::format(
+      "{}: {} records at {:.6g} Hz, up to {} s: {}\n", reader.name(), steps, log.sample_rate(),
+      fixed(last, 3),
+      !findings.empty() ? "check it"
+      : is_short ? fmt::format("too short to judge: expected {:g} s and more", logs::shortest_log)
+                 : "plausible");
   for (const std::string& finding : findings) text += fmt::format("  {}\n", finding);
   print(text);
   return findings.size();

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "estimator/record.hpp"
 #include "estimator/signal_bounds.hpp"
 
 namespace touchdown::logs {
@@ -14,6 +15,15 @@ namespace touchdown::logs {
 namespace {
 
 constexpr std::int64_t least_records = 300;  // a third of a second at 1 kHz
+
+Eigen::Vector3d up_of(const Eigen::Quaterniond& q) {
+  return up_in_imu({q.w(), q.x(), q.y(), q.z()});
+}
+
+/// Estimators do not use such an orientation.
+bool has_other_length(const Eigen::Quaterniond& q) {
+  return q.coeffs().allFinite() && !up_of(q).allFinite();
+}
 
 std::string throughout(std::string_view channel, double value) {
   // 0 is added to show −0 as 0.
@@ -42,24 +52,33 @@ void ConstantChannels::add(const models::Observation& record) {
     joints_[i][1].add(record.servo[i].velocity);
     joints_[i][2].add(record.servo[i].torque);
   }
-  const Eigen::Quaterniond& q = record.imu.orientation;
-  const std::array<double, 4> orientation = {q.w(), q.x(), q.y(), q.z()};
-  for (std::size_t i = 0; i < 4; ++i) orientation_[i].add(orientation[i]);
+  const models::ImuReading& imu = record.imu;
+  const Eigen::Quaterniond& q = imu.orientation;
+  const bool is_usable = !has_other_length(q);
+  for (std::size_t i = 0; i < 4; ++i) orientation_[i].add(is_usable ? q.coeffs()[i] : std::nan(""));
+  // Gravity that was removed by the orientation hides a dead accelerometer.
+  const bool is_removed = imu.raw_linear_acceleration.isZero(0.0);
+  const Eigen::Vector3d with_gravity = imu.linear_acceleration + gravity_at_rest * up_of(q);
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
-    angular_velocity_[i].add(record.imu.angular_velocity[axis]);
-    linear_acceleration_[i].add(record.imu.linear_acceleration[axis]);
+    angular_velocity_[i].add(imu.angular_velocity[axis]);
+    if (is_usable) linear_acceleration_[i].add(imu.linear_acceleration[axis]);
+    constexpr double digits = 1e5;  // of a log that holds floats
+    const double proper = is_removed ? std::round(digits * with_gravity[axis]) / digits
+                                     : imu.raw_linear_acceleration[axis];
+    if (std::isfinite(proper)) proper_acceleration_[i].add(proper);
   }
 }
 
 /// Bad sensors drop out for a thousandth of the time (noise/profiles/harsh.yaml).
 void ConstantChannels::report_missing(std::string_view subject, const char* channel,
-                                      const Channel& of_log, Findings& findings) {
+                                      const Channel& of_log, Findings& findings,
+                                      const char* expected) {
   constexpr double most = 0.02;
   const double share =
       static_cast<double>(of_log.missing) / static_cast<double>(of_log.count + of_log.missing);
   if (!(share > most)) return;
-  findings.add(subject, share == 1.0 ? fmt::format("{}is never a finite number", channel)
+  findings.add(subject, share == 1.0 ? fmt::format("{}is never {}", channel, expected)
                                      : fmt::format("{}is missing in {:.0f} % of the records",
                                                    channel, 100.0 * share));
 }
@@ -88,33 +107,36 @@ void ConstantChannels::report_joint(std::size_t servo, Findings& findings) const
   }
 }
 
-void ConstantChannels::report_vector(const char* name, const std::array<Channel, 3>& axes,
+/// Returns whether all axes change.
+bool ConstantChannels::report_vector(const char* name, const std::array<Channel, 3>& axes,
                                      Findings& findings) {
   report_missing(name, "", axes[0], findings);
-  const bool all =
-      std::all_of(axes.begin(), axes.end(), [](const Channel& axis) { return axis.is_constant(); });
-  if (all) {
+  const auto constant = std::ranges::count_if(axes, &Channel::is_constant);
+  if (constant == 3) {
     findings.add(name, fmt::format("is {:.6g} {:.6g} {:.6g} throughout: is the sensor dead, or the "
                                    "column empty",
                                    axes[0].first + 0.0, axes[1].first + 0.0, axes[2].first + 0.0));
-    return;
+    return false;
   }
   for (std::size_t i = 0; i < axes.size(); ++i) {
     if (axes[i].is_constant()) {
       findings.add(fmt::format("{} {}", name, "xyz"[i]), throughout("it", axes[i].first));
     }
   }
+  return constant == 0;
 }
 
-void ConstantChannels::report(Findings& findings) const {
+bool ConstantChannels::report(Findings& findings) const {
   for (std::size_t servo = 0; servo < joints_.size(); ++servo) report_joint(servo, findings);
   report_vector("angular_velocity", angular_velocity_, findings);
-  report_vector("linear_acceleration", linear_acceleration_, findings);
-  report_missing("orientation", "", orientation_[0], findings);
+  report_missing("orientation", "", orientation_[0], findings,
+                 "a quaternion of length 1: is the column empty, or to be divided by its length");
   if (std::all_of(orientation_.begin(), orientation_.end(),
                   [](const Channel& part) { return part.is_constant(); })) {
     findings.add("orientation", "never changes: is the sensor dead, or the column empty");
   }
+  return !report_vector("linear_acceleration", linear_acceleration_, findings) ||
+         report_vector("proper_acceleration", proper_acceleration_, findings);
 }
 
 namespace {
@@ -189,6 +211,9 @@ models::Observation SensorRangeCheck::add(const models::Observation& record) {
     ++channel;
     for (double& axis : *vector) check(axis);
   }
+  if (has_other_length(imu.orientation)) {
+    imu.orientation.coeffs().setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
   return usable;
 }
 
@@ -197,12 +222,13 @@ void SensorRangeCheck::report(Findings& findings) const {
     const Beyond& beyond = channels_.at(i);
     if (beyond.count == 0) continue;
     const Bound bound = bound_of(i);
-    findings.add(bound.subject,
-                 fmt::format("{}is {:.3g}{} at {:.6g} s{}, beyond any sensor's {:.0f}{}: is it a "
-                             "fault of the bus, or of the conversion",
-                             bound.channel, beyond.first, bound.unit, beyond.time,
-                             beyond.count == 1 ? "" : fmt::format(" (first of {})", beyond.count),
-                             bound.largest, bound.unit));
+    findings.add(
+        bound.subject,
+        fmt::format("{}is {}{} at {} s{}, beyond any sensor's {:.0f}{}: is it a "
+                    "fault of the bus, or of the conversion",
+                    bound.channel, readable(beyond.first, 3), bound.unit, readable(beyond.time, 6),
+                    beyond.count == 1 ? "" : fmt::format(" (first of {})", beyond.count),
+                    bound.largest, bound.unit));
   }
 }
 

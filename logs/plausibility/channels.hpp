@@ -38,7 +38,8 @@ struct CheckedRobot {
 /// Checks every value of a record against the largest that a sensor can report (`SignalBounds`).
 class SensorRangeCheck {
  public:
-  /// Returns the record with NaN in place of every value beyond its bound.
+  /// Returns the record with NaN in place of every value beyond its bound, and of a quaternion of
+  /// another length than 1.
   models::Observation add(const models::Observation& record);
   void report(Findings& findings) const;
 
@@ -75,7 +76,8 @@ class JointRangeCheck {
 class ConstantChannels {
  public:
   void add(const models::Observation& record);
-  void report(Findings& findings) const;
+  /// Returns whether all accelerations change.
+  bool report(Findings& findings) const;
   /// Whether both hips are 0 throughout: a mapping with `hip: none` fills in joints that the robot
   /// lacks.
   bool lacks_hips() const;
@@ -94,15 +96,16 @@ class ConstantChannels {
     bool is_zero() const { return is_constant() && first == 0.0; }
   };
   static void report_missing(std::string_view subject, const char* channel, const Channel& of_log,
-                             Findings& findings);
+                             Findings& findings, const char* expected = "a finite number");
   void report_joint(std::size_t servo, Findings& findings) const;
-  static void report_vector(const char* name, const std::array<Channel, 3>& axes,
+  static bool report_vector(const char* name, const std::array<Channel, 3>& axes,
                             Findings& findings);
 
   std::array<std::array<Channel, 3>, models::servo_count> joints_;  ///< position, velocity, torque
   std::array<Channel, 4> orientation_;
   std::array<Channel, 3> angular_velocity_;
   std::array<Channel, 3> linear_acceleration_;
+  std::array<Channel, 3> proper_acceleration_;
 };
 
 /// Finds channels that stop within a log: they repeat themselves although the robot moves.

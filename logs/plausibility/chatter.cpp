@@ -25,9 +25,9 @@ void ChatterCheck::report(Findings& findings) const {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     if (!joints_[i].cycles) continue;
     findings.add(models::servo_names.at(i),
-                 fmt::format("torque changes its sign in most records at {:.1f} s: a limit cycle, "
+                 fmt::format("torque changes its sign in most records at {} s: a limit cycle, "
                              "are the servo's gains too high for its rate",
-                             since_));
+                             fixed(since_, 1)));
   }
 }
 

@@ -54,12 +54,12 @@ std::vector<std::string> PlausibilityCheck::findings() const {
   Findings findings;
   clock_.report(findings);
   held_.report(findings);
-  constant_.report(findings);
+  const bool measures_acceleration = constant_.report(findings);
   stopped_.report(findings);
   sensor_range_.report(findings);
   chatter_.report(findings);
   const bool has_positions = joint_range_.report(findings);
-  relations_.report(findings);
+  relations_.report(findings, measures_acceleration);
   // The wheels of a robot that hangs follow its swinging.
   if (!load_.hangs()) lateness_.report(findings);
   // A leg's load follows from its pose, and from the vertical.

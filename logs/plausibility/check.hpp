@@ -104,6 +104,9 @@ class HeldChannels {
   std::array<Alternation, models::servo_count> alternations_ = {};
 };
 
+/// Of a log that can be judged (s): ten windows, the fewest of which relations are reported.
+inline constexpr double shortest_log = 1.0;
+
 /// Checks whether the signals of a log can be those of a wheeled biped. It reads the log record by
 /// record, in constant memory. A finding is one line: the channel, what is wrong about it, and the
 /// likely cause. The recordings of a simulated robot have no findings, also with bad sensors

@@ -77,9 +77,9 @@ void ClockCheck::report_repeated(Findings& findings) const {
   const bool is_binary = !is_decimal && (is_power_of(2.0, 1.0) || is_power_of(2.0, 1e-9));
   findings.add(
       "time",
-      fmt::format("is that of the record before {}: it has steps of {:.4g} s, and {:.3g} records "
+      fmt::format("is that of the record before {}: it has steps of {:.4g} s, and {} records "
                   "share each: {}",
-                  times(repeated_), tick_, 1.0 / (1.0 - share),
+                  times(repeated_), tick_, readable(1.0 / (1.0 - share), 3),
                   is_binary ? "did a float lose its digits? Write nanoseconds as whole numbers, or "
                               "times from the start of the log"
                   : tick_ > 0.5 ? "are stamps truncated to seconds? Map the column of nanoseconds, "
@@ -92,21 +92,22 @@ void ClockCheck::report(Findings& findings) const {
   if (2 * interleaved_windows_ > windows_) add(interleaved_);
   if (other_rate_ > 0) {
     add(
-        fmt::format("the rate changes: {:.4g} Hz at {:.3f} s, {:.4g} Hz at the beginning; {:.0f} % "
+        fmt::format("the rate changes: {} Hz at {} s, {} Hz at the beginning; {:.0f} % "
                     "of the log have another rate: split it, or resample it",
-                    1.0 / other_step_, first_other_, nominal_rate(1.0 / period_),
+                    readable(1.0 / other_step_, 4), fixed(first_other_, 3),
+                    readable(nominal_rate(1.0 / period_), 4),
                     100.0 * static_cast<double>(other_rate_) / static_cast<double>(windows_)));
   }
   report_repeated(findings);
   if (fractions_.count() > 0) {
     add(fmt::format("goes back {}, {}", times(back_), fractions_.text()));
   } else if (back_ > 0) {
-    add(fmt::format("goes back {}, by up to {:.3g} s: sort the log, or split it", times(back_),
-                    furthest_back_));
+    add(fmt::format("goes back {}, by up to {} s: sort the log, or split it", times(back_),
+                    readable(furthest_back_, 3)));
   }
   if (jumps_ > 0) {
-    add(fmt::format("jumps {}, by up to {:.3g} s: recording was interrupted, or the clock was set",
-                    times(jumps_), longest_jump_));
+    add(fmt::format("jumps {}, by up to {} s: recording was interrupted, or the clock was set",
+                    times(jumps_), readable(longest_jump_, 3)));
   }
 }
 

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/table.hpp"
+
 namespace touchdown::logs {
 
 /// What is implausible about a log: one line per finding. Subjects with the same finding share its

@@ -139,6 +139,10 @@ void HeldChannels::report(Findings& findings) const {
   report_alternation(findings);
   report_signs(findings);
   const double rate = 1.0 / period_;
+  const auto rates = [&](double period) {
+    return fmt::format("{} times a second, rows come at {} Hz", readable(rate / period, 3),
+                       readable(rate, 4));
+  };
   std::vector<std::size_t> held;
   double shortest = 1e9;
   double longest = 0.0;
@@ -155,9 +159,8 @@ void HeldChannels::report(Findings& findings) const {
   if (held.empty()) return;
   if (held.size() == changing && longest < 1.1 * shortest) {
     findings.add("all signals",
-                 fmt::format("change {:.3g} times a second, rows come at {:.4g} Hz: were rows "
-                             "repeated? Log at the rate of the readings",
-                             rate / longest, rate));
+                 fmt::format("change {}: were rows repeated? Log at the rate of the readings",
+                             rates(longest)));
     return;
   }
   // A bus reads all joints at once.
@@ -168,9 +171,7 @@ void HeldChannels::report(Findings& findings) const {
   }
   const bool are_all_joints = joints == changing_joints && longest < 1.1 * shortest;
   if (are_all_joints) {
-    findings.add("joints", fmt::format("change {:.3g} times a second, rows come at {:.4g} Hz: "
-                                       "their readings are repeated",
-                                       rate / longest, rate));
+    findings.add("joints", fmt::format("change {}: their readings are repeated", rates(longest)));
   }
   for (const std::size_t i : held) {
     if (are_all_joints && i < of_joints) continue;
@@ -181,9 +182,8 @@ void HeldChannels::report(Findings& findings) const {
                                  ? imu_channel_names.at(i - of_joints)
                                  : fmt::format("{} {}", models::servo_names.at(i / joint_channels),
                                                joint_channel_names.at(i % joint_channels));
-    findings.add(name, fmt::format("changes {:.3g} times a second, rows come at {:.4g} Hz: its "
-                                   "readings are repeated",
-                                   rate / channels_.at(i).period(), rate));
+    findings.add(name, fmt::format("changes {}: its readings are repeated",
+                                   rates(channels_.at(i).period())));
   }
 }
 

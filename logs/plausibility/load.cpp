@@ -29,44 +29,67 @@ struct LegJoint {
 };
 using Joints = std::array<LegJoint, 4>;
 
-/// A way in which joints may differ from what they are taken for: a signed permutation, of torques
-/// alone or of whole joints, or a factor of positions.
+using Factors = std::array<double, 4>;
+constexpr Factors unchanged = {1.0, 1.0, 1.0, 1.0};
+
+/// A way in which joints may differ from what they are taken for: in their order, that of torques
+/// alone or of whole joints, or by factors.
 struct Cause {
-  const char* text;
+  std::string text;
   std::array<std::size_t, 4> order = {0, 1, 2, 3};
-  std::array<double, 4> sign = {1.0, 1.0, 1.0, 1.0};  ///< of torques
+  Factors torque = unchanged;
+  Factors position = unchanged;
   bool of_joints = false;
-  double of_positions = 1.0;
+
+  bool moves_legs() const { return of_joints || position != unchanged; }
 };
 
-constexpr std::array<Cause, 14> all_causes = {{
-    {""},
-    {"the torques have the other sign", {0, 1, 2, 3}, {-1.0, -1.0, -1.0, -1.0}},
-    {"the torques of the left leg have the other sign", {0, 1, 2, 3}, {-1.0, -1.0, 1.0, 1.0}},
-    {"the torques of the right leg have the other sign", {0, 1, 2, 3}, {1.0, 1.0, -1.0, -1.0}},
-    {"the torques of the knees have the other sign, or are those of the other side",
-     {0, 1, 2, 3},
-     {1.0, -1.0, 1.0, -1.0}},
-    {"the torques of the hips have the other sign, or are those of the other side",
-     {0, 1, 2, 3},
-     {-1.0, 1.0, -1.0, 1.0}},
-    {"the torque of left_knee has the other sign", {0, 1, 2, 3}, {1.0, -1.0, 1.0, 1.0}},
-    {"the torque of right_knee has the other sign", {0, 1, 2, 3}, {1.0, 1.0, 1.0, -1.0}},
-    {"the torques of hips and knees are exchanged", {1, 0, 3, 2}},
-    {"the torques of the left hip and knee are exchanged", {1, 0, 2, 3}},
-    {"the torques of the right hip and knee are exchanged", {0, 1, 3, 2}},
-    {"hips and knees are exchanged", {1, 0, 3, 2}, {1.0, 1.0, 1.0, 1.0}, true},
-    {"left and right knee are exchanged", {0, 3, 2, 1}, {1.0, 1.0, 1.0, 1.0}, true},
-    {"positions are in revolutions", {0, 1, 2, 3}, {1.0, 1.0, 1.0, 1.0}, false, 6.2832},
-}};
+/// The first one is none. Of those that explain a log as well, the first one is named.
+std::vector<Cause> make_causes() {
+  std::vector<Cause> causes = {
+      {""},
+      {"the torques have the other sign", {0, 1, 2, 3}, {-1.0, -1.0, -1.0, -1.0}},
+      {"the torques of the left leg have the other sign", {0, 1, 2, 3}, {-1.0, -1.0, 1.0, 1.0}},
+      {"the torques of the right leg have the other sign", {0, 1, 2, 3}, {1.0, 1.0, -1.0, -1.0}},
+      {"the torques of hips and knees are exchanged", {1, 0, 3, 2}},
+      {"the torques of the left hip and knee are exchanged", {1, 0, 2, 3}},
+      {"the torques of the right hip and knee are exchanged", {0, 1, 3, 2}},
+      {"hips and knees are exchanged", {1, 0, 3, 2}, unchanged, unchanged, true},
+      // A leg that is mirrored as a whole carries alike.
+      {"hips or knees count the other way, or are exchanged between the sides",
+       {0, 1, 2, 3},
+       {-1, 1, -1, 1},
+       {-1, 1, -1, 1}},
+      {"left_hip or left_knee counts the other way", {0, 1, 2, 3}, {-1, 1, 1, 1}, {-1, 1, 1, 1}},
+      {"right_hip or right_knee counts the other way", {0, 1, 2, 3}, {1, 1, -1, 1}, {1, 1, -1, 1}},
+      {"positions are in revolutions", {0, 1, 2, 3}, unchanged, {6.2832, 6.2832, 6.2832, 6.2832}}};
+  // Legs mirror each other: what is of the other side has the other sign.
+  const std::array<std::pair<const char*, Factors>, 6> signs = {
+      {{"s of the knees have the other sign, or are those of the other side", {1, -1, 1, -1}},
+       {"s of the hips have the other sign, or are those of the other side", {-1, 1, -1, 1}},
+       {" of left_knee has the other sign", {1, -1, 1, 1}},
+       {" of right_knee has the other sign", {1, 1, 1, -1}},
+       {" of left_hip has the other sign", {-1, 1, 1, 1}},
+       {" of right_hip has the other sign", {1, 1, -1, 1}}}};
+  for (const auto& [text, sign] : signs) {
+    causes.push_back({fmt::format("the torque{}", text), causes[0].order, sign});
+    causes.push_back({fmt::format("the position{}", text), causes[0].order, unchanged, sign});
+  }
+  return causes;
+}
+
+const std::vector<Cause>& all_causes() {
+  static const std::vector<Cause> causes = make_causes();
+  return causes;
+}
 
 /// The joints as they would be.
 Joints undone(const Cause& cause, const Joints& joints) {
   Joints undone = joints;
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const LegJoint& from = joints.at(cause.order.at(i));
-    undone[i].torque = cause.sign[i] * from.torque;
-    undone[i].position = cause.of_positions * (cause.of_joints ? from : joints[i]).position;
+    undone[i].torque = cause.torque[i] * from.torque;
+    undone[i].position = cause.position[i] * (cause.of_joints ? from : joints[i]).position;
   }
   return undone;
 }
@@ -126,21 +149,13 @@ LegForce leg_force(const LegGeometry& geometry, const Joints& joints, std::size_
   return result;
 }
 
-/// How far in front of the hips the axles are (m).
-double axle_offset(const LegGeometry& geometry, const Joints& joints, const Eigen::Vector2d& up) {
-  double sum = 0.0;
-  for (const std::size_t side : {0U, 1U}) {
-    const LegForce leg = leg_force(geometry, joints, side, up);
-    sum += 0.5 * (up.y() * leg.axle_forward - up.x() * leg.axle_upward);
-  }
-  return sum;
-}
-
 /// How far the forces are from those of a robot at rest, by their errors, and both legs' load (N).
 struct Misfit {
   double size = 0.0;
   double load = 0.0;
-  double error = 0.0;  ///< of the load (N)
+  double error = 0.0;   ///< of the load (N)
+  double offset = 0.0;  ///< of both axles' middle, in front of the hips (m)
+  double apart = 0.0;   ///< the left axle before the right one, in the torso (m)
 };
 
 Misfit misfit_of(const LegGeometry& geometry, const Joints& joints, const Eigen::Vector2d& up,
@@ -159,6 +174,8 @@ Misfit misfit_of(const LegGeometry& geometry, const Joints& joints, const Eigen:
         force.forward / (share_error * std::abs(force.vertical) + force.forward_error + 1.0), 2);
     misfit.load += force.vertical;
     misfit.error = std::max(misfit.error, force.vertical_error);
+    misfit.offset += 0.5 * (up.y() * force.axle_forward - up.x() * force.axle_upward);
+    misfit.apart += (side == 0 ? 1.0 : -1.0) * force.axle_forward;
   }
   const double error = share_error * weight + misfit.error;
   misfit.size = std::sqrt(squares + std::pow(outside(misfit.load) / error, 2));
@@ -189,24 +206,30 @@ void LoadRelation::add_still(const CheckedWindow& stretch) {
   up.normalize();
   const double heaviest = is_known_ ? 1.5 : heaviest_other;
   const double weight = gravity_at_rest * geometry_.robot_mass;
-  std::array<Misfit, causes> misfit;
-  for (std::size_t i = 0; i < causes; ++i) {
-    const Cause& cause = all_causes.at(i);
+  const double length = geometry_.upper_length + geometry_.lower_length;
+  std::vector<Misfit> misfit;
+  for (const Cause& cause : all_causes()) {
     const Joints meant = undone(cause, joints);
-    misfit.at(i) = misfit_of(geometry_, meant, up, heaviest);
-    if (!cause.of_joints && cause.of_positions == 1.0) continue;
-    // A robot that stands has its wheels below its torso, whose centre of mass is near the hips.
-    constexpr double offset_error = 0.15;  // of a leg's length
-    const double length = geometry_.upper_length + geometry_.lower_length;
-    const double offset = axle_offset(geometry_, meant, up) / (offset_error * length);
+    misfit.push_back(misfit_of(geometry_, meant, up, heaviest));
+    if (misfit.size() == 1) continue;
+    // A robot that stands has its wheels beside each other, and below its torso, whose centre of
+    // mass is near the hips.
+    constexpr double apart_error = 0.06;   // of a leg's length
+    constexpr double offset_error = 0.15;  // likewise
+    double& size = misfit.back().size;
+    size = std::hypot(size, misfit.back().apart / (apart_error * length));
+    if (!cause.moves_legs()) continue;
     constexpr double impossible = 1e3;
-    misfit.at(i).size = is_possible(meant) ? std::hypot(misfit.at(i).size, offset) : impossible;
+    size = is_possible(meant) ? std::hypot(size, misfit.back().offset / (offset_error * length))
+                              : impossible;
   }
   if (!std::isfinite(misfit[0].size)) return;
   // Straight legs carry the weight without torques.
   if (share_error * weight + misfit[0].error > weight) return;
   ++stretches_;
-  for (std::size_t i = 0; i < causes; ++i) {
+  misfit_.resize(misfit.size());
+  load_.resize(misfit.size());
+  for (std::size_t i = 0; i < misfit.size(); ++i) {
     misfit_.at(i) += misfit.at(i).size;
     load_.at(i) += misfit.at(i).load;
   }
@@ -222,10 +245,8 @@ void LoadRelation::add_still(const CheckedWindow& stretch) {
   scaled_misfit_ += misfit_of(geometry_, scaled(joints, factor), up, heaviest).size;
   if (misfit[0].load < 0.5 * weight) return;
   ++standing_stretches_;
-  const std::array<LegForce, 2> legs = {leg_force(geometry_, joints, 0, up),
-                                        leg_force(geometry_, joints, 1, up)};
-  axle_offset_ += axle_offset(geometry_, joints, up);
-  const double apart = legs[0].axle_forward - legs[1].axle_forward;
+  axle_offset_ += misfit[0].offset;
+  const double apart = misfit[0].apart;
   apart_ += apart;
   wrong_load_ += std::abs(misfit[0].load - weight);
   for (std::size_t i = 0; i < zeros; ++i) {
@@ -244,8 +265,7 @@ void LoadRelation::add_still(const CheckedWindow& stretch) {
 
 void LoadRelation::report(Findings& findings, bool drives) const {
   report_small_torques(findings);
-  if (stretches_ == 0 || report_zero(findings)) return;
-  report_pose(findings);
+  if (stretches_ == 0 || report_zero(findings) || report_pose(findings)) return;
   const double load = load_[0] / stretches_;
   const double weight = gravity_at_rest * geometry_.robot_mass;
   const double factor = carried_ / to_carry_;
@@ -259,7 +279,7 @@ void LoadRelation::report(Findings& findings, bool drives) const {
   if (misfit_[0] > largest_misfit * stretches_ || is_too_large) {
     const bool is_possible = load >= 0.0 && load <= weight;
     add(fmt::format(
-        "{:.0f} N, expected {} N{}{}: {}", load,
+        "{} N, expected {} N{}{}: {}", fixed(load, 0),
         is_possible ? fmt::format("{:.0f}", weight) : fmt::format("0 to {:.0f}", weight),
         weight_text(), is_possible ? " or none, and straight up" : "",
         cause(drives || is_too_large)));
@@ -283,7 +303,7 @@ void LoadRelation::report(Findings& findings, bool drives) const {
 /// Whether another order, sign or unit gives the weight: for a robot of unknown weight.
 bool LoadRelation::explains_weight() const {
   const double weight = gravity_at_rest * geometry_.robot_mass;
-  for (std::size_t i = 1; i < causes; ++i) {
+  for (std::size_t i = 1; i < misfit_.size(); ++i) {
     const bool has_weight = std::abs(load_.at(i) / stretches_ - weight) < 0.15 * weight;
     if (has_weight && misfit_.at(i) < 0.6 * stretches_) return true;
   }
@@ -294,23 +314,30 @@ std::string LoadRelation::weight_text() const {
   return is_known_ ? "" : " (Upkie's weight; --robot names another)";
 }
 
-/// `carries`: the legs carry the robot.
-std::string LoadRelation::cause(bool carries) const {
+/// The cause that explains the forces best; 0 for none. `carries`: the legs carry the robot.
+/// `moved`: only those by which the legs are in another pose.
+std::size_t LoadRelation::best_cause(bool carries, bool moved) const {
   const double weight = gravity_at_rest * geometry_.robot_mass;
   std::size_t best = 0;
-  double least = std::max(1.0 * stretches_, explains * misfit_[0]);
-  for (std::size_t i = 1; i < causes; ++i) {
+  double least = moved ? stretches_ : std::max(1.0 * stretches_, explains * misfit_[0]);
+  for (std::size_t i = 1; i < misfit_.size(); ++i) {
     const bool has_load = !carries || std::abs(load_.at(i) / stretches_ - weight) < 0.3 * weight;
     if (!has_load || misfit_.at(i) >= least) continue;
+    if (moved && !all_causes().at(i).moves_legs()) continue;
     // The first one that explains the forces as well as they can be known, else the best one.
     least = std::min(misfit_.at(i), 0.5 * least);
     best = i;
   }
+  return best;
+}
+
+std::string LoadRelation::cause(bool carries) const {
+  const std::size_t best = best_cause(carries, false);
   // A cause that is only better than the log as it is comes after a factor that explains all.
   const bool is_explained = best > 0 && misfit_.at(best) < stretches_;
   const bool has_scale = carried_ > 0.0 && to_carry_ > 0.0;
   if (has_scale && !is_explained && scaled_misfit_ < stretches_) return scale_text();
-  if (best > 0) return fmt::format("probably {}", all_causes.at(best).text);
+  if (best > 0) return fmt::format("probably {}", all_causes().at(best).text);
   if (has_scale && scaled_misfit_ < explains * misfit_[0]) return scale_text();
   return fmt::format("check signs, units, gear ratios and the order of joints{}",
                      is_known_ ? ", or whether the legs are those of --robot" : "");
@@ -322,11 +349,10 @@ std::string LoadRelation::scale_text() const {
   const std::string unit = cause_of("torque", factor, error, "");
   return fmt::format(
       "the torques are {} times those that carry its weight: are they {}in mA, in percent of a "
-      "rating, or {}? `scale: {:.2g}` would carry it; or are the legs other ones{}",
-      factor < 10.0 ? fmt::format("{:.2g}", factor) : fmt::format("{:.0f}", factor),
-      unit.empty() ? "" : fmt::format("in {}, ", unit),
-      factor > 1.0 ? "in another unit" : "those of motors before their gears", 1.0 / factor,
-      is_known_ ? " than those of --robot" : " (--robot)");
+      "rating, or {}? `scale: {}` would carry it; or are the legs other ones{}",
+      readable(factor, 2), unit.empty() ? "" : fmt::format("in {}, ", unit),
+      factor > 1.0 ? "in another unit" : "those of motors before their gears",
+      readable(1.0 / factor, 2), is_known_ ? " than those of --robot" : " (--robot)");
 }
 
 bool LoadRelation::report_zero(Findings& findings) const {
@@ -341,24 +367,33 @@ bool LoadRelation::report_zero(Findings& findings) const {
       std::min_element(shifted_load_.begin(), shifted_load_.end()) - shifted_load_.begin());
   constexpr std::array<const char*, zeros> names = {"left_hip", "left_knee", "right_hip",
                                                     "right_knee"};
-  findings.add(names.at(best),
-               fmt::format("the left wheel is {:.2f} m {} the right one while the robot stands: "
-                           "is the zero of this joint off by {:.2f} rad",
+  constexpr double largest_zero = 0.5;  // rad: joints are zeroed by hand
+  const double zero = -shift_.at(best) / standing_stretches_;
+  const std::string sign = all_causes().at(best_cause(true, true)).text;
+  const bool is_sign = !sign.empty() && std::abs(zero) > largest_zero;
+  findings.add(is_sign ? "wheels" : names.at(best),
+               fmt::format("the left wheel is {:.2f} m {} the right one while the robot stands: {}",
                            std::abs(apart), apart > 0.0 ? "in front of" : "behind",
-                           -shift_.at(best) / standing_stretches_));
+                           is_sign ? fmt::format("probably {}", sign)
+                                   : fmt::format("is the zero of this joint off by {:.2f} rad{}{}",
+                                                 zero, sign.empty() ? "" : ", or: ", sign)));
   return true;
 }
 
-void LoadRelation::report_pose(Findings& findings) const {
-  if (standing_stretches_ == 0) return;
+bool LoadRelation::report_pose(Findings& findings) const {
+  if (standing_stretches_ == 0) return false;
   const double offset = axle_offset_ / standing_stretches_;
   // A torso's centre of mass is within a few centimetres of the hips.
   const double most = 0.35 * (geometry_.upper_length + geometry_.lower_length);
-  if (std::abs(offset) <= most) return;
+  if (std::abs(offset) <= most) return false;
+  const std::string cause = all_causes().at(best_cause(true, true)).text;
   findings.add("wheels",
-               fmt::format("are {:.2f} m {} the hips while the robot stands still: are hips "
-                           "and knees exchanged, or is a sign or zero of positions wrong",
-                           std::abs(offset), offset < 0.0 ? "behind" : "in front of"));
+               fmt::format("are {:.2f} m {} the hips while the robot stands still: {}",
+                           std::abs(offset), offset < 0.0 ? "behind" : "in front of",
+                           cause.empty() ? "are hips and knees exchanged, or is a sign or zero of "
+                                           "positions wrong"
+                                         : fmt::format("probably {}", cause)));
+  return !cause.empty();
 }
 
 void LoadRelation::report_small_torques(Findings& findings) const {

@@ -30,7 +30,6 @@ class LoadRelation {
   void report(Findings& findings, bool drives) const;
 
  private:
-  static constexpr std::size_t causes = 14;
   static constexpr std::size_t zeros = 4;  ///< of both hips and knees
 
   std::string weight_text() const;
@@ -39,13 +38,14 @@ class LoadRelation {
   bool explains_weight() const;
   bool report_zero(Findings& findings) const;
   void report_small_torques(Findings& findings) const;
-  void report_pose(Findings& findings) const;
+  bool report_pose(Findings& findings) const;
+  std::size_t best_cause(bool carries, bool moved) const;
 
   LegGeometry geometry_;
   bool is_known_;
-  int stretches_ = 0;                       ///< in which the load can be observed
-  std::array<double, causes> misfit_ = {};  ///< sums, by errors; the first is the log as it is
-  std::array<double, causes> load_ = {};    ///< sums of both legs' (N)
+  int stretches_ = 0;           ///< in which the load can be observed
+  std::vector<double> misfit_;  ///< sums by causes, by errors; the first is the log as it is
+  std::vector<double> load_;    ///< sums of both legs' (N)
   /// Sums of what the torques carry beside the legs' own weight, and would have to (N), each by
   /// the square of its error.
   double carried_ = 0.0;

@@ -221,6 +221,7 @@ bool is_near(double value, double expected, double share) {
 
 Relations::Relations()
     : velocity_(models::servo_count),
+      exchanged_(models::servo_count),
       turning_(3, least_fast_turn),
       slow_turning_(3, least_slow_turn),
       wheels_(1, least_wheel_speed),
@@ -232,12 +233,17 @@ Relations::Relations()
 void Relations::add(const CheckedWindow& window) {
   Eigen::VectorXd velocity(models::servo_count);
   Eigen::VectorXd derivative(models::servo_count);
+  Eigen::VectorXd position(models::servo_count);
+  Eigen::VectorXd acceleration(models::servo_count);
   for (int i = 0; i < models::servo_count; ++i) {
     const CheckedWindow::Joint& joint = window.joint[static_cast<std::size_t>(i)];
     velocity[i] = joint.velocity;
     derivative[i] = joint.position_change / window.duration;
+    position[i] = joint.position;
+    acceleration[i] = joint.velocity_change / window.duration;
   }
   velocity_.add(velocity, derivative);
+  exchanged_.add(position, acceleration);
   turning_.add(window.angular_velocity, window.turn_rate);
   if (window.up.allFinite()) {
     up_ += window.up;
@@ -297,11 +303,11 @@ void Relations::add_still(const CheckedWindow& stretch) {
   if (!stretch.proper_acceleration.isZero(0.0)) proper_.add(stretch.proper_acceleration, gravity);
 }
 
-void Relations::report(Findings& findings) const {
+void Relations::report(Findings& findings, bool measures_acceleration) const {
   report_velocities(findings);
   report_targets(findings);
   report_turning(findings);
-  const bool has_acceleration = report_gravity(findings);
+  const bool has_acceleration = report_gravity(findings, measures_acceleration);
   report_driving(findings, has_acceleration);
 }
 
@@ -314,15 +320,23 @@ void Relations::report_velocities(Findings& findings) const {
     if (std::max(velocity, derivative) < least_speed || velocity * derivative == 0.0) continue;
     const double own = velocity_.correlation(i, i);
     const double factor = velocity / derivative;
-    if (own < -follows) {
-      findings.add(name_of(i), "velocity has the other sign than the derivative of position");
-    } else if (own > follows && std::abs(std::log(factor)) > std::log(largest_factor)) {
-      constexpr double error = 0.04;  // 2π and a gear of 6 differ by this
+    const bool is_of_other_size = std::abs(std::log(factor)) > std::log(largest_factor);
+    const double exchanged = exchanged_.measured(i) / exchanged_.predicted(i);
+    const bool fits_exchanged = exchanged_.correlation(i, i) > follows &&
+                                std::abs(std::log(exchanged)) < std::log(largest_factor);
+    if (own < follows && fits_exchanged && (own > -follows || is_of_other_size)) {
       findings.add(name_of(i),
-                   fmt::format("velocity is {:.2g} times the derivative of position: {}", factor,
-                               cause_of("rate", factor, error,
-                                        "check their units, or a gear ratio between motor and "
-                                        "joint")));
+                   "position follows the derivative of velocity: are the two exchanged");
+    } else if (own < -follows) {
+      findings.add(name_of(i), "velocity has the other sign than the derivative of position");
+    } else if (own > follows && is_of_other_size) {
+      constexpr double error = 0.04;  // 2π and a gear of 6 differ by this
+      findings.add(
+          name_of(i),
+          fmt::format("velocity is {} times the derivative of position: {}", readable(factor, 2),
+                      cause_of("rate", factor, error,
+                               "check their units, or a gear ratio between motor and "
+                               "joint")));
     } else if (own < unrelated && std::min(velocity, derivative) > least_speed) {
       int best = i;
       for (int j = 0; j < models::servo_count; ++j) {
@@ -343,8 +357,8 @@ void Relations::report_velocities(Findings& findings) const {
 void Relations::report_targets(Findings& findings) const {
   constexpr std::array<const char*, 4> causes = {
       "check signs, units and gains of the targets, and the order of joints",
-      "they probably have the other sign", "they are probably those of the other leg",
-      "they are probably in degrees"};
+      "they or the positions probably have the other sign",
+      "they or the positions are probably those of the other leg", "they are probably in degrees"};
   // Constant errors of positions do not matter here.
   const auto fits_the_other = [&](int joint) {
     const Relation& relation = targets_[static_cast<std::size_t>(joint)];
@@ -378,9 +392,9 @@ void Relations::report_targets(Findings& findings) const {
     // A delay of 5 ms at 1 rad/s shows with large gains.
     const double error = 0.005 * relation.predicted(1);
     if (ratio > 1.0 && (ratio - largest_law_ratio) * motion < error) continue;
-    findings.add(subject, fmt::format("give {:.2g} times the measured torques by the servo's law: "
+    findings.add(subject, fmt::format("give {} times the measured torques by the servo's law: "
                                       "check the unit and scale of the gains",
-                                      ratio));
+                                      readable(ratio, 2)));
   }
 }
 
@@ -397,7 +411,7 @@ void Relations::report_turning(Findings& findings) const {
   };
   // The attitude filter's error lowers the factor of a robot that turns slowly.
   const auto times = [](double size) {
-    return fmt::format("is {:.2g} times the turning of the orientation: {}", size,
+    return fmt::format("is {} times the turning of the orientation: {}", readable(size, 2),
                        cause_of("turn", size, 0.5, "check its unit and scale"));
   };
   const bool is_of_other_size = std::abs(std::log(factor)) > std::log(largest_factor);
@@ -440,7 +454,7 @@ void Relations::report_turning(Findings& findings) const {
   }
 }
 
-bool Relations::report_gravity(Findings& findings) const {
+bool Relations::report_gravity(Findings& findings, bool measures_acceleration) const {
   const auto linear = [&](const std::string& finding) {
     findings.add("linear_acceleration", finding);
     return false;
@@ -455,7 +469,7 @@ bool Relations::report_gravity(Findings& findings) const {
                              "that points down? Check axes and reference",
                              up_.z() > 0.5 * oriented_ ? "upside down" : "lie on its side"));
   }
-  if (linear_.windows() == 0) return true;
+  if (!measures_acceleration || linear_.windows() == 0) return measures_acceleration;
   const Eigen::Vector3d up = linear_.predicted_mean();
   const Eigen::Vector3d mean = linear_.measured_mean();
   const double size = mean.norm();
@@ -483,7 +497,7 @@ bool Relations::report_gravity(Findings& findings) const {
   const bool has_cause = share < 0.05 || !cause_of("acceleration", share, 0.2, "").empty();
   if (is_off && (has_cause || !is_derived)) {
     return proper(fmt::format(
-        "mean {:.3g} m/s² while the robot is still, expected 9.8: {}", of_proper,
+        "mean {} m/s² while the robot is still, expected 9.8: {}", readable(of_proper, 3),
         share < 0.05 ? "gravity was removed: map it as linear_acceleration"
                      : cause_of("acceleration", share, 0.2, "is its unit or scale wrong")));
   }
@@ -536,11 +550,12 @@ void Relations::report_driving(Findings& findings, bool has_acceleration) const 
   if (std::abs(acceleration_.covariation(0, 0)) > clearly &&
       acceleration_.predicted(0) > least_wheel_acceleration &&
       (radius < smallest_wheel || radius > largest_wheel)) {
-    findings.add("linear_acceleration",
-                 fmt::format("follows the wheels as if their radius were {:.2g} m: {}", radius,
-                             radius < smallest_wheel
-                                 ? "is it in g"
-                                 : "was it converted from g twice, or are the wheels in rev"));
+    findings.add(
+        "linear_acceleration",
+        fmt::format("follows the wheels as if their radius were {} m: {}", readable(radius, 2),
+                    radius < smallest_wheel
+                        ? "is it in g"
+                        : "was it converted from g twice, or are the wheels in rev"));
   }
   const bool moves = acceleration_.predicted(0) > least_wheel_acceleration;
   if (moves && std::abs(acceleration_.covariation(0, 0)) < unrelated &&

@@ -76,7 +76,8 @@ class Relations {
   void add(const CheckedWindow& window);
   /// Adds a stretch in which the robot is still (`StillStretches`).
   void add_still(const CheckedWindow& stretch);
-  void report(Findings& findings) const;
+  /// `measures_acceleration`: the accelerometer is not dead.
+  void report(Findings& findings, bool measures_acceleration = true) const;
   /// Whether the wheels drive the robot: they are on the ground.
   bool drives() const;
   /// Whether the orientation has the robot upright on average.
@@ -86,12 +87,13 @@ class Relations {
   void report_velocities(Findings& findings) const;
   void report_targets(Findings& findings) const;
   void report_turning(Findings& findings) const;
-  bool report_gravity(Findings& findings) const;
+  bool report_gravity(Findings& findings, bool measures_acceleration) const;
   void report_driving(Findings& findings, bool has_acceleration) const;
   void add_driving(const CheckedWindow& window);
   bool wheels_oppose() const;
 
   Relation velocity_;
+  Relation exchanged_;     ///< positions by the change of velocities
   Relation turning_;       ///< of windows
   Relation slow_turning_;  ///< of half seconds
   Relation wheels_;        ///< the right one by the left one, while the robot drives straight

@@ -47,9 +47,9 @@ void StoppedChannels::add(const models::Observation& record) {
 void StoppedChannels::report(Findings& findings) const {
   const auto add = [&](std::string_view subject, const Channel& channel, const std::string& value) {
     if (channel.stretches == 0) return;
-    findings.add(subject, fmt::format("repeats {} from {:.6g} s on{} although the robot moves: did "
+    findings.add(subject, fmt::format("repeats {} from {} s on{} although the robot moves: did "
                                       "the sensor, or its bus, drop out",
-                                      value, channel.first,
+                                      value, readable(channel.first, 6),
                                       channel.stretches == 1 ? ""
                                                              : fmt::format(" (first of {} times)",
                                                                            channel.stretches)));

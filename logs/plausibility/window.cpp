@@ -75,7 +75,9 @@ std::optional<CheckedWindow> WindowCollector::add(const models::Observation& rec
     sum_.joint[i].torque += servo.torque;
     add_law(servo, target_of(targets, i), target_of(targets, (i + 3) % 6), sum_.joint[i]);
     if (count_ > 0) {
-      sum_.joint[i].position_change += step_between(previous_.servo[i].position, servo.position);
+      const models::ServoReading& before = previous_.servo[i];
+      sum_.joint[i].position_change += step_between(before.position, servo.position);
+      sum_.joint[i].velocity_change += step_between(before.velocity, servo.velocity);
     }
   }
   sum_.angular_velocity += record.imu.angular_velocity;

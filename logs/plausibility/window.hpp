@@ -25,6 +25,7 @@ struct CheckedWindow {
     double velocity = 0.0;         ///< rad/s, as reported
     double torque = 0.0;           ///< N·m
     double position_change = 0.0;  ///< rad, over the window; half turns count the short way
+    double velocity_change = 0.0;  ///< rad/s, likewise
     double kp = 0.0;               ///< position gain of the target (N·m/rad)
     /// By the servo's law (N·m): of the target as it is, negated, the other leg's, in degrees.
     std::array<double, 4> law = {};

@@ -135,6 +135,22 @@ std::vector<Damage> damages() {
   const auto proper = [](double factor) {
     return [=](O& o, std::size_t) { o.imu.raw_linear_acceleration *= factor; };
   };
+  // Before gravity is removed.
+  const auto held_at = [](const Eigen::Vector3d& value) {
+    return [=](O& o, std::size_t) {
+      o.imu.linear_acceleration += value - o.imu.raw_linear_acceleration;
+      o.imu.raw_linear_acceleration = value;
+    };
+  };
+  const auto longer = [](double factor) {
+    return [=](O& o, std::size_t) {
+      o.imu.orientation.coeffs() *= factor;
+      o.imu.linear_acceleration.setConstant(std::nan(""));
+    };
+  };
+  const auto exchanged = [](std::size_t servo) {
+    return [=](O& o, std::size_t) { std::swap(o.servo[servo].position, o.servo[servo].velocity); };
+  };
   const auto gyroscope = [](const Eigen::Matrix3d& matrix) {
     return [=](O& o, std::size_t) { o.imu.angular_velocity = matrix * o.imu.angular_velocity; };
   };
@@ -208,7 +224,24 @@ std::vector<Damage> damages() {
       {"proper without gravity",
        [](O& o, std::size_t) { o.imu.raw_linear_acceleration = 0.9 * o.imu.linear_acceleration; },
        "gravity was removed"},
+      {"accelerometer of zeros", held_at(Eigen::Vector3d::Zero()),
+       "proper_acceleration: is 0 0 0 throughout: is the sensor dead"},
+      {"accelerometer that never changes", held_at({0.25, 0.5, -9.75}),
+       "proper_acceleration: is 0.25 0.5 -9.75 throughout: is the sensor dead"},
+      {"accelerometer without its z axis",
+       [](O& o, std::size_t) {
+         o.imu.linear_acceleration.z() -= o.imu.raw_linear_acceleration.z();
+         o.imu.raw_linear_acceleration.z() = 0.0;
+       },
+       "proper_acceleration z: it is 0 throughout"},
       // orientation
+      {"quaternion of length 2", longer(2.0), "orientation: is never a quaternion of length 1"},
+      {"quaternion of length 0", longer(0.0), "orientation: is never a quaternion of length 1"},
+      {"quaternion of length 100 at times",
+       [](O& o, std::size_t k) {
+         if (k % 10 == 0) o.imu.orientation.coeffs() *= 100.0;
+       },
+       "orientation: is missing in 10 % of the records"},
       {"x y z w as w x y z", wrong_order, "proper_acceleration: points"},
       {"inverse orientation of a pitched IMU",
        [](O& o, std::size_t) {
@@ -252,6 +285,22 @@ std::vector<Damage> damages() {
       // joints
       {"left and right knee exchanged", swapped(1, 4), "in front of the hips", false, true},
       {"left and right hip exchanged", swapped(0, 3), "behind the hips", false, true},
+      {"the left knee's position negated", scaled(position, {1}, -1.0),
+       "probably the position of left_knee has the other sign", false, true},
+      {"the right knee's position negated", scaled(position, {4}, -1.0),
+       "probably the position of right_knee has the other sign", false, true},
+      {"positions of left and right hip exchanged",
+       [](O& o, std::size_t) { std::swap(o.servo[0].position, o.servo[3].position); },
+       "probably the positions of the hips have the other sign, or are those of the other side",
+       false, true},
+      {"positions of left and right knee exchanged",
+       [](O& o, std::size_t) { std::swap(o.servo[1].position, o.servo[4].position); },
+       "probably the positions of the knees have the other sign, or are those of the other side",
+       false, true},
+      {"position and velocity of a wheel exchanged", exchanged(2),
+       "left_wheel: position follows the derivative of velocity: are the two exchanged"},
+      {"position and velocity of the right wheel exchanged", exchanged(5),
+       "right_wheel: position follows the derivative of velocity: are the two exchanged"},
       {"the left knee's zero", shifted(1, 0.3), "left_knee: the left wheel is", false, true},
       {"the right hip's zero", shifted(3, -0.3), "right_hip: the left wheel is", false, true},
       {"encoders in revolutions",
@@ -432,10 +481,10 @@ TEST(PlausibilityCheck, NamesASingleValueThatNoSensorReports) {
     std::function<void(O&)> change;
   } cases[] = {
       {"left_hip: velocity is 1e+39 rad/s", [](O& o) { o.servo[0].velocity = 1e39; }},
-      {"right_knee: torque is -2e+04 N·m", [](O& o) { o.servo[4].torque = -2e4; }},
+      {"right_knee: torque is -20000 N·m", [](O& o) { o.servo[4].torque = -2e4; }},
       {"left_knee: position is 1e+308 rad", [](O& o) { o.servo[1].position = 1e308; }},
       {"right_wheel: position is -1e+308 rad", [](O& o) { o.servo[5].position = -1e308; }},
-      {"left_wheel: velocity is 1e+05 rad/s", [](O& o) { o.servo[2].velocity = 1e5; }},
+      {"left_wheel: velocity is 100000 rad/s", [](O& o) { o.servo[2].velocity = 1e5; }},
       {"orientation: is 1e+200", [](O& o) { o.imu.orientation.x() = 1e200; }},
       {"angular_velocity: is 1e+30 rad/s", [](O& o) { o.imu.angular_velocity.y() = 1e30; }},
       {"linear_acceleration: is 1e+300 m/s²", [](O& o) { o.imu.linear_acceleration.z() = 1e300; }},
