@@ -168,6 +168,7 @@ static void describe_parts(Fields& fields, PartNames& parts) {
 
 void describe(Fields& fields, RobotDescription& robot) {
   std::string mjcf = robot.mjcf.string();
+  fields.gone("urdf", "the key `mjcf` is for a URDF, too: mjcf: FILE.urdf");
   fields.require("mjcf", mjcf).doc("MJCF or URDF that this file is about, beside this file.");
   robot.mjcf = mjcf;
   describe_parts(fields, robot.parts);

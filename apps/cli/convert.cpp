@@ -14,6 +14,7 @@
 #include "core/progress.hpp"
 #include "core/resources.hpp"
 #include "core/stop.hpp"
+#include "core/table.hpp"
 #include "experiments/logs/estimator.hpp"
 #include "experiments/logs/log_steps.hpp"
 #include "experiments/logs/robot.hpp"
@@ -104,8 +105,8 @@ void write_log(const ConvertFlags& flags, const CliSession& session) {
   });
   print_warnings(log.warnings);
   const std::size_t findings = report_findings(flags, session);
-  print("log       {}, {} records, from {:.3f} to {:.3f} s of {}\n", flags.output, log.rows,
-        log.start, log.end, flags.source);
+  print("log       {}, {} records, from {} to {} s of {}\n", flags.output, log.rows,
+        fixed(log.start, 3), fixed(log.end, 3), flags.source);
   if (!flags.labels.empty()) {
     print("labels    {}, {} intervals\n", flags.labels, log.contact.intervals.size());
   }
@@ -173,11 +174,14 @@ ModelUse use_of(const ConvertFlags& flags) {
   return use;
 }
 
+bool is_robot(const std::filesystem::path& source) {
+  const std::string extension = source.extension().string();
+  return extension == ".xml" || extension == ".urdf" || extension == ".yaml";
+}
+
 /// The model of the file, or the filter of loads of the robot that the file describes.
 Model source_model(const std::filesystem::path& source, const ConvertFlags& flags) {
-  const std::string extension = source.extension().string();
-  const bool is_robot = extension == ".xml" || extension == ".urdf" || extension == ".yaml";
-  if (!is_robot) return logs::load_model_for(source, use_of(flags));
+  if (!is_robot(source)) return logs::load_model_for(source, use_of(flags));
   const experiments::LogRobot robot = experiments::robot_of_file(source.string());
   constexpr double usual_rate = 1000.0;  // Hz; the filter serves others, too
   return model_for(load_filter_model(robot.legs.value(), usual_rate, robot.name),
@@ -229,6 +233,36 @@ void write_signals(const ConvertFlags& flags, const CliSession& session) {
   print("next      touchdown score RUN --beliefs FOLDER --name NAME\n");
 }
 
+/// Errors: `InputError` for an option that is not for this conversion.
+void refuse_others(const ConvertFlags& flags) {
+  const ModelUse& use = flags.use;
+  const experiments::BenchmarkPart& part = flags.part;
+  const bool signals = !flags.folder.empty();
+  const bool log = !signals && !flags.mapping.empty();
+  const bool mcap = !log && std::filesystem::path(flags.output).extension() == ".mcap";
+  const bool robot = !signals && !log && !mcap && is_robot(flags.source);
+  const bool model = !signals && !log && !mcap && !robot;
+  using Given = std::pair<const char*, bool>;
+  const auto only_for = [](bool is_for, const std::vector<Given>& options, const char* expected) {
+    for (const auto& [option, is_given] : options) {
+      if (is_given && !is_for) throw InputError(fmt::format("{}: expected {}", option, expected));
+    }
+  };
+  only_for(log, {{"--mapping", !flags.mapping.empty()}}, "-o FILE.mpack, for a log");
+  only_for(log, {{"--labels", !flags.labels.empty()}, {"--strict", flags.strict}},
+           "--mapping FILE.yaml, for a log in another layout");
+  only_for(signals,
+           {{"--sensors", !part.sensors.empty()},
+            {"--simulator", !part.simulators.empty()},
+            {"--dry-run", flags.dry_run}},
+           "--benchmark DIR, for a benchmark's signals");
+  only_for(model, {{"--estimator", !use.estimator.empty()}, {"--rate", use.sample_rate != 0.0}},
+           "a model to convert");
+  only_for(model || robot, {{"--set", !flags.configuration.empty()}}, "a model or a robot");
+  only_for(signals || mcap || model, {{"--robot", !part.robots.empty()}},
+           "a benchmark, a model or a log as FILE.mcap");
+}
+
 void convert(const ConvertFlags& flags, const CliSession& session) {
   if (flags.output.empty() == flags.folder.empty()) {
     throw InputError(
@@ -237,19 +271,11 @@ void convert(const ConvertFlags& flags, const CliSession& session) {
         "another layout, "
         "or -o FILE.mcap, for a log in Upkie's layout");
   }
-  if (flags.mapping.empty() && !flags.labels.empty()) {
-    throw InputError("--labels: expected --mapping FILE.yaml, which names the contact columns");
-  }
+  refuse_others(flags);
   if (flags.mapping.empty() && std::filesystem::path(flags.output).extension() == ".mpack") {
     throw InputError(
         fmt::format("-o: {}: expected --mapping FILE.yaml, which describes the columns of {}",
                     flags.output, flags.source));
-  }
-  if (flags.dry_run && flags.folder.empty()) {
-    throw InputError("--dry-run: expected --benchmark DIR, whose files it counts");
-  }
-  if (!flags.mapping.empty() && !flags.folder.empty()) {
-    throw InputError("--mapping: expected -o FILE.mpack, for a log in another layout");
   }
   const bool is_own_log = std::filesystem::path(flags.source).extension() == ".mpack";
   if (is_own_log && !flags.output.empty() &&

@@ -64,8 +64,11 @@ std::vector<std::string> figures_in(const fs::path& directory) {
 
 /// Draws a figure again, for print.
 void draw_figure(const ReportFlags& flags, const CliSession& session) {
-  const double width = millimetres(flags.width);
   const render::ReportSubject subject = render::read_subject(flags.directory);
+  if (flags.width.empty() || flags.no_video || flags.no_replay) {
+    throw InputError("--figure: expected --width, as in --width 88mm, and no option of the page");
+  }
+  const double width = millimetres(flags.width);
   const std::vector<std::string> names = figures_in(flags.directory);
   if (std::ranges::find(names, flags.figure) == names.end()) {
     const std::string near = did_you_mean(flags.figure, names);
@@ -93,6 +96,9 @@ void write_report(const ReportFlags& flags, const CliSession& session) {
     lock.emplace(flags.directory, experiments::Access::alone, session.command);
   }
   const render::ReportSubject subject = render::read_subject(flags.directory);
+  if (!flags.width.empty() || flags.has_caption) {
+    throw InputError("--width and --caption: expected --figure NAME");
+  }
   for (const std::string& name : subject.edited_tables) {
     print_warnings(
         {fmt::format("{}/tables/{}: was edited since the run wrote it: the report shows "
@@ -112,14 +118,7 @@ void write_report(const ReportFlags& flags, const CliSession& session) {
 }
 
 void report(const ReportFlags& flags, const CliSession& session) {
-  const bool has_figure = !flags.figure.empty();
-  if (!has_figure && (!flags.width.empty() || flags.has_caption)) {
-    throw InputError("--width and --caption: expected --figure NAME");
-  }
-  if (has_figure && (flags.width.empty() || flags.no_video || flags.no_replay)) {
-    throw InputError("--figure: expected --width, as in --width 88mm, and no option of the page");
-  }
-  has_figure ? draw_figure(flags, session) : write_report(flags, session);
+  flags.figure.empty() ? write_report(flags, session) : draw_figure(flags, session);
 }
 
 }  // namespace

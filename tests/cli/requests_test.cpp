@@ -100,6 +100,7 @@ TEST_F(WrongRequest, NamesWhatAFileIsAndWhatAKeyTakes) {
   const std::string upkie = read_file(fs::path(TOUCHDOWN_SOURCE_DIR) / "models/upkie.xml");
   folder_.write("mine.xml", std::regex_replace(upkie, std::regex("\"imu\""), "\"chip\""));
   folder_.write("robot.yaml", "mjcf: mine.xml\n");
+  folder_.write("old.yaml", "urdf: mine.urdf\n");
   folder_.write("map.yaml", "sources: {joints: /joint_states, imu: /imu}\njoints: {}\n");
   folder_.write("log.csv", "a,b\n1,2\n");
   folder_.write("notes.md", "# Notes\n");
@@ -128,6 +129,9 @@ TEST_F(WrongRequest, NamesWhatAFileIsAndWhatAKeyTakes) {
       {"convert run.mpack -o x.bag", {"x.bag: expected FILE.mcap"}},
       {"convert run.mpack -o x.mcap --dry-run", {"--dry-run: expected --benchmark DIR"}},
       {"convert run.mpack -o x.npz", {"x.npz: expected FILE.mcap"}},
+      {"report none --figure x", {"none: no run directory of an experiment"}},
+      {"report none --width 88mm", {"none: no run directory of an experiment"}},
+      {simulate + "robot=old.yaml", {"old.yaml:1:7: urdf: ", "mjcf: FILE.urdf"}},
       {"run tiny.yaml --dry-run --set hyperparameters.robust.threshold=2",
        {"hyperparameters.robust: threshold: expected 0 to 1, found 2"}},
       {"render run.mpack --poster -o x.png --from 100", {"a picture from 100 s on: expected a "}},
@@ -147,6 +151,32 @@ TEST_F(WrongRequest, NamesWhatAFileIsAndWhatAKeyTakes) {
       {"simulate null.yaml -o x.mpack", {"null.yaml:1:7: name: expected a value, found none"}},
       {"run none.yaml", {"none.yaml:3:1: name: expected a value, found none"}},
   });
+}
+
+TEST_F(WrongRequest, NamesAnOptionThatIsForAnotherConversion) {
+  folder_.write("map.yaml", "joints: {}\n");
+  folder_.write("log.csv", "a,b\n1,2\n");
+  const std::vector<std::string> options = {
+      "--labels x.csv", "--strict",      "--sensors ideal", "--simulator bullet",     "--dry-run",
+      "--rate 500",     "--robot upkie", "--set lead=1",    "--estimator load_filter"};
+  const std::vector<std::pair<std::string, std::set<std::string>>> conversions = {
+      {"log.csv --mapping map.yaml -o x.mpack", {"--labels", "--strict"}},
+      {"log.mpack -o x.mcap", {"--robot"}},
+      {"model.npz -o x.hpp", {"--rate", "--robot", "--set", "--estimator"}},
+      {"mine.xml -o x.npz", {"--set"}},
+      {"--benchmark b none", {"--sensors", "--simulator", "--dry-run", "--robot"}}};
+  for (const auto& [conversion, fitting] : conversions) {
+    for (const std::string& option : options) {
+      const std::string name = option.substr(0, option.find(' '));
+      const std::string command = "convert " + conversion + " " + option;
+      const auto refused = HasSubstr("touchdown: " + name + ": expected ");
+      if (fitting.contains(name)) {
+        EXPECT_THAT(folder_.refusal_of(command), ::testing::Not(refused)) << command;
+      } else {
+        EXPECT_THAT(folder_.refusal_of(command), refused) << command;
+      }
+    }
+  }
 }
 
 using Help = InFolder;
