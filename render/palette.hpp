@@ -36,7 +36,13 @@ inline constexpr std::array<unsigned, 10> viridis = {0x440154, 0x482878, 0x3e498
                                                      0x26828e, 0x1f9e89, 0x35b779, 0x6ece58,
                                                      0xb5de2b, 0xfde725};
 
-/// Likewise, with less colour of its own: cividis. For maps with coloured lines on them.
+/// The shares at both ends of that scale (%); shares beyond have the end's colour. Good estimators
+/// are so close to 100 % that their colours would look alike, while their distances from it differ
+/// by a factor of ten. The colours are therefore logarithmic in this distance, and mean the same in
+/// every engine, experiment and figure.
+inline constexpr double lowest_shade = 70.0, highest_shade = 99.9;
+
+/// Like viridis, with less colour of its own: cividis. For maps with coloured lines on them.
 inline constexpr std::array<unsigned, 10> cividis = {0x00224e, 0x123570, 0x3b496c, 0x575d6d,
                                                      0x707173, 0x8a8678, 0xa59c74, 0xc3b369,
                                                      0xe1cc55, 0xfee838};

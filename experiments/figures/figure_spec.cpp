@@ -37,7 +37,7 @@ std::string series_text(const FigureSpec& spec, const Table& table, std::size_t 
                                ? "at " + with_unit(row.text(spec.x.column), spec.x)
                                : "for " + spec.rows.groups[*place].title;
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ",
-                        with_unit(fmt::format("{:.3g}", value), measure), at);
+                        with_unit(fmt::format("{:.4g}", value), measure), at);
   }
   return text;
 }

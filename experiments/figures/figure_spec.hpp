@@ -56,7 +56,10 @@ struct FigureAxis {
   bool has_diagonal = false;                 ///< of a measure: a line where it equals x
 };
 
-enum class MarkShape { curve, points, ring, cross };
+/// A `step` holds its value until the next one. An `image` is a cell at x and `FigureSpec::y` with
+/// the first measure as its colour: a share in percent, the colours logarithmic in its distance
+/// from 100. A `number` writes the share, and its interval, where up to 64 cells have room for it.
+enum class MarkShape { curve, step, points, ring, cross, image, number };
 
 /// The look of the rows that pass all of `where`. Marks may overlap: a row has each
 /// mark with conditions that it passes.
@@ -76,6 +79,7 @@ struct FigureSpec {
   FigureGroups series = {};
   FigureGroups rows = {};
   FigureAxis x = {};
+  FigureAxis y = {};  ///< of images, whose axes are both ordinal
   std::vector<FigureAxis> measures = {};
   std::vector<FigureMark> marks = {{}};
   /// The experiment's estimators: a series gets its colour by the place of its first value among

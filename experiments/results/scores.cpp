@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <deque>
 #include <functional>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -92,6 +93,54 @@ Table reliability_of(const std::vector<ScoreRow>& rows, const scoring::Bootstrap
   return answer(by_bin, query, bootstrap).table;
 }
 
+using Names = std::vector<std::string>;
+
+Names with_setting(const Names& columns) {
+  Names all = {"simulator", "estimator", "torque_noise_nm", "accelerometer_noise_mps2"};
+  all.insert(all.end(), columns.begin(), columns.end());
+  return all;
+}
+
+/// Bins before and after which nothing changes are left out, but for the first and the last one of
+/// all rows: so are curves as long as each other, also of those who find nothing.
+Table latencies_of(const Answer<Score>& scores) {
+  using scoring::LatencyHistogram;
+  Table table = select(scores.table, with_setting({"view"}));
+  const std::vector<std::vector<Cell>> settings = std::exchange(table.rows, {});
+  table.columns.push_back({"latency_ms", ColumnRole::key, ColumnType::exact});
+  for (const char* found : {"takeoffs_found", "landings_found"}) {
+    table.columns.push_back({found, ColumnRole::metric, ColumnType::measured});
+  }
+  LatencyHistogram all;
+  for (const Score& total : scores.totals) {
+    all += total.takeoff.latency;
+    all += total.landing.latency;
+  }
+  std::size_t first = 6, last = 22;  // from -30 to 50 ms, or more
+  for (std::size_t b = 0; b < LatencyHistogram::bins; ++b) {
+    if (all.events[b] == 0) continue;
+    first = std::min(first, b > 0 ? b - 1 : 0);
+    last = std::max(last, b);
+  }
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    const auto& [takeoff, landing] = std::tie(scores.totals[i].takeoff, scores.totals[i].landing);
+    LatencyHistogram both = takeoff.latency;
+    both += landing.latency;
+    Share takeoffs{0, takeoff.events}, landings{0, landing.events};
+    for (std::size_t b = 0; b < LatencyHistogram::bins; ++b) {
+      takeoffs.part += takeoff.latency.events[b];
+      landings.part += landing.latency.events[b];
+      const bool is_shown =
+          b == first || b == last || both.events[b] > 0 || (b < last && both.events[b + 1] > 0);
+      if (!is_shown) continue;
+      std::vector<Cell>& row = table.rows.emplace_back(settings[i]);
+      row.emplace_back(LatencyHistogram::centre_ms(b) + 0.5e-3 * LatencyHistogram::width_us);
+      for (const Share& found : {takeoffs, landings}) row.emplace_back(rounded(found.value()));
+    }
+  }
+  return table;
+}
+
 Table differences_of(const std::vector<ScoreRow>& rows, const scoring::BootstrapConfig& bootstrap) {
   struct Line {
     const ScoreRow* of;
@@ -141,20 +190,12 @@ Table differences_of(const std::vector<ScoreRow>& rows, const scoring::Bootstrap
       .table(by_metric);
 }
 
-using Names = std::vector<std::string>;
-
 /// A file of some columns of one of the tables.
 struct Print {
   const char* file;
   Table ScoreTables::*table;
   Names columns;
 };
-
-Names with_setting(const Names& columns) {
-  Names all = {"simulator", "estimator", "torque_noise_nm", "accelerometer_noise_mps2"};
-  all.insert(all.end(), columns.begin(), columns.end());
-  return all;
-}
 
 std::vector<Print> prints() {
   return {
@@ -183,6 +224,7 @@ std::vector<Print> prints() {
       {"calibration.csv", &ScoreTables::scores, with_setting({"view", "brier", "steps"})},
       {"reliability.csv", &ScoreTables::reliability,
        with_setting({"view", "bin", "steps", "mean_probability", "contact_frequency"})},
+      {"latencies.csv", &ScoreTables::latencies, {}},
       {"differences.csv", &ScoreTables::differences, {}}};
 }
 
@@ -195,12 +237,12 @@ const PointMetric& mapped_metric(const Experiment& experiment) {
 
 ScoreTables score_tables(const ScoreRows& all, const scoring::BootstrapConfig& bootstrap) {
   const std::vector<ScoreRow> rows = rows_by_view(all.scored);
-  Answer<Score> scores = scores_of(rows, bootstrap);
+  const Answer<Score> scores = scores_of(rows, bootstrap);
   return {.cells = cells_of(all, bootstrap),
-          .scores = std::move(scores.table),
+          .scores = scores.table,
           .reliability = reliability_of(rows, bootstrap),
-          .differences = differences_of(rows, bootstrap),
-          .totals = std::move(scores.totals)};
+          .latencies = latencies_of(scores),
+          .differences = differences_of(rows, bootstrap)};
 }
 
 void write_score_tables(const ScoreTables& tables, const RunDirectory& directory) {

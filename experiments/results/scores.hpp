@@ -38,10 +38,10 @@ struct ScoreTables {
   Table cells = {};  ///< by condition and noise cell: `point_metrics`, and always contact's success
   Table scores = {};  ///< by highlighted cell, condition and view: `scoring::metrics`, and counts
   Table reliability = {};  ///< likewise, a row per bin of the calibration
+  Table latencies = {};    ///< likewise, the shares of true events that are found up to a latency
   /// By highlighted cell, the differences of each engine's first estimator from the others, a row
   /// per metric: both wheels pooled, the same runs or drops resampled.
   Table differences = {};
-  std::vector<scoring::Score> totals = {};  ///< by row of `scores`; no file holds them
 };
 
 /// All but the runs. The experiment's own fits count, each tested on its engine.
@@ -49,8 +49,8 @@ ScoreTables score_tables(const ScoreRows& rows, const scoring::BootstrapConfig& 
 
 /// Writes `runs.csv`; `success.csv` and `classification.csv` (every noise cell); of the highlighted
 /// ones `ranking.csv`, `views.csv` (per wheel, pooled, and for the robot), `transitions.csv`,
-/// `latency.csv` (over detected events), `calibration.csv`, `reliability.csv` and
-/// `differences.csv`.
+/// `latency.csv` (over detected events), `calibration.csv`, `reliability.csv`, `latencies.csv`
+/// and `differences.csv`.
 void write_score_tables(const ScoreTables& tables, const RunDirectory& directory);
 
 /// Reads them. Errors: `InputError` when one is missing, as in a run that is not finished.

@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include "core/interval.hpp"
-#include "core/rows.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/estimators/baselines.hpp"
 #include "experiments/results/captions.hpp"
 #include "render/figures/chosen_run.hpp"
 #include "render/figures/figures.hpp"
+#include "render/gnuplot/facets.hpp"
 #include "render/palette.hpp"
 #include "simulators/registry.hpp"
 
@@ -28,79 +28,28 @@ std::string capitalised(std::string text) {
   return text;
 }
 
-HeatmapPanel panel_of(const experiments::ExperimentResult& result, const std::string& simulator,
-                      const std::string& estimator, const NoiseMaps& maps) {
+/// The caption of a map with these cells.
+std::string caption_of(const experiments::ExperimentResult& result, const std::string& simulator,
+                       const Table& cells) {
   const experiments::PointMetric& metric = experiments::mapped_metric(result.experiment);
-  const std::vector<TableRow> cells = mapped_cells(result.tables, simulator, estimator);
-  HeatmapPanel panel;
-  panel.title = experiments::estimator_entry(result.experiment, estimator).title;
-  for (const double y : maps.y.levels) {
-    for (auto* rows : {&panel.value, &panel.low, &panel.high}) rows->emplace_back();
-    panel.marked.emplace_back();
-    for (const double x : maps.x.levels) {
-      const TableRow* const cell = maps.cell(cells, x, y);
-      const Interval value =
-          cell == nullptr ? Interval{NAN, NAN, NAN} : cell->interval(metric.name);
-      panel.value.back().push_back(error_percent(value.estimate));
-      panel.low.back().push_back(error_percent(value.high));
-      panel.high.back().push_back(error_percent(value.low));
-      panel.marked.back().push_back(cell != nullptr && is_success(metric) &&
-                                    experiments::loses(*cell));
-    }
+  double widest = 0.0;  // not all maps show their intervals
+  for (const TableRow& cell : cells.all()) {
+    const Interval interval = cell.interval(metric.name);
+    widest = std::fmax(widest, interval.high - interval.low);
   }
-  return panel;
-}
-
-/// The width of the widest interval of all panels: not all maps show them.
-double widest_interval(const Heatmap& heatmap) {
-  double widest = 0.0;
-  for (const HeatmapPanel& panel : heatmap.panels) {
-    for (std::size_t row = 0; row < panel.value.size(); ++row) {
-      for (std::size_t column = 0; column < panel.value[row].size(); ++column) {
-        widest = std::fmax(widest, panel.high[row][column] - panel.low[row][column]);
-      }
-    }
-  }
-  return widest;
-}
-
-double always_contact(const experiments::ExperimentResult& result, const std::string& simulator) {
-  for (const TableRow& cell : result.tables.cells.all()) {
-    if (cell.text("simulator") == simulator) return cell.number("always_contact_success");
-  }
-  return NAN;
-}
-
-Heatmap heatmap_of(const experiments::ExperimentResult& result, const std::string& simulator,
-                   const NoiseMaps& maps) {
-  const experiments::Experiment& experiment = result.experiment;
-  Heatmap heatmap{.title = fmt::format("{}: {}, {}", maps.title, experiment.name,
-                                       simulators::simulator_title(simulator)),
-                  .x_label = fmt::format("{} ({})", maps.x.title, maps.x.unit),
-                  .y_label = fmt::format("{} ({})", maps.y.title, maps.y.unit),
-                  .x = maps.x.levels,
-                  .y = maps.y.levels,
-                  .panels = {},
-                  .caption = {},
-                  .value_label = experiments::mapped_metric(experiment).title};
-  for (const std::string& estimator : mapped_estimators(experiment)) {
-    heatmap.panels.push_back(panel_of(result, simulator, estimator, maps));
-  }
-  const experiments::PointMetric& metric = experiments::mapped_metric(experiment);
   const std::string always =
-      is_success(metric)
-          ? fmt::format("Always contact has {} %; crossed cells do not beat it. ",
-                        success_text(error_percent(always_contact(result, simulator))))
+      is_success(metric) && !cells.rows.empty()
+          ? fmt::format("Always contact has {:.2f} %; crossed cells do not beat it. ",
+                        100.0 * cells.all().front().number("always_contact_success"))
           : "";
-  heatmap.caption = fmt::format(
+  return fmt::format(
       "{}{}; {}. {}The colour scale ends at {} and {} % and is the same in every map. The widest "
       "{:.0f} % interval over {}s spans {:.1f} percentage points.",
       capitalised(metric.title),
       is_success(metric) ? ": the share of steps with a correct decision" : "",
-      experiments::scored_text(result, simulator), always, success_of(highest_error),
-      success_of(lowest_error), 100.0 * experiment.intervals.bootstrap.level,
-      experiments::sample_text(experiment), widest_interval(heatmap));
-  return heatmap;
+      experiments::scored_text(result, simulator), always, lowest_shade, highest_shade,
+      100.0 * result.experiment.intervals.bootstrap.level,
+      experiments::sample_text(result.experiment), 100.0 * widest);
 }
 
 }  // namespace
@@ -131,20 +80,66 @@ std::vector<NoiseMaps> noise_maps(const experiments::Experiment& experiment) {
   return maps;
 }
 
-std::vector<TableRow> mapped_cells(const experiments::ScoreTables& tables,
-                                   const std::string& simulator, const std::string& estimator) {
-  return where(tables.cells.all(), [&](const TableRow& cell) {
-    return cell.text("simulator") == simulator && cell.text("estimator") == estimator;
-  });
+Table mapped_cells(const Table& cells, const NoiseMaps& maps, const std::string& simulator) {
+  const auto is_on = [](const NoiseAxis& axis, const TableRow& cell) {
+    return std::ranges::find(axis.levels, cell.number(axis.column)) != axis.levels.end();
+  };
+  Table table{cells.columns, {}};
+  table.columns.push_back({"loses"});
+  for (std::size_t i = 0; i < cells.rows.size(); ++i) {
+    const TableRow cell(cells, i);
+    const bool is_mapped =
+        cell.text("simulator") == simulator &&
+        cell.text("estimator") != experiments::always_contact_name && is_on(maps.x, cell) &&
+        is_on(maps.y, cell) &&
+        (!maps.accelerometer || cell.number("accelerometer_noise_mps2") == *maps.accelerometer);
+    if (!is_mapped) continue;
+    table.rows.push_back(cells.rows[i]);
+    table.rows.back().emplace_back(experiments::loses(cell) ? "yes" : "no");
+  }
+  return table;
 }
 
-const TableRow* NoiseMaps::cell(const std::vector<TableRow>& cells, double at_x,
-                                double at_y) const {
-  const auto found = std::ranges::find_if(cells, [&](const TableRow& one) {
-    return one.number(x.column) == at_x && one.number(y.column) == at_y &&
-           (!accelerometer || one.number("accelerometer_noise_mps2") == *accelerometer);
-  });
-  return found == cells.end() ? nullptr : &*found;
+experiments::FigureSpec map_figure(const Table& cells, const NoiseMaps& maps,
+                                   const experiments::Experiment& experiment,
+                                   const std::string& simulator) {
+  const experiments::PointMetric& metric = experiments::mapped_metric(experiment);
+  const auto axis = [](const NoiseAxis& noise) {
+    return experiments::FigureAxis{.column = noise.column,
+                                   .title = noise.title,
+                                   .unit = noise.unit,
+                                   .scale = experiments::AxisScale::ordinal};
+  };
+  experiments::FigureSpec spec;
+  spec.name = fmt::format("{}_{}", maps.name, simulator);
+  spec.panels.columns = {"estimator"};
+  for (const std::string& name : mapped_estimators(experiment)) {
+    spec.panels.groups.push_back({{name}, experiments::estimator_title_in(experiment, name)});
+  }
+  spec.x = axis(maps.x);
+  spec.y = axis(maps.y);
+  spec.measures = {experiments::axis_with_interval(metric.name, metric.title)};
+  spec.measures.front().unit = "%";
+  spec.measures.front().factor = 100.0;
+  spec.marks = {{experiments::MarkShape::image}};
+  if (is_success(metric)) {
+    spec.marks.push_back({experiments::MarkShape::cross, {{"loses", "yes"}}});
+  }
+  spec.marks.push_back({experiments::MarkShape::number});
+  spec.title = fmt::format("{}: {}, {}", maps.title, experiment.name,
+                           simulators::simulator_title(simulator));
+  const auto at = [&](double x, double y) {
+    experiments::FigureSpec corner = spec;
+    corner.where.push_back({maps.x.column, exact(x)});
+    corner.where.push_back({maps.y.column, exact(y)});
+    return experiments::values_text(corner, cells);
+  };
+  spec.alt = fmt::format(
+      "Maps of the {} by {} (across) and {} (up). In the lower left cells:{} In the "
+      "upper right ones:{}",
+      metric.title, maps.x.title, maps.y.title, at(maps.x.levels.front(), maps.y.levels.front()),
+      at(maps.x.levels.back(), maps.y.levels.back()));
+  return spec;
 }
 
 void draw_heatmaps(const experiments::ExperimentResult& result, const std::atomic<bool>* stop) {
@@ -152,31 +147,12 @@ void draw_heatmaps(const experiments::ExperimentResult& result, const std::atomi
     if (experiments::test_runs(result, simulator).scored == 0) continue;
     for (const NoiseMaps& maps : noise_maps(result.experiment)) {
       stop_if_asked(stop);
-      draw_heatmap(heatmap_of(result, simulator, maps),
-                   figure_file(result, fmt::format("{}_{}", maps.name, simulator)));
+      const Table cells = mapped_cells(result.tables.cells, maps, simulator);
+      experiments::FigureSpec spec = map_figure(cells, maps, result.experiment, simulator);
+      spec.caption = caption_of(result, simulator, cells);
+      draw_facets(spec, cells, figure_file(result, spec.name));
     }
   }
-}
-
-double error_percent(double success) { return std::round(1e8 * (1.0 - success)) / 1e6; }
-
-std::string success_text(double error) {
-  if (!std::isfinite(error)) return "–";
-  return fmt::format("{:.2f}", success_of(error));
-}
-
-bool is_light(double error) {
-  const double clamped = std::clamp(error, lowest_error, highest_error);
-  const double share = std::log(highest_error / clamped) / std::log(highest_error / lowest_error);
-  const double at = share * (viridis.size() - 1);
-  const auto below = std::min(static_cast<std::size_t>(at), viridis.size() - 2);
-  const auto part = [&](unsigned shift) {
-    const double from = viridis[below] >> shift & 255U, to = viridis[below + 1] >> shift & 255U;
-    const double value = from + (at - static_cast<double>(below)) * (to - from);
-    return std::pow((value / 255.0 + 0.055) / 1.055, 2.4);
-  };
-  // At this luminance, white and black text have the same contrast.
-  return 0.2126 * part(16) + 0.7152 * part(8) + 0.0722 * part(0) > 0.179;
 }
 
 }  // namespace touchdown::render

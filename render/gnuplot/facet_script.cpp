@@ -1,6 +1,7 @@
 #include "render/gnuplot/facet_script.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <string_view>
@@ -37,16 +38,29 @@ std::string value_text(const FigureAxis& axis, const std::string& column) {
 /// The plotting style of a measure's marks, with bars for its intervals.
 std::string shape_text(MarkShape shape, bool has_rows, bool has_interval) {
   if (is_highlight(shape)) return "points";
+  if (shape == MarkShape::step) return "steps";
   if (has_rows) return has_interval ? "xerrorbars" : "points";
   if (shape == MarkShape::points) return has_interval ? "yerrorbars" : "points";
   return has_interval ? "yerrorlines" : "linespoints";
 }
 
-constexpr std::size_t most_columns = 4;
+/// The expression within these functions, of which each is NaN in the rows of others.
+std::string selected(std::string expression, const std::vector<std::string>& selections) {
+  for (const std::string& name : selections) expression = fmt::format("{}({})", name, expression);
+  return expression;
+}
+
+/// The text of a percentage in a cell.
+std::string percent_text(const FigureAxis& measure, const std::string& column) {
+  return fmt::format("(strcol({}) eq 'nan' ? '–' : sprintf('%.2f', {}))", gnuplot_text(column),
+                     value_text(measure, column));
+}
+
+constexpr std::size_t most_columns = 4, most_images = 3;
 
 constexpr double title_height = 26.0, axis_height = 58.0, tics_height = 28.0, line_gap = 14.0;
 
-constexpr double axis_width = 68.0, column_gap = 30.0, key_line = 17.0;
+constexpr double axis_width = 68.0, column_gap = 30.0, key_gap = 16.0, key_line = 17.0;
 
 constexpr double right_margin = 24.0;
 
@@ -58,14 +72,21 @@ struct Grid {
   bool is_folded = false;
 };
 
-double margin_of(const FacetShape& shape) { return shape.rows > 0 ? shape.row_names : axis_width; }
+bool is_image(const FacetShape& shape) { return shape.cells.columns > 0; }
+
+double margin_of(const FacetShape& shape) {
+  return shape.row_names > 0.0 ? shape.row_names : axis_width;
+}
 
 Grid grid_of(const FacetShape& shape) {
-  const std::size_t most = columns_in(shape.room, margin_of(shape) + right_margin,
-                                      {shape.panels * shape.measures, 330.0, column_gap})
-                               .count;
+  const double margins = margin_of(shape) + (is_image(shape) ? key_gap + shape.key : right_margin);
+  const double width = is_image(shape) ? shape.cells.panel_width() : 330.0;
+  const std::size_t most =
+      columns_in(shape.room, margins, {shape.panels * shape.measures, width, column_gap},
+                 is_image(shape) ? width : 190.0)
+          .count;
   if (shape.measures == 1) {
-    const std::size_t fitting = std::min(most, most_columns);
+    const std::size_t fitting = std::min(most, is_image(shape) ? most_images : most_columns);
     const std::size_t lines = (shape.panels + fitting - 1) / fitting;
     return {(shape.panels + lines - 1) / lines, lines};
   }
@@ -78,6 +99,7 @@ Grid grid_of(const FacetShape& shape) {
 }
 
 double panel_width(const FacetShape& shape, const Grid& grid) {
+  if (is_image(shape)) return shape.cells.panel_width();
   const auto columns = static_cast<double>(grid.columns);
   return columns_in(shape.room, margin_of(shape) + right_margin,
                     {grid.columns, std::clamp(960.0 / columns, 225.0, 330.0), column_gap}, 0.0)
@@ -85,6 +107,7 @@ double panel_width(const FacetShape& shape, const Grid& grid) {
 }
 
 double panel_height(const FacetShape& shape, const Grid& grid, double panel_width) {
+  if (is_image(shape)) return shape.cells.panel_height();
   if (shape.rows > 0) {
     const double row = std::max(27.0, 9.0 + 9.0 * static_cast<double>(shape.series));
     return row * static_cast<double>(shape.rows);
@@ -108,10 +131,11 @@ std::vector<FacetRow> facet_rows(const experiments::FigureSpec& spec, const Tabl
     const bool is_drawn = experiments::passes(cells, spec.where) && panel && series && row &&
                           mark != spec.marks.end();
     if (!is_drawn) continue;
+    const bool has_y = spec.y.column.empty() || !std::isnan(cells.number(spec.y.column));
     FacetRow drawn{cells, *panel, *series, *row,
                    static_cast<std::size_t>(mark - spec.marks.begin())};
     if (spec.rows.columns.empty()) drawn.x = experiments::drawn_value(order, cells);
-    if (!std::isnan(drawn.x)) rows.push_back(drawn);
+    if (has_y && !std::isnan(drawn.x)) rows.push_back(drawn);
   }
   std::stable_sort(rows.begin(), rows.end(), [](const FacetRow& a, const FacetRow& b) {
     return std::tie(a.panel, a.series, a.mark, a.row, a.x) <
@@ -187,26 +211,105 @@ std::string series_style(const FigureSpec& spec, std::size_t series) {
 }
 
 const char* key_shape(const FigureSpec& spec) {
-  const bool has_curve = spec.rows.columns.empty() &&
-                         std::any_of(spec.marks.begin(), spec.marks.end(), [](const auto& mark) {
-                           return mark.shape == MarkShape::curve;
-                         });
-  return has_curve ? "linespoints" : "points";
+  for (const experiments::FigureMark& mark : spec.marks) {
+    if (!spec.rows.columns.empty()) break;
+    if (mark.shape == MarkShape::curve) return "linespoints";
+    if (mark.shape == MarkShape::step) return "lines";
+  }
+  return "points";
 }
 
 bool is_highlight(MarkShape shape) { return shape == MarkShape::ring || shape == MarkShape::cross; }
 
+ImageCells image_cells(std::size_t columns, std::size_t rows, bool has_intervals, double room) {
+  using Content = ImageCells::Content;
+  constexpr std::size_t most_numbered = 64;
+  // A panel of few cells is as large as its title and labels need.
+  constexpr double narrowest = 330.0, lowest = 250.0;
+  constexpr std::array<std::array<double, 2>, 3> least = {
+      {{26.0, 22.0}, {60.0, 44.0}, {104.0, 54.0}}};
+  ImageCells cells{.columns = columns, .rows = rows};
+  for (const Content content : {Content::interval, Content::number, Content::colour}) {
+    const auto& [width, height] = least[static_cast<std::size_t>(content)];
+    cells.content = content;
+    cells.width = std::max(width, narrowest / static_cast<double>(columns));
+    cells.height = std::max(height, lowest / static_cast<double>(rows));
+    const double needed = axis_width + static_cast<double>(columns) * width + key_gap + scale_width;
+    const bool is_written = columns * rows <= most_numbered && needed <= room;
+    if (is_written && (has_intervals || content == Content::number)) break;
+  }
+  return cells;
+}
+
+std::string image_style() {
+  std::string stops, tics;
+  for (std::size_t i = 0; i < viridis.size(); ++i) {
+    stops += fmt::format("{}{} '#{:06x}'", i == 0 ? "" : ", ", i, viridis[i]);
+  }
+  for (const int tic : {90, 95, 98, 99}) tics += fmt::format(", '{0}' shade({0})", tic);
+  return fmt::format(
+      "unset grid\nset border 0\nset tics scale 0\nset palette defined ({2})\n"
+      "shade(v) = -log10(100 - (v < {0} ? {0} : v > {1} ? {1} : v))\n"
+      "set cbrange [shade({0}):shade({1})]\nset cbtics ('≤ {0}' shade({0}), '≥ {1}' "
+      "shade({1}){3})\n",
+      lowest_shade, highest_shade, stops, tics);
+}
+
+std::string image_plot(MarkShape shape, ImageCells::Content content, const std::string& file,
+                       const std::vector<std::string>& selections, const FigureAxis& measure) {
+  using Content = ImageCells::Content;
+  const std::string x = selected("xplace(0)", selections);
+  const std::string value = value_text(measure, measure.column);
+  if (shape == MarkShape::image) {
+    return fmt::format(
+        "{} using ({}):(yplace(0)):(0.5):(0.5):(shade({})) with boxxyerror fillcolor palette "
+        "notitle",
+        file, x, value);
+  }
+  if (shape == MarkShape::number && content == Content::colour) return {};
+  if (shape == MarkShape::number) {
+    std::string text = percent_text(measure, measure.column);
+    if (content == Content::interval) {
+      text +=
+          fmt::format(".(strcol({}) eq 'nan' ? '' : \"\\n\".{}.'–'.{})", gnuplot_text(measure.low),
+                      percent_text(measure, measure.low), percent_text(measure, measure.high));
+    }
+    // Around this value, white and black letters have the same contrast with the colour.
+    constexpr double dark_letters_from = 97.523;
+    return fmt::format(
+        "{} using ({}):(yplace(0)):({}):(strcol({}) ne 'nan' && {} < {} ? 0xffffff : 0x101418) "
+        "with labels font ',8.5' textcolor rgb variable notitle",
+        file, x, text, gnuplot_text(measure.column), value, dark_letters_from);
+  }
+  // With a number a cross is the outer thirds of both diagonals, which spare the number. With the
+  // colour alone it is in the middle, as ends would meet at the corners.
+  const bool has_number = content != Content::colour;
+  const double from = has_number ? 0.5 : 0.275, to = has_number ? 0.32 : 0.0;
+  std::string text;
+  for (const char* style : {"lw 3.4 lc rgb '#101418'", "lw 1.4 lc rgb '#ffffff'"}) {
+    text += fmt::format(
+        "{}for [i=-1:1:2] for [j=-1:1:2] {} using ({}+i*{}):(yplace(0)+j*{}):(i*{}):(j*{}) with "
+        "vectors nohead {} dt 1 notitle",
+        text.empty() ? "" : ", ", file, x, from, from, to - from, to - from, style);
+  }
+  return text;
+}
+
 std::string plot_command(const FigureSpec& spec, const FigureAxis& measure, MarkShape shape,
                          const std::string& file, const FacetPlot& plot) {
   const bool has_rows = !spec.rows.columns.empty();
-  const bool has_interval = !measure.low.empty() && !is_highlight(shape);
-  const bool is_placed = has_rows || spec.x.scale == experiments::AxisScale::ordinal;
-  const std::string position = fmt::format(
-      "{}{:+.6g}", is_placed ? "place(0)" : value_text(spec.x, spec.x.column), plot.aside);
+  const bool is_ordinal = spec.x.scale == experiments::AxisScale::ordinal;
+  const bool has_interval =
+      !measure.low.empty() && !is_highlight(shape) && shape != MarkShape::step;
+  const std::string position = fmt::format("{}{:+.6g}",
+                                           has_rows     ? "place(0)"
+                                           : is_ordinal ? "xplace(0)"
+                                                        : value_text(spec.x, spec.x.column),
+                                           plot.aside);
   const std::string value = value_text(measure, measure.column);
-  std::string first = has_rows ? value : position;
-  for (const std::string& name : plot.selections) first = fmt::format("{}({})", name, first);
-  std::string columns = fmt::format("({}):({})", first, has_rows ? position : value);
+  std::string columns =
+      fmt::format("({}):({})", selected(has_rows ? value : position, plot.selections),
+                  has_rows ? position : value);
   if (has_interval) {
     columns += fmt::format(":({}):({})", value_text(measure, measure.low),
                            value_text(measure, measure.high));
@@ -253,9 +356,10 @@ FacetLayout facet_layout(const FacetShape& shape) {
            (any_x ? (is_last || grid.is_folded ? axis_height : tics_height) : line_gap);
   }
   const double columns = static_cast<double>(grid.columns);
-  layout.key_left = margin + columns * layout.panel_width + (columns - 1.0) * column_gap + 16.0;
+  layout.key_left = margin + columns * layout.panel_width + (columns - 1.0) * column_gap + key_gap;
   layout.key_top = layout.panels.front().top;
-  if (layout.key_left + shape.key > shape.room) {  // the key is below the panels
+  if (!is_image(shape) &&
+      layout.key_left + shape.key > shape.room) {  // the key is below the panels
     layout.key_left = margin;
     layout.key_top = top;
     layout.width = margin + columns * (layout.panel_width + column_gap) - column_gap + right_margin;

@@ -59,15 +59,37 @@ struct FacetPlot {
 /// width of their own.
 bool is_highlight(experiments::MarkShape shape);
 
+/// The cells of an image: what they have room for, and their size (px).
+struct ImageCells {
+  enum class Content : int { colour, number, interval } content = Content::colour;
+  std::size_t columns = 0, rows = 0;
+  double width = 0.0, height = 0.0;
+
+  double panel_width() const { return width * static_cast<double>(columns); }
+  double panel_height() const { return height * static_cast<double>(rows); }
+};
+inline constexpr double scale_width = 88.0;  ///< of the colours beside an image (px)
+ImageCells image_cells(std::size_t columns, std::size_t rows, bool has_intervals, double room);
+
+/// Commands for images: the colours, their scale and the function `shade`, a value's place on it.
+std::string image_style();
+
 /// An element of gnuplot's `plot`, without a title. `file` is a text constant.
 std::string plot_command(const experiments::FigureSpec& spec,
                          const experiments::FigureAxis& measure, experiments::MarkShape shape,
                          const std::string& file, const FacetPlot& plot);
 
+/// Likewise for an image, the crosses on its cells, and the numbers in them, which are empty where
+/// they have no room. The functions `xplace` and `yplace` are the places on the axes.
+std::string image_plot(experiments::MarkShape shape, ImageCells::Content content,
+                       const std::string& file, const std::vector<std::string>& selections,
+                       const experiments::FigureAxis& measure);
+
 /// What a layout depends on: numbers of drawn groups and measures, and widths of texts (px).
 struct FacetShape {
   std::size_t panels = 1, measures = 1, series = 1;
-  std::size_t rows = 0;  ///< 0: curves over x
+  std::size_t rows = 0;   ///< 0: curves over x
+  ImageCells cells = {};  ///< of images
   bool has_titles = false;
   bool is_own_x = false;  ///< each panel has its own values of x
   double row_names = 0.0, key = 0.0;
@@ -83,8 +105,8 @@ struct FacetPanel {
   bool is_leftmost = false;  ///< has the names of rows, or the labels of the vertical axis
 };
 
-/// Panels in lines of at most four. With several measures, each has a line of its own, or with
-/// `rows` a column of its own.
+/// Panels in lines of at most four, images of at most three. With several measures, each has a line
+/// of its own, or with `rows` a column of its own.
 struct FacetLayout {
   std::vector<FacetPanel> panels;
   double panel_width = 0.0, panel_height = 0.0;

@@ -79,6 +79,13 @@ class FacetFigure {
       });
       if (has_values) measures_.push_back(&measure);
     }
+    const bool has_image = std::ranges::any_of(spec.marks, [](const experiments::FigureMark& mark) {
+      return mark.shape == experiments::MarkShape::image;
+    });
+    if (has_image && !is_empty()) {
+      cells_ = image_cells(steps_of(spec.x, {}).size(), steps_of(spec.y, {}).size(),
+                           !measures_.front()->low.empty(), file.room());
+    }
   }
 
   bool is_empty() const { return measures_.empty(); }
@@ -91,8 +98,16 @@ class FacetFigure {
     for (const FacetPanel& panel : layout.panels) {
       commands += frame.panel(panel.left, panel.top, layout.panel_width, layout.panel_height);
       commands += axes_of(panel, layout);
-      const bool has_key = &panel == &layout.panels.front() && series_.size() > 1;
+      const bool is_first = &panel == &layout.panels.front();
+      const bool has_key = is_first && series_.size() > 1;
       commands += has_key ? frame.key(layout.key_left, layout.key_top - 6.0) : "unset key\n";
+      if (is_image()) {
+        commands += !is_first ? "unset colorbox\n"
+                              : frame.colour_bar(layout.key_left, layout.key_top, 14.0,
+                                                 layout.panel_height) +
+                                    fmt::format("set cblabel {} offset 0.4,0\n",
+                                                gnuplot_text(label(*measures_.front())));
+      }
       commands += "plot " + plots_of(panel, has_key) + '\n' + FigureFrame::end_panel();
     }
     return frame.draw(commands, data_file(table_, data_));
@@ -100,6 +115,7 @@ class FacetFigure {
 
  private:
   bool has_rows() const { return !spec_.rows.columns.empty(); }
+  bool is_image() const { return cells_.columns > 0; }
   bool is_ordinal() const { return !has_rows() && spec_.x.scale == AxisScale::ordinal; }
 
   FacetShape shape() const {
@@ -108,12 +124,15 @@ class FacetFigure {
     shape.panels = panels_.size();
     shape.measures = measures_.size();
     shape.series = series_.size();
-    shape.rows = rows_.size();
+    shape.rows = is_image() ? cells_.rows : rows_.size();
     shape.has_titles = std::ranges::any_of(
         panels_, [&](std::size_t panel) { return !title_of(spec_.panels, panel).empty(); });
     shape.is_own_x = is_ordinal();
     shape.row_names = has_rows() ? widest(spec_.rows, rows_) + 26.0 : 0.0;
-    shape.key = series_.size() > 1 ? widest(spec_.series, series_) + 66.0 : 24.0;
+    shape.key = is_image()           ? scale_width
+                : series_.size() > 1 ? widest(spec_.series, series_) + 66.0
+                                     : 24.0;
+    shape.cells = cells_;
     return shape;
   }
 
@@ -131,6 +150,7 @@ class FacetFigure {
     for (std::size_t mark = 0; mark < spec_.marks.size(); ++mark) {
       text += selection("mark", mark, condition_of(spec_.marks[mark].where));
     }
+    if (is_image()) text += image_style();
     if (has_rows()) {
       std::string places;
       for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -143,11 +163,13 @@ class FacetFigure {
     return text;
   }
 
-  /// The cells of an ordinal axis in one panel, by value.
-  std::vector<std::string> steps_of(std::size_t panel) const {
+  /// The texts on an ordinal axis in one panel, or in all of them, by value.
+  std::vector<std::string> steps_of(const FigureAxis& axis,
+                                    std::optional<std::size_t> panel) const {
     std::map<double, std::string> steps;
     for (const FacetRow& row : data_) {
-      if (row.panel == panel) steps.emplace(row.x, row.cells.text(spec_.x.column));
+      if (panel && row.panel != *panel) continue;
+      steps.emplace(experiments::drawn_value(axis, row.cells), row.cells.text(axis.column));
     }
     std::vector<std::string> texts;
     for (const auto& [value, text] : steps) texts.push_back(text);
@@ -188,6 +210,26 @@ class FacetFigure {
                                     : "%g");
   }
 
+  /// Commands for an axis of equally spaced values in `length` px, with as many of their texts as
+  /// fit: every one, every second, ... Their places are the function `<name>place`.
+  std::string ordinal_axis(const char* name, const FigureAxis& axis, std::size_t panel,
+                           bool has_tics, double length) const {
+    const std::vector<std::string> steps =
+        steps_of(axis, is_image() ? std::nullopt : std::optional(panel));
+    const auto count = static_cast<double>(steps.size());
+    const double needed = *name == 'x' ? text_width(steps) + 5.0 : 20.0;  // px
+    const auto every = static_cast<std::size_t>(std::ceil(needed * count / length));
+    std::string places, tics;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      places += fmt::format("{} ? {} : ", condition_of({{axis.column, steps[i]}}), i);
+      if (i % every != 0) continue;
+      tics +=
+          fmt::format("{}{} {}", i > 0 ? ", " : "", has_tics ? gnuplot_text(steps[i]) : "''", i);
+    }
+    return fmt::format("{0}place(v) = {1}NaN\nset {0}range [-0.5:{2}]\nset {0}tics ({3})\n", name,
+                       places, count - 0.5, tics);
+  }
+
   std::string axes_of(const FacetPanel& place, const FacetLayout& layout) const {
     const std::size_t panel = panels_[place.panel];
     const FigureAxis& measure = *measures_[place.measure];
@@ -207,23 +249,16 @@ class FacetFigure {
               : std::string("unset ytics"));
       return text;
     }
-    if (is_ordinal()) {
-      const std::vector<std::string> steps = steps_of(panel);
-      std::string places, tics;
-      for (std::size_t i = 0; i < steps.size(); ++i) {
-        places += fmt::format("{} ? {} : ", condition_of({{spec_.x.column, steps[i]}}), i);
-        tics += fmt::format("{}{} {}", i > 0 ? ", " : "", gnuplot_text(steps[i]), i);
-      }
-      text += fmt::format("place(v) = {}NaN\nset xrange [-0.5:{}]\nset xtics ({})\n", places,
-                          static_cast<double>(steps.size()) - 0.5, tics);
-    } else {
-      text += numeric_axis("x", spec_.x, range_of(spec_.x, panel), place.has_x_tics,
-                           layout.panel_width / 55.0);
-    }
-    text += numeric_axis("y", measure, range, place.is_leftmost, layout.panel_height / 40.0);
-    return text + fmt::format("set xlabel {}\nset ylabel {}\n",
-                              gnuplot_text(place.has_x_title ? label(spec_.x) : std::string()),
-                              gnuplot_text(place.is_leftmost ? label(measure) : std::string()));
+    text += is_ordinal() ? ordinal_axis("x", spec_.x, panel, place.has_x_tics, layout.panel_width)
+                         : numeric_axis("x", spec_.x, range_of(spec_.x, panel), place.has_x_tics,
+                                        layout.panel_width / 55.0);
+    text += is_image()
+                ? ordinal_axis("y", spec_.y, panel, place.is_leftmost, layout.panel_height)
+                : numeric_axis("y", measure, range, place.is_leftmost, layout.panel_height / 40.0);
+    return text + fmt::format(
+                      "set xlabel {}\nset ylabel {}\n",
+                      gnuplot_text(place.has_x_title ? label(spec_.x) : std::string()),
+                      gnuplot_text(place.is_leftmost ? label(is_image() ? spec_.y : measure) : ""));
   }
 
   /// How far a series is shifted sideways so that intervals do not cover each other.
@@ -251,13 +286,14 @@ class FacetFigure {
     const std::size_t panel = panels_[place.panel];
     std::string text, separator;
     const auto add = [&](const std::string& plot) {
+      if (plot.empty()) return;
       text += separator + plot;
       separator = ", \\\n     ";
     };
     if (measures_[place.measure]->has_diagonal) add("x with lines lc rgb '#9aa1a8' dt 1 notitle");
     for (std::size_t i = 0; i < series_.size(); ++i) {
       const std::string style = series_style(spec_, series_[i]);
-      const bool is_curve = key_shape(spec_) == std::string_view("linespoints");
+      const bool is_curve = key_shape(spec_) != std::string_view("points");
       const std::string curve_style = is_curve && style.starts_with("lt ")
                                           ? style + ' ' + curve_width(i, series_.size())
                                           : style;
@@ -268,6 +304,11 @@ class FacetFigure {
         });
         if (!is_drawn) continue;
         const auto shape = spec_.marks[mark].shape;
+        if (is_image()) {
+          add(image_plot(shape, cells_.content, file_, selections(panel, series_[i], mark),
+                         *measures_[place.measure]));
+          continue;
+        }
         const FacetPlot plot{.selections = selections(panel, series_[i], mark),
                              .aside = aside_of(i, panel, *measures_[place.measure]),
                              .style = is_highlight(shape) ? style : curve_style};
@@ -288,6 +329,7 @@ class FacetFigure {
   std::string file_;
   std::vector<std::size_t> panels_, series_, rows_;
   std::vector<const FigureAxis*> measures_;
+  ImageCells cells_;  ///< none: no image
 };
 
 }  // namespace

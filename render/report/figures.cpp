@@ -104,16 +104,18 @@ std::string readout(const TableRow& cell, const NoiseMaps& maps,
   return text;
 }
 
-/// The readouts of one estimator's map in one engine, from the lowest row on.
-nlohmann::ordered_json readouts(const ReportSubject& subject, const std::string& simulator,
-                                const std::string& estimator, const NoiseMaps& maps) {
+/// The readouts of one estimator's map, from the lowest row on.
+nlohmann::ordered_json readouts(const std::vector<TableRow>& cells, const std::string& estimator,
+                                const NoiseMaps& maps, const experiments::Experiment& experiment) {
   nlohmann::ordered_json texts = nlohmann::ordered_json::array();
-  const std::vector<TableRow> cells = mapped_cells(subject.tables, simulator, estimator);
   for (const double y : maps.y.levels) {
     for (const double x : maps.x.levels) {
-      const TableRow* const cell = maps.cell(cells, x, y);
-      texts.push_back(cell == nullptr ? "not part of this study"
-                                      : readout(*cell, maps, subject.experiment));
+      const auto cell = std::ranges::find_if(cells, [&](const TableRow& one) {
+        return one.text("estimator") == estimator && one.number(maps.x.column) == x &&
+               one.number(maps.y.column) == y;
+      });
+      texts.push_back(cell == cells.end() ? "not part of this study"
+                                          : readout(*cell, maps, experiment));
     }
   }
   return texts;
@@ -145,9 +147,11 @@ std::string map_overlay(const ReportSubject& subject, const fs::path& drawing,
   if (panels.size() != estimators.size()) return {};
   nlohmann::ordered_json data = {{"columns", maps.x.levels.size()},
                                  {"panels", nlohmann::ordered_json::array()}};
+  const Table cells = mapped_cells(subject.tables.cells, maps, simulator);
   for (std::size_t i = 0; i < estimators.size(); ++i) {
     data["panels"].push_back(
-        {{"place", panels[i]}, {"cells", readouts(subject, simulator, estimators[i], maps)}});
+        {{"place", panels[i]},
+         {"cells", readouts(cells.all(), estimators[i], maps, subject.experiment)}});
   }
   return fmt::format("<script type=\"application/json\">{}</script>", inline_json(data));
 }

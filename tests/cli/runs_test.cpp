@@ -94,8 +94,8 @@ TEST_F(Run, DrawsFiguresThatAgreeWithItsTables) {
   }
   EXPECT_THAT(folder_.text("a/figures/latency_mujoco.gp"),
               HasSubstr("# Caption: 3 test runs × 2 noise seeds"));
-  // For both wheels pooled, the figure's detected events are those of the table.
-  const std::string latency = folder_.text("a/figures/latency_mujoco.dat");
+  // For both wheels pooled, the figure's curves end at the share of detected events.
+  const auto latency = cells_of(folder_ / "a/figures/latency_mujoco.dat");
   const std::string reliability = folder_.text("a/figures/reliability_mujoco.dat");
   const auto column = [](const std::vector<std::string>& header, const std::string& name) {
     return static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
@@ -107,9 +107,16 @@ TEST_F(Run, DrawsFiguresThatAgreeWithItsTables) {
     if (found[r][0] != "mujoco" || found[r][4] != "wheels" || found[r][1] == "always_contact") {
       continue;
     }
+    const auto last = std::find_if(latency.rbegin(), latency.rend(), [&](const auto& row) {
+      return std::equal(row.begin(), row.begin() + 5, found[r].begin());
+    });
+    ASSERT_NE(last, latency.rend());
     for (const std::string kind : {"takeoff", "landing"}) {
-      EXPECT_THAT(latency, HasSubstr(found[r].at(column(found[0], kind + "s_detected")) + " of " +
-                                     events[r].at(column(events[0], kind + "s")) + " found"));
+      const auto number = [&](const auto& header, const auto& row, const std::string& name) {
+        return std::stod(row.at(column(header, kind + name)));
+      };
+      EXPECT_NEAR(number(latency[0], *last, "s_found") * number(events[0], events[r], "s"),
+                  number(found[0], found[r], "s_detected"), 1e-3);
     }
     ++rows;
   }

@@ -1,8 +1,11 @@
 #include "experiments/evaluation/query.hpp"
 
+#include <array>
 #include <cmath>
 #include <deque>
+#include <map>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/rows.hpp"
@@ -10,6 +13,8 @@
 
 namespace touchdown::experiments {
 namespace {
+
+using ::testing::ElementsAre;
 
 /// Ten runs with one flight each, and predictions of them.
 class TenRuns {
@@ -64,11 +69,27 @@ TEST(ScoreTables, CoverEveryViewAndMetric) {
   EXPECT_EQ(scores[0].text("view"), "wheels");
   EXPECT_EQ(scores[0].number("takeoffs"), 20.0);
   EXPECT_EQ(scores[1].number("takeoffs"), 10.0);
-  EXPECT_EQ(tables.totals[0].takeoff.events, 20);
   // All of them were found, in every resample.
   EXPECT_NEAR(scores[0].interval("takeoff_recall").low, std::pow(0.025, 1.0 / 20.0), 1e-6);
   EXPECT_NEAR(scores[1].interval("takeoff_recall").low, std::pow(0.025, 1.0 / 10.0), 1e-6);
   EXPECT_EQ(tables.reliability.rows.size(), scores.size() * scoring::Calibration::bins);
+}
+
+/// Every event is found 12 ms late, in the bin that ends at 12.5 ms, or not at all.
+TEST(ScoreTables, ListTheShareOfEventsFoundUpToEachLatency) {
+  const Table table =
+      TenRuns({0.25, 0.0}).delayed_by("robust", 12).delayed_by("paper", 600).tables().latencies;
+  std::map<std::string, std::vector<std::array<double, 3>>> curves;
+  for (const TableRow& row : table.all()) {
+    if (row.text("view") != "wheels") continue;
+    curves[row.text("estimator")].push_back(
+        {row.number("latency_ms"), row.number("takeoffs_found"), row.number("landings_found")});
+  }
+  EXPECT_THAT(curves["robust"],
+              ElementsAre(std::array{-27.5, 0.0, 0.0}, std::array{7.5, 0.0, 0.0},
+                          std::array{12.5, 1.0, 1.0}, std::array{52.5, 1.0, 1.0}));
+  EXPECT_THAT(curves["paper"],
+              ElementsAre(std::array{-27.5, 0.0, 0.0}, std::array{52.5, 0.0, 0.0}));
 }
 
 TEST(ScoreTables, PairDifferencesByRun) {

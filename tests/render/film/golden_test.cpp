@@ -13,29 +13,18 @@
 #include "experiments/config/experiment.hpp"
 #include "render/figures/figures.hpp"
 #include "render/gnuplot/facets.hpp"
+#include "tests/render/figures/noise_map.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {
 namespace {
 
 /// Errors that grow with both noises.
-Heatmap heatmap() {
-  Heatmap map{.title = "Success rate",
-              .x_label = "accelerometer noise (m/s²)",
-              .y_label = "torque noise (N·m)",
-              .x = {0, 1, 3, 5, 7},
-              .y = {0, 0.5, 1, 2},
-              .panels = {{.title = "an estimator", .value = {}}},
-              .caption = "4 runs; crossed cells do not beat a constant answer."};
-  for (const double y : map.y) {
-    map.panels[0].value.emplace_back();
-    map.panels[0].marked.emplace_back();
-    for (const double x : map.x) {
-      map.panels[0].value.back().push_back(1.0 + 0.2 * x * x + 2.0 * y * y);
-      map.panels[0].marked.back().push_back(map.panels[0].value.back().back() > 10.0);
-    }
-  }
-  return map;
+NoiseMap heatmap() {
+  return {.estimators = {"an estimator"},
+          .torque = {0, 0.5, 1, 2},
+          .accelerometer = {0, 1, 3, 5, 7},
+          .error = [](double y, double x) { return 1.0 + 0.2 * x * x + 2.0 * y * y; }};
 }
 
 /// Two Gaussians.
@@ -58,13 +47,19 @@ DensityFigure densities(double width_in_the_air = 0.12) {
   return figure;
 }
 
+experiments::Experiment three_estimators() {
+  experiments::Experiment experiment;
+  experiment.estimators = {"robust", "paper", "load_filter"};
+  return experiment;
+}
+
 /// Three estimators, of which one may be missing.
 Table reliability(const std::string& without = {}) {
   std::string text =
       "simulator,view,torque_noise_nm,accelerometer_noise_mps2,estimator,steps,mean_probability,"
       "contact_frequency,contact_frequency_low,contact_frequency_high\n";
   double power = 0.5;
-  for (const std::string estimator : {"robust", "paper", "load_filter"}) {
+  for (const std::string& estimator : three_estimators().estimators) {
     for (int bin = 0; bin < 10 && estimator != without; ++bin) {
       const double p = 0.1 * bin + 0.05;
       const double share = std::pow(p, power);
@@ -77,26 +72,27 @@ Table reliability(const std::string& without = {}) {
 }
 
 Figure reliability_of(const Table& table, const std::filesystem::path& stem) {
-  experiments::Experiment experiment;
-  experiment.estimators = {"robust", "paper", "load_filter"};
-  return draw_facets(reliability_figure(table, experiment, "mujoco"), table, stem).value();
+  return draw_facets(reliability_figure(table, three_estimators(), "mujoco"), table, stem).value();
 }
 
-ScoreFigure latencies() {
-  ScoreFigure figure{"Latency", {{"no noise", std::vector<ScoreRow>(2)}}, "4 runs."};
-  figure.panels[0].rows[0].name = "first";
-  figure.panels[0].rows[1].name = "second";
-  figure.panels[0].rows[1].line_type = 2;
-  for (int i = 0; i < 60; ++i) {
-    for (std::size_t r = 0; r < 2; ++r) {
-      ScoreRow& row = figure.panels[0].rows[r];
-      const auto spread = static_cast<std::int64_t>(i % 10 + i % 7 - 8);
-      const auto delay = static_cast<std::int64_t>(20 * (1 + r)) + 2 * spread;
-      row.takeoff.add({scoring::EventKind::takeoff, scoring::Judgement::detected, 0, delay}, 1000);
-      row.landing.add({scoring::EventKind::landing, scoring::Judgement::detected, 0, spread}, 1000);
+/// Distributions of the three, which find 95 % of the takeoffs and these shares of the landings.
+Figure latencies_of(double landings, const std::filesystem::path& stem) {
+  std::string text =
+      "simulator,view,torque_noise_nm,accelerometer_noise_mps2,estimator,latency_ms,"
+      "takeoffs_found,landings_found\n";
+  double delay = 0.0;
+  for (const std::string& estimator : three_estimators().estimators) {
+    for (double latency = -37.5; latency < 70.0; latency += 5.0) {
+      const auto found = [&](double width) {
+        return 0.5 + 0.5 * std::tanh((latency - delay) / width);
+      };
+      text += fmt::format("mujoco,wheels,0,0,{},{},{},{}\n", estimator, latency, 0.95 * found(20.0),
+                          landings * found(5.0));
     }
+    delay += 10.0;
   }
-  return figure;
+  const Table table = table_of(from_csv(text));
+  return draw_facets(latency_figure(table, three_estimators(), "mujoco"), table, stem).value();
 }
 
 class Golden : public ::testing::Test {
@@ -118,18 +114,20 @@ class Golden : public ::testing::Test {
 };
 
 TEST_F(Golden, FiguresLookLikeTheirCopies) {
-  expect_same("heatmap", draw_heatmap(heatmap(), stem("heatmap")));
+  expect_same("heatmap", heatmap().draw(stem("heatmap")));
   expect_same("densities", draw_density_figure(densities(), stem("densities")));
   expect_same("reliability", reliability_of(reliability(), stem("reliability")));
-  expect_same("latency", draw_latency_figure(latencies(), stem("latency")));
+  expect_same("latency", latencies_of(0.7, stem("latency")));
 }
 
 /// The comparison above must be able to fail: each figure is drawn once with other content.
 TEST_F(Golden, OtherContentIsNoticed) {
   if (std::getenv("TOUCHDOWN_UPDATE_GOLDEN") != nullptr) GTEST_SKIP() << "copies are being made";
-  Heatmap another_cell = heatmap();
-  another_cell.panels[0].value[1][1] = 4.5;
-  EXPECT_FALSE(same_picture(compared("heatmap", draw_heatmap(another_cell, stem("cell")))));
+  NoiseMap another_cell = heatmap();
+  another_cell.error = [](double y, double x) {
+    return y == 0.5 && x == 1.0 ? 4.5 : heatmap().error(y, x);
+  };
+  EXPECT_FALSE(same_picture(compared("heatmap", another_cell.draw(stem("cell")))));
 
   EXPECT_FALSE(
       same_picture(compared("reliability", reliability_of(reliability("paper"), stem("curve")))));
@@ -137,10 +135,7 @@ TEST_F(Golden, OtherContentIsNoticed) {
   DensityFigure wider = densities(0.16);
   EXPECT_FALSE(same_picture(compared("densities", draw_density_figure(wider, stem("wider")))));
 
-  ScoreFigure without_a_histogram = latencies();
-  without_a_histogram.panels[0].rows[1].landing = {};
-  EXPECT_FALSE(same_picture(
-      compared("latency", draw_latency_figure(without_a_histogram, stem("histogram")))));
+  EXPECT_FALSE(same_picture(compared("latency", latencies_of(0.5, stem("fewer")))));
 }
 
 }  // namespace

@@ -108,6 +108,16 @@ TEST_F(Facets, HaveAPanelPerMeasureAndGroup) {
   EXPECT_THAT(text, HasSubstr("set ylabel 'speed (m/s)'"));
 }
 
+TEST_F(Facets, DrawStepsForValuesThatHoldUntilTheNext) {
+  FigureSpec spec = survival_spec();
+  spec.measures = {{.column = "share", .title = "share"}};
+  spec.marks = {{MarkShape::step}};
+  const std::string text = script(spec, survival);
+  EXPECT_EQ(count(text, "with steps lt [1-7] lw [0-9.]+ notitle"), 2);  // the truth has its own
+  EXPECT_EQ(count(text, "with steps lc rgb"), 2);
+  EXPECT_EQ(count(text, "keyentry with lines"), 2);
+}
+
 TEST_F(Facets, StateTheirTextsInTheScript) {
   const std::string text = script(survival_spec(), survival);
   EXPECT_THAT(text, ::testing::StartsWith("# Draws figure.png"));

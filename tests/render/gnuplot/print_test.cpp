@@ -14,6 +14,7 @@
 #include "render/gnuplot/facets.hpp"
 #include "render/studies/benchmark.hpp"
 #include "render/studies/registry.hpp"
+#include "tests/render/figures/noise_map.hpp"
 #include "tests/scratch_folder.hpp"
 
 namespace touchdown::render {
@@ -22,19 +23,12 @@ namespace {
 constexpr const char* long_name = "Bayes filter (measurement alone)";
 
 Figure print_map(const FigureFile& file, std::size_t levels, std::size_t panels) {
-  Heatmap map{.title = "Success rate",
-              .x_label = "accelerometer noise (m/s²)",
-              .y_label = "torque noise (N·m)",
-              .x = std::vector<double>(levels, 0.25),
-              .y = std::vector<double>(levels, 1.5),
-              .panels = {},
-              .caption = "40 runs."};
-  const std::vector<std::vector<double>> values(levels, std::vector<double>(levels, 4.2));
-  for (std::size_t i = 0; i < panels; ++i) {
-    map.panels.push_back({.title = long_name, .value = values, .low = values, .high = values});
-    map.panels.back().value[0][0] = 0.5;
-  }
-  return draw_heatmap(map, file);
+  NoiseMap map{.error = [](double, double x) { return x == 0.0 ? 0.5 : 4.2; }};
+  for (std::size_t i = 0; i < panels; ++i)
+    map.estimators.push_back(fmt::format("{} {}", long_name, i));
+  for (std::size_t i = 0; i < levels; ++i) map.torque.push_back(0.25 * static_cast<double>(i));
+  map.accelerometer = map.torque;
+  return map.draw(file);
 }
 
 Figure print_densities(const FigureFile& file) {
@@ -52,17 +46,19 @@ Figure print_densities(const FigureFile& file) {
   return draw_density_figure(figure, file);
 }
 
-ScoreFigure score_figure() {
-  ScoreRow row{.name = long_name, .line_type = 1, .takeoff = {}, .landing = {}};
-  for (int i = 0; i < 60; ++i) {
-    row.takeoff.add({scoring::EventKind::takeoff, scoring::Judgement::detected, 0, i}, 1000);
-    row.landing.add({scoring::EventKind::landing, scoring::Judgement::detected, 0, -i}, 1000);
+Figure print_latencies(const FigureFile& file) {
+  std::string text =
+      "simulator,view,torque_noise_nm,accelerometer_noise_mps2,estimator,latency_ms,"
+      "takeoffs_found,landings_found\n";
+  for (const char* noise : {"0,0", "1,5"}) {
+    for (const char* end : {"", "2"}) {
+      text +=
+          fmt::format("mujoco,wheels,{0},{1}{2},-2.5,0,0.1\nmujoco,wheels,{0},{1}{2},7.5,1,0.9\n",
+                      noise, long_name, end);
+    }
   }
-  ScoreRow other = row;
-  other.name = "Bayes filter (measurement only)";
-  other.line_type = 5;
-  return {
-      "Scores", {{"no noise", {row, other}}, {"noise: 1 N·m, 5 m/s²", {row, other}}}, "4 runs."};
+  const Table table = table_of(from_csv(text));
+  return draw_facets(latency_figure(table, {}, "mujoco"), table, file).value();
 }
 
 Figure print_facets(const FigureFile& file, bool has_rows) {
@@ -128,7 +124,7 @@ const PrintedKind kinds[] = {
     {"map_6", [](const FigureFile& file) { return print_map(file, 6, 3); }},
     {"map_13", [](const FigureFile& file) { return print_map(file, 13, 4); }},
     {"densities", print_densities},
-    {"latency", [](const FigureFile& f) { return draw_latency_figure(score_figure(), f); }},
+    {"latency", print_latencies},
     {"curves", [](const FigureFile& file) { return print_facets(file, false); }},
     {"rows", [](const FigureFile& file) { return print_facets(file, true); }},
     {"standings", print_standings},

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "render/figures/figures.hpp"
+#include "render/gnuplot/facets.hpp"
 #include "render/report/html.hpp"
 #include "tests/render/report/score_files.hpp"
 #include "tests/scratch_folder.hpp"
@@ -107,17 +108,13 @@ nlohmann::json overlay_in(const std::string& html) {
 
 TEST_F(Report, LaysEveryCellsNumbersOverItsPlaceInTheDrawnMap) {
   write_score_files(folder_, some_cells, some_scores);
-  const std::string caption = "Two runs.";
-  Heatmap map{.title = "Success rate",
-              .x_label = "accelerometer",
-              .y_label = "torque",
-              .x = {0, 5},
-              .y = {0, 1},
-              .panels = {{.title = "robust", .value = {{30, 0.3}, {0.3, 0.3}}}},
-              .caption = caption};
-  map.panels[0].low = map.panels[0].high = map.panels[0].value;
+  const ReportSubject subject = read_subject(folder_.path());
+  const NoiseMaps maps = noise_maps(subject.experiment).front();
+  const Table cells = mapped_cells(subject.tables.cells, maps, "mujoco");
   std::filesystem::create_directory(folder_ / "figures");
-  const Figure figure = draw_heatmap(map, folder_ / "figures/error_mujoco");
+  const Figure figure = draw_facets(map_figure(cells, maps, subject.experiment, "mujoco"), cells,
+                                    folder_ / "figures/error_mujoco")
+                            .value();
   const std::string html = page();
   const nlohmann::json overlay = overlay_in(html);
   EXPECT_EQ(overlay["columns"], 2);
@@ -126,7 +123,7 @@ TEST_F(Report, LaysEveryCellsNumbersOverItsPlaceInTheDrawnMap) {
   EXPECT_EQ(panel["cells"][3],
             "MuJoCo, Bayes filter (robust): torque noise 1 N·m, accelerometer noise 5 m/s²: "
             "success rate 0.860 [0.850, 0.875]; always contact 0.870");
-  // The lower left cell is the dark one: its corners inside the place are dark, others are not.
+  // The upper right cell is the dark one: its edges inside the place are dark, others are not.
   const cv::Mat image = cv::imread(figure.png.string());
   const double left = panel["place"][0], top = panel["place"][1], width = panel["place"][2],
                height = panel["place"][3];
@@ -135,12 +132,14 @@ TEST_F(Report, LaysEveryCellsNumbersOverItsPlaceInTheDrawnMap) {
                                             static_cast<int>((left + x * width) * image.cols));
     return pixel[1] < 60;
   };
-  EXPECT_TRUE(is_dark(0.02, 0.52));
-  EXPECT_TRUE(is_dark(0.48, 0.98));
-  EXPECT_FALSE(is_dark(0.02, 0.47));
-  EXPECT_FALSE(is_dark(0.52, 0.98));
-  EXPECT_FALSE(is_dark(-0.02, 0.6));
-  EXPECT_FALSE(is_dark(0.3, 1.02));
+  EXPECT_TRUE(is_dark(0.52, 0.25));
+  EXPECT_TRUE(is_dark(0.98, 0.25));
+  EXPECT_TRUE(is_dark(0.75, 0.02));
+  EXPECT_TRUE(is_dark(0.75, 0.48));
+  EXPECT_FALSE(is_dark(0.48, 0.25));
+  EXPECT_FALSE(is_dark(1.02, 0.25));
+  EXPECT_FALSE(is_dark(0.75, -0.02));
+  EXPECT_FALSE(is_dark(0.75, 0.52));
 }
 
 TEST_F(Report, ShowsAMapWithOtherPanelsAmongTheFigures) {
@@ -278,23 +277,6 @@ TEST(Html, NamesDigestsAsPoliciesDo) {
   // Of the empty text.
   EXPECT_EQ(policy_source("e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855"),
             "'sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU='");
-}
-
-TEST(ErrorScale, RunsFromDarkToLightAndStaysInside) {
-  EXPECT_FALSE(is_light(30.0));
-  EXPECT_FALSE(is_light(100.0));
-  EXPECT_TRUE(is_light(0.3));
-  EXPECT_TRUE(is_light(0.0));
-}
-
-TEST(ErrorScale, WritesEnoughDigitsToDistinguishCells) {
-  EXPECT_EQ(success_text(error_percent(0.9958)), "99.58");
-  EXPECT_EQ(success_text(error_percent(0.9862)), "98.62");
-  EXPECT_EQ(success_text(error_percent(0.90004)), "90.00");
-  EXPECT_EQ(success_text(error_percent(0.877)), "87.70");
-  EXPECT_EQ(success_text(error_percent(0.0)), "0.00");
-  EXPECT_EQ(success_text(NAN), "–");
-  EXPECT_EQ(error_percent(0.989), 1.1);
 }
 
 }  // namespace

@@ -44,6 +44,7 @@ inline void write_score_files(const ScratchFolder& folder, const std::string& ce
                      with_view);
   }
   folder.write("tables/reliability.csv", setting + "view,bin\n");
+  folder.write("tables/latencies.csv", setting + "view,latency_ms\n");
   folder.write("tables/differences.csv", "simulator,first,second,metric,difference\n");
   folder.write("tables/runs.csv", "simulator,scenario,role,run,outcome\n");
 }
