@@ -123,6 +123,7 @@ Table latencies_of(const Answer<Score>& scores) {
     last = std::max(last, b);
   }
   for (std::size_t i = 0; i < settings.size(); ++i) {
+    if (TableRow(scores.table, i).text("view") != scoring::scored_views().front()) continue;
     const auto& [takeoff, landing] = std::tie(scores.totals[i].takeoff, scores.totals[i].landing);
     LatencyHistogram both = takeoff.latency;
     both += landing.latency;
@@ -268,6 +269,8 @@ ScoreTables read_score_tables(const std::filesystem::path& run_directory) {
   ScoreTables tables{.runs = read("runs.csv")};
   for (const Print& print : prints()) {
     Table& whole = tables.*print.table;
+    const bool is_alone = print.columns.empty();  // a run of an older version may lack it
+    if (is_alone && !is_there(run_directory / "tables" / print.file)) continue;
     const Table part = read(print.file);
     if (!whole.columns.empty() && whole.rows.size() != part.rows.size()) {
       throw InputError(fmt::format(

@@ -38,7 +38,8 @@ struct ScoreTables {
   Table cells = {};  ///< by condition and noise cell: `point_metrics`, and always contact's success
   Table scores = {};  ///< by highlighted cell, condition and view: `scoring::metrics`, and counts
   Table reliability = {};  ///< likewise, a row per bin of the calibration
-  Table latencies = {};    ///< likewise, the shares of true events that are found up to a latency
+  /// By highlighted cell, both wheels pooled, the shares of true events found up to a latency.
+  Table latencies = {};
   /// By highlighted cell, the differences of each engine's first estimator from the others, a row
   /// per metric: both wheels pooled, the same runs or drops resampled.
   Table differences = {};
