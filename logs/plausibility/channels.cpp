@@ -55,7 +55,10 @@ void ConstantChannels::add(const models::Observation& record) {
   const models::ImuReading& imu = record.imu;
   const Eigen::Quaterniond& q = imu.orientation;
   const bool is_usable = !has_other_length(q);
-  for (std::size_t i = 0; i < 4; ++i) orientation_[i].add(is_usable ? q.coeffs()[i] : std::nan(""));
+  const std::array<double, 4> orientation = {q.w(), q.x(), q.y(), q.z()};
+  for (std::size_t i = 0; i < 4; ++i) {
+    orientation_[i].add(is_usable ? orientation[i] : std::nan(""));
+  }
   // Gravity that was removed by the orientation hides a dead accelerometer.
   const bool is_removed = imu.raw_linear_acceleration.isZero(0.0);
   const Eigen::Vector3d with_gravity = imu.linear_acceleration + gravity_at_rest * up_of(q);
