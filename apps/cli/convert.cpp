@@ -94,7 +94,9 @@ void write_log(const ConvertFlags& flags, const CliSession& session) {
   require_extension(flags.output, {".mpack"}, "a log");
   std::vector<std::filesystem::path> outputs = {flags.output};
   if (!flags.labels.empty()) outputs.emplace_back(flags.labels);
-  check_outputs({{flags.source, "log"}, {flags.mapping, "mapping"}}, outputs);
+  std::vector<InputFile> inputs;
+  add_log(flags.source, flags.mapping, inputs);
+  check_outputs(inputs, outputs);
   logs::ConvertedLog log;
   write_stream_atomically(flags.output, [&](std::ostream& stream) {
     log = logs::convert_log(flags.source, flags.mapping, stream,

@@ -79,13 +79,15 @@ std::string propose(const logs::ContactIntervals& labels, const std::string& pat
         path));
   }
   write_atomically(path, proposal);
+  const std::string intervals = fmt::format(
+      "{:<12} {}, {}\n{}", "proposal", path,
+      experiments::plural(labels.intervals.size(), "interval"), least_sure(labels.intervals));
+  if (log == "-") return intervals;  // a stream is gone
   const std::string robot = options.robot.empty() ? "" : " --robot " + options.robot;
   const std::string mapping = options.mapping.empty() ? "" : " --mapping " + options.mapping;
-  return fmt::format(
-      "{0:<12} {1}, {2}\n{3}{4:<12} touchdown watch {5} --labels {1}{6}{7}\n"
-      "{8:<12} touchdown estimate {5} --labels {1}{6}{7}\n",
-      "proposal", path, experiments::plural(labels.intervals.size(), "interval"),
-      least_sure(labels.intervals), "next", log, robot, mapping, "then");
+  const std::string rest = fmt::format("{} --labels {}{}{}", log, path, robot, mapping);
+  return intervals + fmt::format("{:<12} touchdown watch {}\n{:<12} touchdown estimate {}\n",
+                                 "next", rest, "then", rest);
 }
 
 /// Writes the beliefs about one log: table, annotated log, figure and summary.
@@ -153,7 +155,7 @@ class BeliefWriter {
   std::int64_t valid_steps() const { return summary_->valid_steps(); }
   double duration() const { return summary_->duration(); }
   const render::LogTrace& trace() const { return trace_; }
-  logs::ContactIntervals proposed_labels() { return proposal_->finish(); }
+  const std::optional<experiments::LabelProposal>& proposal() const { return proposal_; }
 
  private:
   /// What the truth of a score is.
@@ -273,7 +275,7 @@ std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* 
                          const EstimateOutputs& outputs, const CliSession& session) {
   std::string summary;
   std::size_t findings = 0;
-  logs::ContactIntervals proposed;
+  std::optional<experiments::LabelProposal> proposal;
   write_outputs(outputs, [&](const EstimateStreams& streams) {
     BeliefWriter writer(streams,
                         flags.request.figure.empty() ? std::nullopt : std::optional(flags.drawn));
@@ -288,7 +290,7 @@ std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* 
     const Evaluation evaluation = evaluate(reader, estimator, labels, writer, session);
     summary = evaluation.summary;
     findings = evaluation.findings.size();
-    proposed = writer.proposed_labels();
+    proposal = writer.proposal();
     if (!live) end_if(session.stop);
     print_warnings(reader.warnings());
     require_valid_steps(reader, writer, evaluation.findings);
@@ -309,7 +311,7 @@ std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* 
   if (!outputs.mcap.empty()) summary += fmt::format("{:<12} {}\n", "bag", outputs.mcap.string());
   if (!outputs.mpack.empty()) summary += fmt::format("{:<12} {}\n", "log", outputs.mpack.string());
   if (!outputs.proposal.empty()) {
-    summary += propose(proposed, outputs.proposal.string(), path, flags.log);
+    summary += propose(proposal->finish(), outputs.proposal.string(), path, flags.log);
   }
   print_text(outputs, summary);
   return findings;
@@ -318,7 +320,7 @@ std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* 
 void estimate(const EstimateFlags& flags, const CliSession& session) {
   const experiments::LogEstimator estimator = estimator_for(flags.log);
   const std::vector<EstimateOutputs> outputs =
-      estimate_outputs(flags.logs, flags.log.model, flags.labels, flags.request);
+      estimate_outputs(flags.logs, flags.log, flags.labels, flags.request);
   const std::vector<logs::ContactIntervals> labels =
       logs::read_contact_intervals(flags.labels, flags.logs.size());
   std::size_t findings = 0;

@@ -59,8 +59,7 @@ EstimateOutputs sorted_by_kind(const EstimateRequest& request) {
 void check(const fs::path& output, std::set<fs::path>& seen) {
   if (output.empty() || output == "-") return;
   if (!seen.insert(absolute_path(output).lexically_normal()).second) {
-    throw InputError(
-        fmt::format("{}: would be written for two logs of that name", output.string()));
+    throw InputError(fmt::format("{}: would be written twice: name another file", output.string()));
   }
 }
 
@@ -96,7 +95,7 @@ std::vector<fs::path> figure_files(const fs::path& stem) {
 }
 
 std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& logs,
-                                              const std::string& model,
+                                              const LogOptions& options,
                                               const std::vector<std::string>& labels,
                                               const EstimateRequest& request) {
   EstimateOutputs given = sorted_by_kind(request);
@@ -105,9 +104,9 @@ std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& lo
   if (live && given.csv.empty()) given.csv = "-";
   std::vector<EstimateOutputs> all;
   std::set<fs::path> seen;
-  std::vector<InputFile> inputs = {{model, "model"}};
+  std::vector<InputFile> inputs = {{options.model, "model"}};
   for (const std::string& file : labels) inputs.push_back({file, "file of labels"});
-  for (const std::string& log : logs) inputs.push_back({log, "log"});
+  for (const std::string& log : logs) add_log(log, options.mapping, inputs);
   std::vector<fs::path> files;
   std::set<fs::path> styles;  // one style file for all figures of a folder
   for (const std::string& log : logs) {

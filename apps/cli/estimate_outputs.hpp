@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/cli/log_options.hpp"
+
 namespace touchdown::cli {
 
 /// Output files of the beliefs about one log. An empty path means no output.
@@ -38,7 +40,7 @@ struct EstimateRequest {
 /// outputs of one kind, an output that two logs share, and those of `check_outputs`; `Error` for an
 /// output that cannot be written.
 std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& logs,
-                                              const std::string& model,
+                                              const LogOptions& options,
                                               const std::vector<std::string>& labels,
                                               const EstimateRequest& request);
 

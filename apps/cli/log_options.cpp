@@ -43,6 +43,12 @@ experiments::LogEstimator estimator_for(const LogOptions& options) {
                                      experiments::hyperparameters_of(options.hyperparameters)});
 }
 
+void add_log(const std::string& log, const std::string& mapping, std::vector<InputFile>& inputs) {
+  for (const std::filesystem::path& file : logs::files_of_log(log, mapping)) {
+    inputs.push_back({file, file == mapping ? "mapping" : "log"});
+  }
+}
+
 logs::LogReader open_log(const std::string& path, const LogOptions& options,
                          const CliSession& session, const LogOpening& opening) {
   const bool is_live = path == "-";

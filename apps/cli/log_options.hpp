@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/cli/verb.hpp"
+#include "core/program.hpp"
 #include "experiments/logs/estimator.hpp"
 #include "logs/log/reader.hpp"
 
@@ -25,6 +26,9 @@ void add_log_options(Verb& verb, LogOptions& options);
 
 /// Errors: those of `experiments::log_estimator`.
 experiments::LogEstimator estimator_for(const LogOptions& options);
+
+/// Adds all files of a log, so that no output replaces one of them.
+void add_log(const std::string& log, const std::string& mapping, std::vector<InputFile>& inputs);
 
 struct LogOpening {
   bool with_bytes = false;  ///< whether a mapped log's records are read as bytes, too

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "core/error.hpp"
 #include "estimator/signal_guard.hpp"
 
 namespace touchdown::experiments {
@@ -12,6 +15,7 @@ LabelProposal::LabelProposal(double period)
       window_(std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(0.02 / period)))) {}
 
 void LabelProposal::add(double time, const Belief& belief) {
+  if (std::isfinite(last_ - time)) furthest_back_ = std::max(furthest_back_, last_ - time);
   if (!(time > last_) || !is_used(belief.status)) return;
   const std::array<bool, 2> contact = {belief.wheel[0].contact, belief.wheel[1].contact};
   const bool is_gap = !(time - last_ <= SignalGuardConfig{}.maximum_gap);
@@ -33,6 +37,12 @@ void LabelProposal::add(double time, const Belief& belief) {
 }
 
 logs::ContactIntervals LabelProposal::finish() {
+  if (furthest_back_ > SignalGuardConfig{}.maximum_gap) {
+    throw InputError(
+        fmt::format("--propose: time goes back by {:.3g} s, and labels are intervals of one time: "
+                    "split the log",
+                    furthest_back_));
+  }
   end_last(last_ + period_);
   return std::move(all_);
 }

@@ -22,6 +22,8 @@ class LabelProposal {
   /// are left out.
   void add(double time, const Belief& belief);
 
+  /// Errors: `InputError` for a log whose time went back by more than a gap: labels are intervals
+  /// of one time.
   logs::ContactIntervals finish();
 
  private:
@@ -32,6 +34,7 @@ class LabelProposal {
   double period_;               ///< s
   std::size_t window_;          ///< steps
   double last_ = -INFINITY;
+  double furthest_back_ = 0.0;                                       ///< s
   std::array<std::deque<double>, models::wheel_count> probability_;  ///< of the decision
   std::array<double, models::wheel_count> sum_ = {};
 };

@@ -28,15 +28,28 @@ struct WrongRows {
   std::size_t behind = 0;
 };
 
-/// `latest` has the latest time up to each row of the recording before the step; `ahead` are its
-/// rows from the step on. Empty if few wrong rows do not explain it.
+/// Whether the clock goes on from `latest` at this row, and at most of those behind it, of which
+/// one may be wrong, too.
+bool goes_on(const Rows& rows, std::size_t next, double latest) {
+  constexpr std::size_t looked_at = 2 * SourceJoin::longest_error;
+  const auto is_later = [&](std::size_t i) {
+    return rows[i].time >= latest - SourceJoin::largest_disorder;
+  };
+  if (next >= rows.size() || !is_later(next)) return false;
+  const std::size_t end = std::min(next + looked_at, rows.size());
+  std::size_t later = 0;
+  for (std::size_t i = next; i < end; ++i) later += is_later(i) ? 1 : 0;
+  return 2 * later > end - next;
+}
+
+/// `latest` has the latest time up to each row of the recording before the step. Empty if few wrong
+/// rows do not explain it.
 std::optional<WrongRows> wrong_rows(std::span<const double> latest, const Rows& rows,
                                     std::size_t step) {
   for (std::size_t count = 1; count <= SourceJoin::longest_error; ++count) {
     for (std::size_t before = 0; before <= std::min(count, latest.size() - 1); ++before) {
       const std::size_t next = step + count - before;
-      if (next < rows.size() &&
-          rows[next].time >= latest[latest.size() - 1 - before] - SourceJoin::largest_disorder) {
+      if (goes_on(rows, next, latest[latest.size() - 1 - before])) {
         return WrongRows{before, count - before};
       }
     }

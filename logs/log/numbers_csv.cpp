@@ -18,7 +18,7 @@ template <typename Real>
 std::optional<Real> number_of(std::string_view text);
 
 /// Seconds since 1970 of a date and time as pandas and loggers write them: 2024-02-28 01:02:03.25,
-/// with T instead of the blank, with or without Z.
+/// with T instead of the blank, with or without Z or an offset such as +01:00.
 template <typename Real>
 std::optional<Real> date_and_time(std::string_view text) {
   constexpr std::size_t seconds_at = 17;
@@ -33,9 +33,19 @@ std::optional<Real> date_and_time(std::string_view text) {
   const int day = date.tm_mday;
   const auto since_1970 = static_cast<Real>(::timegm(&date));  // moves the 30th of February
   if (text.ends_with('Z')) text.remove_suffix(1);
+  constexpr std::size_t zone_width = 6;
+  Real east = 0;  // s
+  const std::size_t zone = text.size() - zone_width;
+  if (zone > seconds_at && (text[zone] == '+' || text[zone] == '-')) {
+    const auto hours = number_of<Real>(text.substr(zone + 1, 2));
+    const auto minute = number_of<Real>(text.substr(zone + 4, 2));
+    if (text[zone + 3] != ':' || !hours || !minute) return std::nullopt;
+    east = (text[zone] == '+' ? 1 : -1) * (3600 * *hours + 60 * *minute);
+    text = text.substr(0, zone);
+  }
   const auto second = number_of<Real>(text.substr(seconds_at));
   if (end != minutes.c_str() + seconds_at || day != date.tm_mday || !second) return std::nullopt;
-  return since_1970 + *second;
+  return since_1970 - east + *second;
 }
 
 template <typename Real>

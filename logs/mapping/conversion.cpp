@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/stop.hpp"
 #include "logs/held_number.hpp"
 #include "logs/log/writer.hpp"
@@ -333,6 +334,25 @@ std::unique_ptr<RecordSource> mapped_records(const std::filesystem::path& log,
                                              const std::filesystem::path& mapping,
                                              const MappingOptions& options) {
   return std::make_unique<MappedRecords>(log, mapping, options);
+}
+
+std::vector<std::filesystem::path> files_of_log(const std::filesystem::path& log,
+                                                const std::filesystem::path& mapping) {
+  std::vector<std::filesystem::path> files = {log};
+  if (mapping.empty()) return files;
+  files.push_back(mapping);
+  const LogSources sources = read_log_sources(mapping);
+  const bool is_whole_folder = is_folder(log);
+  const std::filesystem::path folder = is_whole_folder ? log : log.parent_path();
+  for (const auto* section : {&sources.joints, &sources.imu, &sources.contact}) {
+    for (const std::string& file : *section) {
+      if (sources.are_files()) files.push_back(folder / file);
+    }
+  }
+  if (!sources.are_files() && is_whole_folder) {
+    for (const std::filesystem::path& entry : entries_in(log)) files.push_back(entry);
+  }
+  return files;
 }
 
 LogReader open_log(const std::filesystem::path& log, const std::filesystem::path& mapping,

@@ -45,6 +45,11 @@ std::unique_ptr<RecordSource> mapped_records(const std::filesystem::path& log,
                                              const std::filesystem::path& mapping,
                                              const MappingOptions& options = {});
 
+/// The files that a log is read from, which an output must not replace: those of the mapping's
+/// sources, and those of a bag. `mapping` may be empty. Errors: those of the mapping.
+std::vector<std::filesystem::path> files_of_log(const std::filesystem::path& log,
+                                                const std::filesystem::path& mapping);
+
 /// Opens a log in Upkie's layout, or another robot's by a mapping file; `mapping` may be empty. A
 /// log in Upkie's layout ends early once `stop` is true.
 LogReader open_log(const std::filesystem::path& log, const std::filesystem::path& mapping,

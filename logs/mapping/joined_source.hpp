@@ -95,7 +95,7 @@ class JoinedSource : public RowSource {
       };
       throw InputError(fmt::format(
           "{}: the clock of {} starts again {}, that of {} {}, so that it is unknown which rows "
-          "belong together: split the files there",
+          "belong together: split the files there, or remove rows with wrong times",
           log_.string(), names_[clock_].file, text(expected), names_[i].file, text(restarts)));
     }
   }

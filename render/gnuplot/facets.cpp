@@ -128,7 +128,10 @@ class FacetFigure {
     shape.has_titles = std::ranges::any_of(
         panels_, [&](std::size_t panel) { return !title_of(spec_.panels, panel).empty(); });
     shape.is_own_x = is_ordinal();
-    shape.row_names = has_rows() ? widest(spec_.rows, rows_) + 26.0 : 0.0;
+    constexpr double axis_title = 42.0;  // px, with the tics' distance
+    shape.row_names = has_rows()   ? widest(spec_.rows, rows_) + 26.0
+                      : is_image() ? std::max(text_width(steps_of(spec_.y, {})) + axis_title, 68.0)
+                                   : 0.0;
     shape.key = is_image()           ? scale_width
                 : series_.size() > 1 ? widest(spec_.series, series_) + 66.0
                                      : 24.0;

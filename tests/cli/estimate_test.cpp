@@ -422,7 +422,7 @@ TEST_F(Estimate, AnswersWrongRequestsInOneLine) {
        {"estimate a.mpack --model m.npz -o b.csv -o c.csv", {"one kind"}},
        {"estimate a.mpack --model m.npz -o a.mpack", {"the log itself"}},
        {"estimate a.mpack --model m.npz --labels hangs.csv -o hangs.csv", {"hangs.csv"}},
-       {"estimate a.mpack a.mpack --model m.npz -o b.csv", {"two logs"}},
+       {"estimate a.mpack a.mpack --model m.npz -o b.csv", {"b.csv", "twice"}},
        {"estimate a.mpack --model m.npz --figure b.jpg", {".png"}},
        {"estimate a.mpack --model m.npz --figure none.png --from 5", {"no step between"}},
        {"estimate a.mpack - --model m.npz", {"alone"}},

@@ -116,10 +116,22 @@ TEST_F(Label, NeverReplacesWhatAPersonMayHaveCorrected) {
   }
 }
 
+TEST_F(Label, ALogWhoseTimeGoesBackHasNoLabelsButItsBeliefs) {
+  logs::Recording log = test::robot_log(2.0);
+  for (std::size_t k = 1000; k < 2000; ++k) log.observation[k].time -= 0.9;
+  logs::write_recording(log, folder_ / "robot.mpack");
+  const Ended ended = folder_.run("estimate robot.mpack --propose labels.csv -o beliefs.csv");
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_THAT(ended.errors, HasSubstr("--propose: time goes back by 0."));
+  EXPECT_FALSE(folder_.has("labels.csv"));
+  EXPECT_TRUE(folder_.has("beliefs.csv"));
+}
+
 TEST_F(Label, RefusesWhatItCannotLabel) {
   logs::write_recording(test::robot_log(2.0), folder_ / "robot.mpack");
   folder_.expect_refusals({{"estimate robot.mpack --propose l.csv --estimator robust", {"--model"}},
                            {"estimate robot.mpack --propose l.npz", {".csv"}},
+                           {"estimate robot.mpack --propose l.csv -o l.csv", {"l.csv", "twice"}},
                            {"estimate robot.mpack --propose robot.mpack", {"robot.mpack"}}});
   EXPECT_FALSE(folder_.has("l.csv"));
 }

@@ -191,6 +191,23 @@ TEST_F(InFolder, TurnsTheMotorsOfClosedLegsIntoHipsAndKnees) {
   }
 }
 
+TEST_F(Mapping, NoOutputReplacesASourceOfTheLog) {
+  folder_.write("joined.yaml", "sources: {joints: si.csv, imu: imu.csv}\njoints: {}\n");
+  folder_.write("imu.csv", "t,gx\n0,1\n");
+  const std::string joints = folder_.text("si.csv");
+  for (const std::string log : {".", "si.csv", "imu.csv"}) {
+    for (const std::string source : {"si.csv", "imu.csv"}) {
+      const std::string mapped = log + " --mapping joined.yaml ";
+      const std::vector<std::string> named = {source + ": is the log itself"};
+      folder_.expect_refusals({{"estimate " + mapped + "-o " + source, named},
+                               {"estimate " + mapped + "--propose " + source, named},
+                               {"convert " + mapped + "-o x.mpack --labels " + source, named}});
+    }
+  }
+  EXPECT_EQ(folder_.text("si.csv"), joints);
+  EXPECT_EQ(folder_.text("imu.csv"), "t,gx\n0,1\n");
+}
+
 TEST_F(Mapping, InconsistentRequestsAreRefusedAndNothingIsWritten) {
   folder_.write("bad.csv", "t,lh_q\n0,1\n");
   folder_.expect_refusals(

@@ -659,6 +659,27 @@ TEST_F(ClocksOfFiles, RecordingsAreJoinedEachWithItsOwn) {
   EXPECT_EQ(converted_.incomplete_rows, 0U);
 }
 
+TEST_F(ClocksOfFiles, AWrongTimeBesideARestartIsLeftOut) {
+  const auto again = [](std::vector<Shown>& rows, double rate) {
+    for (const Shown& row : shown(rate, 1.0)) rows.push_back({row.clock, row.t + 10.0});
+    return rows;
+  };
+  const auto joints = again(joints_, 500.0);
+  const auto imu = again(imu_, 200.0);
+  for (const std::size_t behind : {1U, 2U, 3U, 4U}) {
+    for (const double wrong : {-0.5, 0.3, 1e6}) {
+      joints_[500 + behind].clock = fmt::format("{}", wrong);
+      EXPECT_EQ(converted_rows(), 999U) << behind << ' ' << wrong;
+      EXPECT_EQ(converted_.time_reversals, 1U);
+      joints_ = joints;
+      imu_[200 + behind].clock = fmt::format("{}", wrong);
+      EXPECT_EQ(converted_rows(), 1000U) << behind << ' ' << wrong;
+      EXPECT_EQ(converted_.incomplete_rows, 0U) << behind << ' ' << wrong;
+      imu_ = imu;
+    }
+  }
+}
+
 TEST_F(ClocksOfFiles, AFileThatLacksARecordingIsRefused) {
   for (auto* rows : {&joints_, &imu_}) {
     const auto once = *rows;
