@@ -79,9 +79,9 @@ std::string propose(const logs::ContactIntervals& labels, const std::string& pat
         path));
   }
   write_atomically(path, proposal);
-  const std::string intervals = fmt::format(
-      "{:<12} {}, {}\n{}", "proposal", path,
-      experiments::plural(labels.intervals.size(), "interval"), least_sure(labels.intervals));
+  std::string intervals = fmt::format("{:<12} {}, {}\n{}", "proposal", path,
+                                      experiments::plural(labels.intervals.size(), "interval"),
+                                      least_sure(labels.intervals));
   if (log == "-") return intervals;  // a stream is gone
   const std::string robot = options.robot.empty() ? "" : " --robot " + options.robot;
   const std::string mapping = options.mapping.empty() ? "" : " --mapping " + options.mapping;
