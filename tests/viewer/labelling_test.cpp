@@ -168,8 +168,8 @@ TEST(ALog, IsLabelledToFiveMillisecondsFromProposalsByFewKeys) {
   const auto labels = folder / "labels.csv";
   const std::string program = "cd '" TOUCHDOWN_SOURCE_DIR "' && " TOUCHDOWN_PROGRAM " ";
   ASSERT_EQ(std::system((program + "simulate drawn:put_downs_11_000 -o '" + log.string() +
-                         "' >/dev/null && " + program + "label '" + log.string() + "' -o '" +
-                         labels.string() + "' >/dev/null")
+                         "' >/dev/null && " + program + "estimate '" + log.string() +
+                         "' --propose '" + labels.string() + "' >/dev/null")
                             .c_str()),
             0);
   const logs::Recording recording = logs::read_recording(log);

@@ -233,7 +233,8 @@ TEST(WatchSession, EditsLabelsOfALogThatIsReadByItsMapping) {
       "angular_velocity: {from: [gx, gy, gz]}, proper_acceleration: {from: [ax, ay, az]}}\n");
   const auto labels = folder / "labels.csv";
   const std::string arguments = quoted(table) + " --mapping " + quoted(mapping);
-  ASSERT_EQ(shell(folder, TOUCHDOWN_PROGRAM " label " + arguments + " -o " + quoted(labels)), 0)
+  ASSERT_EQ(
+      shell(folder, TOUCHDOWN_PROGRAM " estimate " + arguments + " --propose " + quoted(labels)), 0)
       << text(folder, "err");
   EXPECT_THAT(text(folder, "out"),
               HasSubstr("touchdown estimate " + table.string() + " --labels " + labels.string() +
