@@ -94,8 +94,9 @@ std::string propose(const logs::ContactIntervals& labels, const std::string& pat
 class BeliefWriter {
  public:
   /// A null stream means no such output. Streams must outlive this object.
-  BeliefWriter(const EstimateStreams& streams, const std::optional<DrawnPart>& drawn)
-      : csv_(streams.csv), drawn_(drawn) {
+  BeliefWriter(const EstimateStreams& streams, const std::optional<DrawnPart>& drawn,
+               bool proposes_labels)
+      : proposes_labels_(proposes_labels), csv_(streams.csv), drawn_(drawn) {
     if (streams.mpack != nullptr) annotator_.emplace(*streams.mpack);
     if (streams.mcap != nullptr) bag_.emplace(*streams.mcap);
   }
@@ -106,7 +107,7 @@ class BeliefWriter {
     is_labelled_ = labelled;
     threshold_ = scoring::force_threshold(labels_, log.robot_mass());
     summary_.emplace(log.period(), scoring::ScoringConfig{});
-    proposal_.emplace(log.period());
+    if (proposes_labels_) proposal_.emplace(log.period());
     score_.emplace(log.period_us(), labels_, log.robot_mass(), scoring::ScoringConfig{}, labelled);
   }
 
@@ -115,7 +116,7 @@ class BeliefWriter {
            const ContactEstimator& estimator, const Belief& belief) {
     const double time = step.signals.time;
     summary_->add(time, belief);
-    proposal_->add(time, belief);
+    if (proposal_) proposal_->add(time, belief);
     score_->add(step.normal_force, step.truth, belief);
     if (bag_) bag_->write(reader.stamp(), belief);
     if (csv_ == nullptr && !annotator_ && !drawn_) return;
@@ -155,7 +156,7 @@ class BeliefWriter {
   std::int64_t valid_steps() const { return summary_->valid_steps(); }
   double duration() const { return summary_->duration(); }
   const render::LogTrace& trace() const { return trace_; }
-  const std::optional<experiments::LabelProposal>& proposal() const { return proposal_; }
+  std::optional<experiments::LabelProposal> take_proposal() { return std::move(proposal_); }
 
  private:
   /// What the truth of a score is.
@@ -187,6 +188,7 @@ class BeliefWriter {
   scoring::LabelConfig labels_;
   bool is_labelled_ = false;  ///< by a file
   double threshold_ = 0.0;    ///< of the log's own truth (N)
+  bool proposes_labels_;
   std::ostream* csv_;
   std::optional<experiments::BeliefBag> bag_;
   std::optional<logs::LogAnnotator> annotator_;
@@ -278,7 +280,8 @@ std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* 
   std::optional<experiments::LabelProposal> proposal;
   write_outputs(outputs, [&](const EstimateStreams& streams) {
     BeliefWriter writer(streams,
-                        flags.request.figure.empty() ? std::nullopt : std::optional(flags.drawn));
+                        flags.request.figure.empty() ? std::nullopt : std::optional(flags.drawn),
+                        !outputs.proposal.empty());
     const bool live = path == "-";
     // A reader of a live stream gets every line before the program waits for the next record.
     const auto before_read = [&] {
@@ -290,7 +293,7 @@ std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* 
     const Evaluation evaluation = evaluate(reader, estimator, labels, writer, session);
     summary = evaluation.summary;
     findings = evaluation.findings.size();
-    proposal = writer.proposal();
+    proposal = writer.take_proposal();
     if (!live) end_if(session.stop);
     print_warnings(reader.warnings());
     require_valid_steps(reader, writer, evaluation.findings);
@@ -310,7 +313,7 @@ std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* 
   }
   if (!outputs.mcap.empty()) summary += fmt::format("{:<12} {}\n", "bag", outputs.mcap.string());
   if (!outputs.mpack.empty()) summary += fmt::format("{:<12} {}\n", "log", outputs.mpack.string());
-  if (!outputs.proposal.empty()) {
+  if (proposal) {
     summary += propose(proposal->finish(), outputs.proposal.string(), path, flags.log);
   }
   print_text(outputs, summary);

@@ -344,12 +344,9 @@ std::vector<std::filesystem::path> files_of_log(const std::filesystem::path& log
   const LogSources sources = read_log_sources(mapping);
   const bool is_whole_folder = is_folder(log);
   const std::filesystem::path folder = is_whole_folder ? log : log.parent_path();
-  for (const auto* section : {&sources.joints, &sources.imu, &sources.contact}) {
-    for (const std::string& file : *section) {
-      if (sources.are_files()) files.push_back(folder / file);
-    }
-  }
-  if (!sources.are_files() && is_whole_folder) {
+  if (sources.are_files()) {
+    for (const std::string& file : sources.all()) files.push_back(folder / file);
+  } else if (is_whole_folder) {
     for (const std::filesystem::path& entry : entries_in(log)) files.push_back(entry);
   }
   return files;

@@ -50,9 +50,7 @@ std::vector<std::unique_ptr<RowSource>> files_of(const fs::path& log, const LogS
                                                  LogNotes& notes) {
   const bool is_whole_folder = is_folder(log);
   const fs::path folder = is_whole_folder ? log : log.parent_path();
-  std::vector<std::string> all = sources.joints;
-  all.insert(all.end(), sources.imu.begin(), sources.imu.end());
-  all.insert(all.end(), sources.contact.begin(), sources.contact.end());
+  const std::vector<std::string> all = sources.all();
   const bool is_one_of_them = std::ranges::any_of(
       all, [&](const std::string& file) { return fs::path(file).filename() == log.filename(); });
   if (!is_whole_folder && !is_one_of_them) {

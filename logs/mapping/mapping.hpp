@@ -32,6 +32,8 @@ struct LogSources {
   bool empty() const { return joints.empty() && imu.empty(); }  ///< the log is one file, or a bag
   /// Whether they are named like files, not like topics.
   bool are_files() const;
+  /// The names in all sections.
+  std::vector<std::string> all() const;
 };
 
 /// Reads only `sources` of a mapping file. Errors: `InputError` with file:line:column.

@@ -312,6 +312,13 @@ bool LogSources::are_files() const {
   return std::ranges::any_of(joints, is_file_name) || std::ranges::any_of(imu, is_file_name);
 }
 
+std::vector<std::string> LogSources::all() const {
+  std::vector<std::string> names = joints;
+  names.insert(names.end(), imu.begin(), imu.end());
+  names.insert(names.end(), contact.begin(), contact.end());
+  return names;
+}
+
 LogSources read_log_sources(const std::filesystem::path& mapping) {
   const YamlDocument document = load_mapping(mapping);
   LogSources sources;
