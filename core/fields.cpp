@@ -22,16 +22,24 @@ YAML::Node node_of(const YAML::Node& mapping, std::string_view key) {
   return YAML::Node(YAML::NodeType::Undefined);
 }
 
+/// The names of the keys whose paths are `prefix` and a name: "" for the first level, or "imu.".
+std::vector<std::string> names_at(const std::string& prefix, const std::vector<Key>& keys) {
+  std::vector<std::string> names;
+  for (const Key& key : keys) {
+    if (key.path.starts_with(prefix) &&
+        key.path.find_first_of(".[", prefix.size()) == std::string::npos) {
+      names.push_back(key.path.substr(prefix.size()));
+    }
+  }
+  return names;
+}
+
 /// "time, velocity": the keys of a list's items.
 std::string item_keys(const std::function<void(Fields&, std::size_t)>& describe_item) {
   KeyCollection keys;
   Fields item(keys);
   describe_item(item, 0);
-  std::vector<std::string> names;
-  for (const Key& key : keys.keys()) {
-    if (key.path.find_first_of(".[") == std::string::npos) names.push_back(key.path);
-  }
-  return fmt::format("{}", fmt::join(names, ", "));
+  return fmt::format("{}", fmt::join(names_at("", keys.keys()), ", "));
 }
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
@@ -205,15 +213,25 @@ void Fields::know(std::string_view key) {
 
 std::size_t Fields::size() const { return node_.IsMap() ? node_.size() : 0; }
 
-void Fields::finish() const {
+void Fields::refuse_undocumented(const std::vector<Key>& keys) const {
+  const auto known = names_at(path_.empty() ? "" : path_ + ".", keys);
+  if (known.empty()) return;
+  refuse_all_but(known);
+  for (const auto& entry : node_) {
+    if (!entry.second.IsMap()) continue;
+    Fields(entry.second, document_, path_to(entry.first.Scalar())).refuse_undocumented(keys);
+  }
+}
+
+void Fields::refuse_all_but(const std::vector<std::string>& known) const {
   if (!reading() || !node_ || !node_.IsMap()) return;
   for (const auto& entry : node_) {
     const auto key = entry.first.as<std::string>();
-    if (contains(known_, key)) continue;
-    std::string hint = did_you_mean(key, known_);
+    if (contains(known, key)) continue;
+    std::string hint = did_you_mean(key, known);
     const bool may_be_another_word = hint.empty() || key.size() < 4;
-    if (may_be_another_word && !known_.empty()) {
-      hint += fmt::format(" (known: {})", fmt::join(known_, ", "));
+    if (may_be_another_word && !known.empty()) {
+      hint += fmt::format(" (known: {})", fmt::join(known, ", "));
     }
     fail(entry.first, key, fmt::format("unknown key{}", hint));
   }

@@ -238,7 +238,11 @@ class Fields {
   /// Reading: reports the first key that has not been described, and suggests the nearest one that
   /// has. Called automatically at the end. Call it earlier, before a check that a misspelt key
   /// would fail, for a clearer message.
-  void finish() const;
+  void finish() const { refuse_all_but(known_); }
+  /// Reading: reports the first key in this or an inner section that is not among the documented
+  /// `keys`, and suggests the nearest one. Call it before a file is read, so that a misspelt key is
+  /// not reported as a missing one. Items of lists, and sections without documented keys, pass.
+  void refuse_undocumented(const std::vector<Key>& keys) const;
 
   // Checks are of what is read; documenting skips them.
   /// Reading: reports an error at the key's value unless `holds`.
@@ -276,6 +280,7 @@ class Fields {
   void items(std::string_view key, std::size_t count,
              const std::function<void(Fields&, std::size_t)>& describe_item);
 
+  void refuse_all_but(const std::vector<std::string>& known) const;
   bool has(std::string_view key) const;
   /// Returns the node under `key`, undefined if absent, and marks the key as known.
   YAML::Node take(std::string_view key);

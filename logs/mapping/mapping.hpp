@@ -36,7 +36,8 @@ struct LogSources {
   std::vector<std::string> all() const;
 };
 
-/// Reads only `sources` of a mapping file. Errors: `InputError` with file:line:column.
+/// Reads only `sources` of a mapping file. Errors: `InputError` with file:line:column, also for
+/// unknown keys of other sections.
 LogSources read_log_sources(const std::filesystem::path& mapping);
 
 /// One column of numbers of another robot's log: a named column of a CSV file, a whole `.npz` array

@@ -29,8 +29,6 @@ bool is_file_name(const std::string& name) {
 }
 
 void describe_sources(Fields& fields, LogSources& sources) {
-  for (const char* key : {"joints", "imu", "contact", "stale_after"}) fields.know(key);
-  fields.finish();
   describe_names(
       fields, "joints", sources.joints,
       "Files of one folder, or topics of a bag, with the joints. Their clock is the log's. Without "
@@ -53,17 +51,12 @@ void describe_clock(Fields& fields, MappingReader& reader, SourceClock& clock) {
   const SignalKind time{
       "the time of each row", 1, {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}};
   const bool has_parts = fields.present("sec", false) || fields.present("nanosec", false);
-  if (!has_parts) {
-    fields.know("sec");
-    fields.know("nanosec");
-  }
   if (!has_parts || fields.documenting()) reader.describe_signal(fields, time, clock.time);
   if (!has_parts) return;
   std::string sec;
   std::string nanosec;
   fields.require("sec", sec).fallback("none").doc("Column of whole seconds, instead of `from`.");
   fields.require("nanosec", nanosec).fallback("none").doc("Column of nanoseconds beside `sec`.");
-  fields.finish();
   SignalKind part = time;
   part.names = {sec};
   reader.take_default(fields, "sec", part, clock.time);
@@ -189,8 +182,6 @@ void describe_axes(Fields& fields, bool is_imu, Eigen::Matrix3d& axes) {
 }
 
 void describe_imu(Fields& fields, MappingReader& reader, LogMapping& mapping) {
-  expect_keys(fields, {"time", "orientation", "angular_velocity", "linear_acceleration",
-                       "proper_acceleration", "axes", "rotation"});
   const bool is_imu = reader.names().is_imu;
   const auto kind = [&](const char* signal, const std::vector<Unit>& units) {
     SignalKind one{"x, y, z", 3, units};
@@ -258,7 +249,6 @@ void describe_contact(Fields& fields, MappingReader& reader, LogMapping& mapping
 
 void describe_mapping(Fields& fields, MappingReader& reader, LogMapping& mapping,
                       bool with_labels) {
-  expect_keys(fields, {"robot", "sources", "period", "time", "joints", "imu", "contact"});
   fields("robot", mapping.robot)
       .fallback("none")
       .doc("Name of the robot; a model that was fitted to another robot is then refused.");
@@ -294,7 +284,7 @@ void describe_mapping(Fields& fields, MappingReader& reader, LogMapping& mapping
   }
 }
 
-/// Errors: `InputError` also for a robot's file: `--robot` stands beside `--mapping`.
+/// Errors: `InputError` also for unknown keys, and for a robot's file, which `--robot` takes.
 YamlDocument load_mapping(const std::filesystem::path& path) {
   require_file(path);
   YamlDocument document = YamlDocument::load(path);
@@ -303,6 +293,7 @@ YamlDocument load_mapping(const std::filesystem::path& path) {
         "{}: is a robot's file, which --robot takes: expected a mapping file, with joints and imu",
         path.string()));
   }
+  Fields(document).refuse_undocumented(mapping_keys());
   return document;
 }
 

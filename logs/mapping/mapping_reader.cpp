@@ -98,14 +98,9 @@ std::vector<Unit> torques() { return {{"Nm", 1.0}, {"mNm", 1e-3}}; }
 
 std::vector<Unit> accelerations() { return {{"m/s^2", 1.0}, {"g", standard_gravity}}; }
 
-void expect_keys(Fields& fields, std::initializer_list<const char*> keys) {
-  for (const char* key : keys) fields.know(key);
-  fields.finish();
-}
-
 KeyNotes number_for_each(Fields& fields, const std::string& key, std::size_t count,
                          std::vector<double>& values) {
-  if (!fields.present(key, false)) return {};
+  if (!fields.given(key, false)) return {};
   const KeyNotes notes = one_or_more(fields, key, values);
   if (values.size() == 1) values.resize(count, values.front());
   fields.check(values.size() == count, key, fmt::format("expected a number, or {}", count));
@@ -162,11 +157,6 @@ void MappingReader::take_default(const Fields& fields, std::string_view key, con
 }
 
 void MappingReader::describe_signal(Fields& fields, const SignalKind& kind, MappedSignal& signal) {
-  const auto is_item = [](const std::string& name) { return name.find('[') != std::string::npos; };
-  if (names().are_arrays || std::ranges::any_of(names().names, is_item)) fields.know("index");
-  if (kind.has_zero) fields.know("zero");
-  if (!kind.units.empty()) fields.know("unit");
-  expect_keys(fields, {"from", "sign", "scale"});
   const bool has_from = kind.names.empty() || fields.present("from", false);
   if (kind.names.empty()) fields.require("from");
   std::vector<SourceColumn> columns;
@@ -216,7 +206,9 @@ std::vector<SourceColumn> MappingReader::columns_of(Fields& fields, const Signal
                  fmt::format("'{}' has {} numbers: expected `index` with {} of them, from 0: {}",
                              from.front(), width, kind.count, kind.what));
   };
-  const bool has_index = !names().are_arrays && fields.present("index", false);
+  const auto is_item = [](const std::string& name) { return name.find('[') != std::string::npos; };
+  const bool has_index = !names().are_arrays && fields.present("index", false) &&
+                         std::ranges::any_of(names().names, is_item);
   fields.check(!has_index || from.size() == 1, "index", "expected one list in 'from'");
   if (!names().are_arrays && from.size() == 1 &&
       (has_index || (kind.count > 1 && is_there(item_of(from[0], 0))))) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -37,9 +36,6 @@ struct SignalKind {
   std::vector<std::string> names = {};  ///< columns without `from`; empty: `from` is required
   std::vector<double> signs = {};       ///< without `sign`
 };
-
-/// Declares all valid keys, so that a misspelt key is reported as such, and not as a missing one.
-void expect_keys(Fields& fields, std::initializer_list<const char*> keys);
 
 /// Reads one number per component of a signal; `values` stay empty if the key is absent.
 KeyNotes number_for_each(Fields& fields, const std::string& key, std::size_t count,

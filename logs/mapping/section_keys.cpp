@@ -98,7 +98,6 @@ void describe_leg_targets(Fields& fields, MappingReader& reader, bool has_hips,
     return one;
   };
   const auto describe_targets = [&](Fields& inner) {
-    expect_keys(inner, {"position", "velocity", "torque", "kp", "kd"});
     reader.require(inner, "position", kind(angles(), true), targets.position)
         .doc("Commanded positions, with the signs and zeros of the joints.");
     reader.optional(inner, "velocity", kind(speeds()), targets.velocity)
@@ -139,8 +138,6 @@ void describe_closed_legs(Fields& fields, LogMapping& mapping) {
 }  // namespace
 
 void describe_joints(Fields& fields, MappingReader& reader, LogMapping& mapping) {
-  expect_keys(fields, {"names", "sign", "position", "velocity", "torque", "wheel_velocity_target",
-                       "leg_targets", "hip", "closed_legs"});
   std::size_t hip = 0;
   fields.choose("hip", {"joint", "none"}, hip)
       .doc(
@@ -195,8 +192,6 @@ void describe_mounting(Fields& fields, Eigen::Matrix3d& axes) {
   std::vector<double> quaternion;
   std::vector<double> angles;
   std::size_t unit = 0;
-  for (const char* key : {"quaternion", "rpy", "unit"}) fields.know(key);
-  fields.finish();
   const bool has_quaternion = fields.present("quaternion", false);
   const bool has_angles = fields.present("rpy", false);
   if (has_quaternion) {
