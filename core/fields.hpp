@@ -221,9 +221,9 @@ class Fields {
 
   /// Reading: whether the key is present. Writing: `has_value`. Documenting: true.
   bool present(std::string_view key, bool has_value) const;
-  /// Declares an optional key, so that it is suggested for a misspelt one.
+  /// Declares a key that is read elsewhere or later, so that it is not unknown.
   void know(std::string_view key);
-  /// The same, and whether it is present.
+  /// Declares an optional key, so that it is suggested for a misspelt one. The result of `present`.
   bool given(std::string_view key, bool has_value) {
     know(key);
     return present(key, has_value);

@@ -84,8 +84,7 @@ static void describe(Fields& fields, LoopKeys& loop) {
   };
   fields.require("anchor");
   point("anchor", loop.anchor).doc("m", "The common point, in the first body.");
-  fields.know("second_anchor");
-  if (fields.present("second_anchor", !loop.second_anchor.empty())) {
+  if (fields.given("second_anchor", !loop.second_anchor.empty())) {
     point("second_anchor", loop.second_anchor)
         .fallback("where `anchor` is in the pose of the file")
         .doc("m", "The same point, in the second body.");
@@ -95,8 +94,7 @@ static void describe(Fields& fields, LoopKeys& loop) {
 static void describe_loops(Fields& fields, PartNames& parts) {
   fields.list_if_any("loops", parts.loops)
       .doc("Loops of closed legs, where a URDF has cut them open.");
-  fields.know("motors");
-  if (!fields.present("motors", !parts.motors[0].empty() || !parts.motors[1].empty())) return;
+  if (!fields.given("motors", !parts.motors[0].empty() || !parts.motors[1].empty())) return;
   fields
       .within("motors",
               [&](Fields& motors) {
@@ -107,10 +105,9 @@ static void describe_loops(Fields& fields, PartNames& parts) {
 }
 
 static void describe_parts(Fields& fields, PartNames& parts) {
-  fields.know("joints");
   const bool has_joints = std::any_of(parts.joint.begin(), parts.joint.end(),
                                       [](const std::string& name) { return !name.empty(); });
-  if (fields.present("joints", has_joints)) {
+  if (fields.given("joints", has_joints)) {
     fields
         .within("joints",
                 [&](Fields& joints) {
@@ -123,8 +120,7 @@ static void describe_parts(Fields& fields, PartNames& parts) {
         .doc("Names of the servos' joints in the MJCF.");
   }
   std::string hip = parts.has_hips ? "joint" : "none";
-  fields.know("hip");
-  if (fields.present("hip", !parts.has_hips)) {
+  if (fields.given("hip", !parts.has_hips)) {
     fields.choose("hip", {"joint", "none"}, hip)
         .doc("Whether legs have hips; `none` for legs of a knee and a wheel.");
   }
@@ -133,9 +129,8 @@ static void describe_parts(Fields& fields, PartNames& parts) {
       .doc("Joints that servos keep at their reference, such as hip rolls.");
   check_held(fields, parts.held);
   describe_loops(fields, parts);
-  fields.know("tyres");
-  if (fields.present("tyres",
-                     !parts.tyre[0].empty() || !parts.tyre[1].empty() || parts.tyre_radius > 0.0)) {
+  if (fields.given("tyres",
+                   !parts.tyre[0].empty() || !parts.tyre[1].empty() || parts.tyre_radius > 0.0)) {
     fields
         .within("tyres",
                 [&](Fields& tyres) {
@@ -153,8 +148,7 @@ static void describe_parts(Fields& fields, PartNames& parts) {
   }
   fields.if_set(!parts.no_collision.empty(), "no_collision", parts.no_collision)
       .doc("Colliders that touch nothing: geoms, or bodies with all of theirs.");
-  fields.know("forward");
-  if (fields.present("forward", parts.forward != "auto")) {
+  if (fields.given("forward", parts.forward != "auto")) {
     fields.choose("forward", {"auto", "x", "-x", "y", "-y"}, parts.forward)
         .doc("Axis of the base that faces forward; `auto`: across the wheels' axes.");
   }

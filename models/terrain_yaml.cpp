@@ -46,8 +46,7 @@ static void describe(Fields& fields, Repetition& repetition) {
 /// Describes the piece if it is of this kind.
 template <typename Kind>
 static KeyNotes describe_kind(Fields& fields, std::string_view name, TerrainPiece& piece) {
-  fields.know(name);
-  if (!fields.present(name, std::holds_alternative<Kind>(piece))) return {};
+  if (!fields.given(name, std::holds_alternative<Kind>(piece))) return {};
   if (fields.reading()) piece = Kind{};
   return fields.section(name, std::get<Kind>(piece)).fallback("none");
 }

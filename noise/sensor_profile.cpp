@@ -156,7 +156,6 @@ std::vector<double*> numbers_of(SensorProfile& profile, std::string_view key) {
 
 void describe_low_pass(Fields& fields, double& time_constant) {
   const auto describe_time_constant = [&](Fields& filter) {
-    filter.know("cut_off");
     filter("time_constant", time_constant, 0.0, 100.0).doc("s", "Time constant; 0: none.");
   };
   const auto describe_cut_off = [&](Fields& filter) {
@@ -171,7 +170,7 @@ void describe_low_pass(Fields& fields, double& time_constant) {
   fields
       .within("low_pass",
               [&](Fields& filter) {
-                const bool has_cut_off = filter.present("cut_off", false);
+                const bool has_cut_off = filter.given("cut_off", false);
                 if (!has_cut_off || filter.documenting()) describe_time_constant(filter);
                 if (has_cut_off) describe_cut_off(filter);
               })
@@ -280,10 +279,7 @@ void describe_sensor(Fields& fields, SensorProfile& profile, const Sensor& senso
     if (all.reading() || alike || !is_joint) describe_clock(all, common);
     if (all.reading()) channels.fill(common);
     for (std::size_t i = 0; i < channels.size(); ++i) {
-      if (!all.present(names[i], !alike)) {
-        all.know(names[i]);
-        continue;
-      }
+      if (!all.given(names[i], !alike)) continue;
       all.within(names[i], [&](Fields& one) { describe_channel(one, channels[i]); })
           .type(is_joint ? "section with the keys of its sensor"
                          : "section with the keys of its sensor but rate, delay and dropout")

@@ -111,7 +111,6 @@ void describe(Fields& fields, Perturbation& perturbation) {
       .doc("Error of each servo's torque constant, independently.");
   fields.section("drive", perturbation.drive)
       .doc("Random drive commands instead of the scenario's own.");
-  fields.know("crouching");
   fields.section("crouching", perturbation.crouching)
       .doc("Random crouches instead of the scenario's own.");
   fields.section("lift", perturbation.lift).doc("Random lifts besides the scenario's own forces.");
