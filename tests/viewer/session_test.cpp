@@ -46,7 +46,7 @@ TEST(WatchSession, LiftsDrivesAndSwitchesAndTheRecordingsRepeat) {
   if (!has_display_tools()) GTEST_SKIP() << "needs the packages xvfb, xdotool and ffmpeg";
   const ScratchFolder folder;
   const std::string script =
-      "sleep 2; xdotool mousemove 309 155 mousedown 1; "  // the torso
+      "sleep 2; xdotool mousemove 309 155 mousedown 1; "  // the torso, at rest
       "for i in $(seq 15); do xdotool mousemove_relative -- 0 -8; sleep 0.1; done; sleep 0.5; "
       "xdotool mouseup 1; sleep 0.5; xdotool key r; sleep 1; "
       "xdotool key h; sleep 0.5; xdotool key h; "
@@ -117,9 +117,9 @@ TEST(WatchSession, DrawsPanelAndPlotsBesideTheSceneAndTheMouseSetsASlider) {
   const ScratchFolder folder;
   const auto file = folder / "picture.rgb";
   const std::string script =
-      "sleep 2; xdotool mousemove 825 284 mousedown 1; sleep 0.3; xdotool mousemove 860 284; "
-      "sleep 0.5; xdotool mouseup 1 mousemove 300 350; sleep 0.5; ffmpeg -loglevel error -y -f "
-      "x11grab -video_size 900x640 -i $DISPLAY -frames:v 1 -f rawvideo -pix_fmt rgb24 " +
+      "until_shown 787 280 0072b2; xdotool mousemove 825 284 mousedown 1; sleep 0.3; "
+      "xdotool mousemove 860 284; until_shown 858 280 789cde; "  // the handle below the mouse
+      "xdotool mouseup 1 mousemove 300 350; until_shown 858 280 0072b2; picture 900x640 0 0 > " +
       file.string() + "; xdotool key q";
   ASSERT_EQ(watch(folder, script, "scenarios/flat.yaml"), 0) << text(folder, "err");
   const std::string picture = read_file(file);
@@ -138,7 +138,7 @@ TEST(WatchSession, PlaysARecordingToAnErrorAndBack) {
       0)
       << text(folder, "err");
   const std::string script =
-      "sleep 1; xdotool key o e e shift+e t shift+t; sleep 0.5; xdotool key space f f Home; "
+      "xdotool key o e e shift+e t shift+t; sleep 0.5; xdotool key space f f Home; "
       "sleep 0.5; xdotool mousemove 450 420 click 1; sleep 0.5; xdotool key h v comma period End; "
       "sleep 0.5; xdotool key q";
   EXPECT_EQ(watch(folder, script, quoted(folder / "run.mpack")), 0) << text(folder, "err");
@@ -167,9 +167,9 @@ TEST(WatchSession, EditsLabelsByKeysAndSavesEachEdit) {
                                    "start,end,left,right,sure\n"
                                    "0,1,1,1,0.9\n1,1.5,0,0,0.6\n1.5,2,1,1,0.8\n");
   const std::string script =
-      "sleep 2; xdotool key n k equal equal shift+equal Return; "  // 12 steps later, accepted
-      "sleep 0.5; cp " +
-      labels.string() + " " + (folder / "half.csv").string() +
+      "xdotool key n k equal equal shift+equal Return; "  // 12 steps later, accepted
+      "until_written " +
+      labels.string() + " 1.512; cp " + labels.string() + " " + (folder / "half.csv").string() +
       "; "
       "xdotool key shift+a u x u; "           // both undone
       "xdotool key Home b Right a k minus; "  // 0 to 0.1 s, then one step less
@@ -191,7 +191,7 @@ TEST(WatchSession, BeginsAFileOfLabelsAndDragsAnEdge) {
   const auto labels = folder / "new.csv";
   // 1 s marked from the start; its end is in the middle of the plots, 108 px are 0.4 s.
   const std::string script =
-      "sleep 2; xdotool key period Home b shift+Right c; sleep 0.3; "
+      "xdotool key period Home b shift+Right c; sleep 0.3; "
       "xdotool mousemove 716 438 mousedown 1; sleep 0.3; xdotool mousemove 770 438; sleep 0.3; "
       "xdotool mousemove 824 438; sleep 0.3; xdotool mouseup 1; sleep 0.5; xdotool key q";
   ASSERT_EQ(watch(folder, script, quoted(robot_log(folder)) + " --labels " + quoted(labels), ""), 0)
@@ -241,7 +241,7 @@ TEST(WatchSession, EditsLabelsOfALogThatIsReadByItsMapping) {
                         " --mapping " + mapping.string() + "\n"));
   EXPECT_TRUE(read_file(labels).starts_with("start,end,left,right,sure\n0,2.001,1,1,"))
       << read_file(labels);
-  const std::string script = "sleep 2; xdotool key n Return; sleep 0.5; xdotool key q";
+  const std::string script = "xdotool key n Return; sleep 0.5; xdotool key q";
   ASSERT_EQ(watch(folder, script, arguments + " --labels " + quoted(labels)), 0)
       << text(folder, "err");
   EXPECT_THAT(text(folder, "out"), HasSubstr("1 edit saved; 1 interval, 2.001 s, 0 to look at"));
@@ -262,7 +262,7 @@ TEST(WatchSession, ShowsAFilmWithAnOffsetToTypeNextTime) {
             0)
       << text(folder, "err");
   const std::string script =
-      "sleep 2; xdotool key bracketright bracketright shift+bracketleft; sleep 0.5; "
+      "xdotool key bracketright bracketright shift+bracketleft; sleep 0.5; "
       "xdotool key End Home t; sleep 0.5; xdotool key q";
   ASSERT_EQ(watch(folder, script, quoted(log) + " --film " + quoted(film) + " --film-offset 0.5"),
             0)
