@@ -105,9 +105,9 @@ std::string readout(const TableRow& cell, const NoiseMaps& maps,
 }
 
 /// The readouts of one estimator's map, from the lowest row on.
-nlohmann::ordered_json readouts(const std::vector<TableRow>& cells, const std::string& estimator,
-                                const NoiseMaps& maps, const experiments::Experiment& experiment) {
-  nlohmann::ordered_json texts = nlohmann::ordered_json::array();
+Json readouts(const std::vector<TableRow>& cells, const std::string& estimator,
+              const NoiseMaps& maps, const experiments::Experiment& experiment) {
+  Json texts = Json::array();
   for (const double y : maps.y.levels) {
     for (const double x : maps.x.levels) {
       const auto cell = std::ranges::find_if(cells, [&](const TableRow& one) {
@@ -145,21 +145,20 @@ std::string map_overlay(const ReportSubject& subject, const fs::path& drawing,
   const std::vector<std::string> estimators = mapped_estimators(subject.experiment);
   const std::vector<std::array<double, 4>> panels = panels_in(drawing);
   if (panels.size() != estimators.size()) return {};
-  nlohmann::ordered_json data = {{"columns", maps.x.levels.size()},
-                                 {"panels", nlohmann::ordered_json::array()}};
+  Json data = {{"columns", maps.x.levels.size()}, {"panels", Json::array()}};
   const Table cells = mapped_cells(subject.tables.cells, maps, simulator);
   for (std::size_t i = 0; i < estimators.size(); ++i) {
     data["panels"].push_back(
         {{"place", panels[i]},
          {"cells", readouts(cells.all(), estimators[i], maps, subject.experiment)}});
   }
-  return fmt::format("<script type=\"application/json\">{}</script>", inline_json(data));
+  return inline_json(data);
 }
 
 /// A drawn map and the readouts of its cells.
 struct MapOverlay {
   fs::path drawing;
-  std::string html;
+  std::string readouts;  ///< JSON
 };
 
 /// The maps that the page shows with readouts.
@@ -177,60 +176,48 @@ std::vector<MapOverlay> map_overlays(const ReportSubject& subject) {
   return overlays;
 }
 
+std::string gallery(Json figures, bool has_readouts) {
+  std::erase(figures.get_ref<Json::array_t&>(), Json());  // too large
+  if (figures.empty()) return {};
+  return html_of("figures.html", {{"has_readouts", has_readouts}, {"figures", std::move(figures)}});
+}
+
 }  // namespace
 
-std::string figure_html(const fs::path& file, const std::vector<std::string>& simulators,
-                        const std::string& overlay) {
+Json figure_members(const fs::path& file, const std::vector<std::string>& simulators,
+                    const std::string& readouts) {
   fs::path shown = file;
   const fs::path painted = fs::path(file).replace_extension(".png");
   if (size_of_file(file) > largest_picture && is_there(painted)) shown = painted;
   if (size_of_file(shown) > largest_picture) return {};
-  const FigureText text = text_of(file);
-  std::string picture =
-      fmt::format("<img loading=\"lazy\" alt=\"{}\" src=\"{}\">", escaped(text.alt),
-                  data_uri(shown.extension() == ".svg" ? "image/svg+xml" : "image/png", shown));
-  if (!overlay.empty()) {
-    picture = fmt::format(
-        "<div class=\"map\" tabindex=\"0\" role=\"group\" aria-label=\"{}. The arrow keys choose a "
-        "cell.\">{}{}</div>",
-        escaped(text.title), picture, overlay);
-  }
-  std::string html = fmt::format(
-      "<figure{}><div class=\"pan\" tabindex=\"0\" role=\"group\" aria-label=\"{}\">"
-      "{}</div>\n<figcaption><b>{}.</b> {}",
-      is_wide(file) ? " class=\"wide\"" : "", escaped(text.title), picture, escaped(text.title),
-      escaped(text.caption));
+  Json files = Json::array();
   for (const char* kind : {".svg", ".png", ".pdf", ".gp", ".dat", ".csv"}) {
     const fs::path beside = fs::path(file).replace_extension(kind);
-    if (!is_there(beside)) continue;
-    html += fmt::format(" <a href=\"figures/{0}\">{1}</a>", escaped(beside.filename().string()),
-                        kind + 1);
+    if (is_there(beside)) {
+      files.push_back({{"file", beside.filename().string()}, {"name", kind + 1}});
+    }
   }
   std::vector<fs::path> more_data = more_data_of(file);
   sort_by_engine(more_data, simulators);
   for (const fs::path& data : more_data) {
-    html += fmt::format(" <a href=\"figures/{0}\">{0}</a>", escaped(data.string()));
+    files.push_back({{"file", data.string()}, {"name", data.string()}});
   }
-  return html + "</figcaption></figure>\n";
+  const FigureText text = text_of(file);
+  const char* const type = shown.extension() == ".svg" ? "image/svg+xml" : "image/png";
+  return {{"title", text.title},      {"caption", text.caption},          {"alt", text.alt},
+          {"is_wide", is_wide(file)}, {"picture", data_uri(type, shown)}, {"readouts", readouts},
+          {"files", std::move(files)}};
 }
 
 ReportSection heatmap_section(const ReportSubject& subject) {
-  ReportSection section{"noise", "Under sensor noise", {}};
-  for (const auto& [drawing, overlay] : map_overlays(subject)) {
-    section.html += figure_html(drawing, subject.experiment.simulators, overlay);
+  Json figures = Json::array();
+  for (const auto& [drawing, readouts] : map_overlays(subject)) {
+    figures.push_back(figure_members(drawing, subject.experiment.simulators, readouts));
   }
-  if (section.html.empty()) return section;
-  section.html = fmt::format(
-      "<div class=\"heatmaps gallery\">\n<p class=\"readout\" aria-live=\"polite\">Point at a "
-      "cell, "
-      "tap it, or use the arrow keys: its numbers appear here.</p>\n{}</div>\n"
-      "<p class=\"note\">The tables “Success” and “Classification” below list the numbers.</p>\n",
-      section.html);
-  return section;
+  return {"noise", "Under sensor noise", gallery(std::move(figures), true)};
 }
 
 ReportSection figures_section(const ReportSubject& subject) {
-  ReportSection section{"figures", "Figures", {}};
   const std::vector<MapOverlay> maps = map_overlays(subject);
   std::vector<fs::path> files;
   for (const fs::path& path : entries_in(subject.directory / "figures")) {
@@ -242,11 +229,11 @@ ReportSection figures_section(const ReportSubject& subject) {
     if (drawn || painted) files.push_back(path);
   }
   sort_by_engine(files, subject.experiment.simulators);
+  Json figures = Json::array();
   for (const fs::path& file : files) {
-    section.html += figure_html(file, subject.experiment.simulators);
+    figures.push_back(figure_members(file, subject.experiment.simulators));
   }
-  if (!section.html.empty()) section.html = "<div class=\"gallery\">\n" + section.html + "</div>\n";
-  return section;
+  return {"figures", "Figures", gallery(std::move(figures), false)};
 }
 
 }  // namespace touchdown::render

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
-#include <utility>
+#include <kainjow/mustache.hpp>
 
 #include <fmt/format.h>
 
+#include "core/error.hpp"
 #include "core/files.hpp"
 #include "report_assets.hpp"
 
@@ -14,65 +15,74 @@ namespace touchdown::render {
 
 namespace {
 
+namespace mustache = kainjow::mustache;
+
 /// ", built from commit a1b2c3d4e5f6": the commit of the program that computed the numbers.
-std::string built_from(const nlohmann::ordered_json& manifest) {
+std::string built_from(const Json& manifest) {
   const auto versions = manifest.find("versions");
   if (versions == manifest.end() || !versions->is_object()) return {};
   const auto written = versions->find("commit");
   if (written == versions->end() || !written->is_string()) return {};
   const auto commit = written->get<std::string>();
   if (commit.empty()) return {};
-  return escaped(commit.starts_with("unknown") ? " (commit " + commit + ")"
-                                               : ", built from commit " + commit);
+  return commit.starts_with("unknown") ? " (commit " + commit + ")"
+                                       : ", built from commit " + commit;
 }
 
-constexpr std::pair<char, std::string_view> markup[] = {
-    {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}};
+mustache::data data_of(const Json& value) {
+  if (value.is_object()) {
+    mustache::data object;
+    for (const auto& [name, member] : value.items()) object[name] = data_of(member);
+    return object;
+  }
+  if (value.is_array()) {
+    mustache::data list(mustache::data::type::list);
+    for (const Json& item : value) list.push_back(data_of(item));
+    return list;
+  }
+  if (value.is_boolean()) return value.get<bool>();
+  const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  if (text.empty()) return false;
+  return text;
+}
 
 }  // namespace
 
+std::string html_of(std::string_view name, const Json& members) {
+  mustache::data data = data_of(members);
+  std::string text;
+  for (const ReportTemplate& one : report_templates) {
+    data.set(one.name, mustache::partial([&one] { return one.content; }));
+    if (one.name == name) text = one.content;
+  }
+  mustache::mustache page(text);
+  std::string html = page.render(data);
+  if (!page.is_valid()) throw Error(fmt::format("{}: {}", name, page.error_message()));
+  return html;
+}
+
 void write_page(const ReportSubject& subject, const std::filesystem::path& path,
-                const std::string& header_html, std::vector<ReportSection> sections) {
-  std::erase_if(sections, [](const ReportSection& section) { return section.html.empty(); });
-  std::string body = "<header>\n" + header_html + "<nav aria-label=\"Contents\"><ul>\n";
-  for (const ReportSection& section : sections) {
-    body += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", section.id, escaped(section.title));
+                const PageHeader& header, const std::vector<ReportSection>& sections) {
+  Json page = {{"name", subject.experiment.name},
+               {"heading", header.heading},
+               {"lead", header.lead},
+               {"facts", Json::array()},
+               {"note", header.note},
+               {"is_benchmark", header.is_benchmark},
+               {"sections", Json::array()},
+               {"built_from", built_from(subject.manifest)},
+               {"style", report_style.content},
+               {"script", report_script.content},
+               {"style_source", policy_source(report_style.sha256)},
+               {"script_source", policy_source(report_script.sha256)}};
+  for (const auto& [fact, value] : header.facts) {
+    page["facts"].push_back({{"fact", fact}, {"value", value}});
   }
-  body += "</ul></nav>\n</header>\n<main id=\"main\">\n";
-  for (const ReportSection& section : sections) {
-    body += fmt::format(
-        "<section id=\"{0}\" aria-labelledby=\"{0}-title\">\n<h2 id=\"{0}-title\">{1}"
-        "</h2>\n{2}</section>\n",
-        section.id, escaped(section.title), section.html);
+  for (const auto& [id, title, html] : sections) {
+    if (html.empty()) continue;
+    page["sections"].push_back({{"id", id}, {"title", title}, {"html", html}});
   }
-  body += fmt::format(
-      "</main>\n<footer><p>Computed by touchdown{}. This page needs no network.</p></footer>\n",
-      built_from(subject.manifest));
-
-  const std::string policy = fmt::format(
-      "default-src 'none'; img-src data:; media-src data:; style-src {}; script-src {}; "
-      "base-uri 'none'; form-action 'none'",
-      policy_source(report_style.sha256), policy_source(report_script.sha256));
-  write_atomically(path,
-                   fmt::format(fmt::runtime(report_page.content), fmt::arg("policy", policy),
-                               fmt::arg("title", escaped(subject.experiment.name) + " – touchdown"),
-                               fmt::arg("style", report_style.content), fmt::arg("body", body),
-                               fmt::arg("script", report_script.content)));
-}
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  result.reserve(text.size());
-  for (const char c : text) {
-    const auto known = std::find_if(std::begin(markup), std::end(markup),
-                                    [&](const auto& entry) { return entry.first == c; });
-    known != std::end(markup) ? result.append(known->second) : result.append(1, c);
-  }
-  return result;
-}
-
-std::string fact_html(std::string_view name, std::string_view value) {
-  return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", escaped(name), escaped(value));
+  write_atomically(path, html_of("page.html", page));
 }
 
 std::string base64(std::string_view bytes) {
@@ -97,8 +107,8 @@ std::string data_uri(std::string_view media_type, const std::filesystem::path& p
   return fmt::format("data:{};base64,{}", media_type, base64(read_file(path)));
 }
 
-std::string inline_json(const nlohmann::ordered_json& data) {
-  std::string text = data.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+std::string inline_json(const Json& data) {
+  std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
     text.replace(at, 1, "\\u003c");
   }

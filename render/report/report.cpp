@@ -35,18 +35,7 @@ void add_rows(const nlohmann::ordered_json& manifest, const char* key, const std
 
 /// The command, versions, seeds and configuration that reproduce the numbers.
 ReportSection reproduce_section(const ReportSubject& subject) {
-  const auto& manifest = subject.manifest;
-  std::string html =
-      "<p>One command computes everything on this page again, from the configuration beside it. "
-      "The "
-      "same program gives the same numbers, to the last digit:</p>\n"
-      "<pre><code>" +
-      std::string(manifest.contains("python_estimators") ? "python3 -m " : "") +
-      "touchdown run config.yaml</code></pre>\n";
-  if (manifest.contains("command") && manifest["command"].is_string()) {
-    html += fmt::format("<p>The command of this run:</p>\n<pre><code>{}</code></pre>\n",
-                        escaped(manifest["command"].get<std::string>()));
-  }
+  const Json& manifest = subject.manifest;
   TextTable table{{"quantity", "value"}, {}};
   for (const char* key : {"id", "finished_at"}) {
     if (manifest.contains(key)) table.rows.push_back({key, text_of(manifest[key])});
@@ -61,7 +50,8 @@ ReportSection reproduce_section(const ReportSubject& subject) {
   for (auto& row : table.rows) {
     std::replace(row[0].begin(), row[0].end(), '_', ' ');
   }
-  html += table_html({"Versions, seeds and computing times", "versions and seeds", table}, 1);
+  Json tables = {
+      table_members({"Versions, seeds and computing times", "versions and seeds", table}, 1)};
   if (manifest.contains("failed_runs") && manifest["failed_runs"].is_array() &&
       !manifest["failed_runs"].empty()) {
     TextTable failed{{"recording", "outcome"}, {}};
@@ -73,13 +63,14 @@ ReportSection reproduce_section(const ReportSubject& subject) {
       failed.rows.push_back(
           {text("recording"), run.contains("ending") ? text("ending") : text("outcome")});
     }
-    html += table_html({"Runs that are not scored", "failed runs", failed}, 1);
+    tables.push_back(table_members({"Runs that are not scored", "failed runs", failed}, 1));
   }
-  html += fmt::format(
-      "<details><summary>The configuration, every default written out</summary>\n"
-      "<pre tabindex=\"0\"><code>{}</code></pre></details>\n",
-      escaped(subject.config_text));
-  return {"reproduce", "Reproduction", html};
+  const bool has_command = manifest.contains("command") && manifest["command"].is_string();
+  return {"reproduce", "Reproduction",
+          html_of("reproduce.html", {{"is_python", manifest.contains("python_estimators")},
+                                     {"command", has_command ? manifest["command"] : Json("")},
+                                     {"tables", std::move(tables)},
+                                     {"config", subject.config_text}})};
 }
 
 /// A jump to a flight goes to this time before the takeoff (s).
@@ -87,39 +78,24 @@ constexpr double run_up = 0.4;
 /// The button of a flight stays highlighted until this time after the landing (s).
 constexpr double follow_through = 0.4;
 
-/// Buttons that jump to the flights of each wheel of a run, in a film until `end` (s).
-std::string drops_html(const FilmedRun& run, double end) {
-  const std::string engine = escaped(simulators::simulator_title(run.recording.info.simulator));
-  std::array<std::size_t, models::wheel_count> count = {};
-  std::array<std::string, models::wheel_count> items;
+/// The flights of each wheel of a run, in a film until `end` (s). Its buttons jump to them.
+void add_wheels(const FilmedRun& run, double end, Json& wheels) {
+  const std::string engine = simulators::simulator_title(run.recording.info.simulator);
+  std::array<Json, models::wheel_count> flights = {Json::array(), Json::array()};
   for (const WheelFlight& flight : wheel_flights(run.recording, run.labels)) {
     if (flight.takeoff <= 0.0 || flight.landing > end) continue;
-    ++count[flight.wheel];
-    items[flight.wheel] += fmt::format(
-        "<li><button type=\"button\" class=\"drop\" data-seek=\"{:.3f}\" data-end=\"{:.3f}\" "
-        "aria-label=\"Play the flight of the {} wheel at {:.2f} seconds in {}\">{:.2f} s"
-        "<small>{:.0f} ms in the air</small></button></li>\n",
-        std::max(0.0, flight.takeoff - run_up), flight.landing + follow_through,
-        flight.wheel == 0 ? "left" : "right", flight.takeoff, engine, flight.takeoff,
-        1e3 * (flight.landing - flight.takeoff));
+    flights[flight.wheel].push_back(
+        {{"seek", fmt::format("{:.3f}", std::max(0.0, flight.takeoff - run_up))},
+         {"end", fmt::format("{:.3f}", flight.landing + follow_through)},
+         {"time", fmt::format("{:.2f}", flight.takeoff)},
+         {"duration", fmt::format("{:.0f}", 1e3 * (flight.landing - flight.takeoff))}});
   }
-  std::string html;
   for (const std::size_t wheel : {0U, 1U}) {
-    html += fmt::format("<h3>{}, {} wheel: {}</h3>\n<ol>\n{}</ol>\n", engine,
-                        wheel == 0 ? "left" : "right", experiments::plural(count[wheel], "flight"),
-                        items[wheel]);
+    wheels.push_back({{"engine", engine},
+                      {"wheel", wheel == 0 ? "left" : "right"},
+                      {"count", experiments::plural(flights[wheel].size(), "flight")},
+                      {"flights", std::move(flights[wheel])}});
   }
-  return html;
-}
-
-/// A link to the video in full size; empty without one.
-std::string full_size_html(const FilmedRun& run, const fs::path& directory) {
-  const logs::RecordingInfo& info = run.recording.info;
-  const std::string name = experiments::video_name(info.simulator, info.scenario);
-  std::error_code error;
-  const std::uintmax_t bytes = fs::file_size(directory / "videos" / name, error);
-  if (error) return {};
-  return fmt::format(" <a href=\"videos/{0}\">{0}</a> ({1})", escaped(name), size_text(bytes));
 }
 
 /// The small video inside the report, and links to the files in full size beside it. Empty without
@@ -131,15 +107,20 @@ std::string film_html(const ReportSubject& subject, const std::vector<FilmedRun>
   for (const FilmedRun& run : runs) {
     end = std::max(end, static_cast<double>(run.recording.steps()) * run.recording.period());
   }
-  std::vector<std::string> engines, full_size;
-  std::string drops;
+  std::vector<std::string> engines;
+  Json wheels = Json::array(), files = Json::array();
   for (const FilmedRun& run : runs) {
-    engines.push_back(simulators::simulator_title(run.recording.info.simulator));
-    drops += drops_html(run, std::min(end, longest_report_film));
-    full_size.push_back(full_size_html(run, subject.directory));
+    const logs::RecordingInfo& info = run.recording.info;
+    engines.push_back(simulators::simulator_title(info.simulator));
+    add_wheels(run, std::min(end, longest_report_film), wheels);
+    const std::string name = experiments::video_name(info.simulator, info.scenario);
+    std::error_code error;
+    const std::uintmax_t bytes = fs::file_size(subject.directory / "videos" / name, error);
+    if (error) continue;
+    files.push_back(
+        {{"separator", files.empty() ? "" : ","}, {"name", name}, {"size", size_text(bytes)}});
   }
-  std::erase(full_size, "");
-  const std::string description = escaped(fmt::format(
+  const std::string description = fmt::format(
       "The {} run in {}{}{}, {}. Below: the estimators' contact probabilities over the true "
       "contact (green: of the left wheel above, of the right one below), and torques. Thick lines "
       "are the left wheel.",
@@ -147,16 +128,13 @@ std::string film_html(const ReportSubject& subject, const std::vector<FilmedRun>
       runs.size() > 1 ? ", side by side" : "",
       end > longest_report_film ? fmt::format(", its first {:.0f} seconds", longest_report_film)
                                 : "",
-      experiments::noise_text(subject.experiment.video.noise)));
-  return fmt::format(
-      "<div class=\"film\">\n<figure><video controls muted playsinline preload=\"auto\" "
-      "aria-label=\"{0}\" poster=\"{1}\" src=\"{2}\"></video>\n"
-      "<figcaption>{0}{3}{4}{5}</figcaption></figure>\n"
-      "<div class=\"drops\">\n<p class=\"note\">Choose a flight of a wheel to play "
-      "it:</p>\n{6}</div>\n</div>\n",
-      description, data_uri("image/jpeg", film.picture), data_uri("video/mp4", film.video),
-      full_size.empty() ? "" : " In full size, beside this file:", fmt::join(full_size, ","),
-      full_size.empty() ? "" : ".", drops);
+      experiments::noise_text(subject.experiment.video.noise));
+  return html_of("film.html", {{"description", description},
+                               {"picture", data_uri("image/jpeg", film.picture)},
+                               {"video", data_uri("video/mp4", film.video)},
+                               {"has_files", !files.empty()},
+                               {"files", std::move(files)},
+                               {"wheels", std::move(wheels)}});
 }
 
 ReportSection replay_section(const std::vector<FilmedRun>& filmed) {
@@ -189,7 +167,7 @@ fs::path make_report(const ReportSubject& subject, const std::vector<FilmedRun>&
     all.push_back(section(subject));
   }
   fs::path path = experiments::record_file(subject.directory, "report.html");
-  write_page(subject, path, header_html(subject), std::move(all));
+  write_page(subject, path, report_header(subject), all);
   return path;
 }
 

@@ -80,15 +80,15 @@ std::vector<std::string> engines_of(const experiments::Experiment& experiment) {
   return engines;
 }
 
-std::string with_engine_titles(experiments::CaptionedTable table) {
+Json with_engine_titles(experiments::CaptionedTable table) {
   for (auto& row : table.table.rows) row[0] = simulators::simulator_title(row[0]);
-  return table_html(table, 2);
+  return table_members(table, 2);
 }
 
 /// A paragraph per engine: the estimator with the highest F1 at each highlighted noise setting, and
 /// those of the next two. Empty without scores.
-std::string findings_html(const ReportSubject& subject) {
-  std::string html;
+Json findings(const ReportSubject& subject) {
+  Json paragraphs = Json::array();
   for (const std::string& simulator : subject.experiment.simulators) {
     std::string text;
     for (const noise::NoiseCell& noise : subject.experiment.highlights) {
@@ -97,27 +97,27 @@ std::string findings_html(const ReportSubject& subject) {
     }
     if (text.empty()) continue;
     text.pop_back();
-    html += fmt::format("<p><b>{}.</b> {}</p>\n", escaped(simulators::simulator_title(simulator)),
-                        escaped(text));
+    paragraphs.push_back({{"engine", simulators::simulator_title(simulator)}, {"text", text}});
   }
-  return html;
+  return paragraphs;
 }
 
 }  // namespace
 
 ReportSection estimators_section(const ReportSubject& subject) {
-  ReportSection section{"estimators", "Estimators", "<dl class=\"estimators\">\n"};
+  Json estimators = Json::array();
   for (const std::string& name : subject.experiment.estimators) {
     const experiments::EstimatorEntry& entry =
         experiments::estimator_entry(subject.experiment, name);
-    section.html += fmt::format("<dt>{}</dt><dd>{}. It uses {}.</dd>\n", escaped(entry.title),
-                                escaped(entry.summary), escaped(inputs_text(entry.sensors)));
+    estimators.push_back({{"title", entry.title},
+                          {"summary", entry.summary},
+                          {"inputs", inputs_text(entry.sensors)}});
   }
-  section.html += "</dl>\n";
-  return section;
+  return {"estimators", "Estimators",
+          html_of("estimators.html", {{"estimators", std::move(estimators)}})};
 }
 
-std::string header_html(const ReportSubject& subject) {
+PageHeader report_header(const ReportSubject& subject) {
   const experiments::Experiment& experiment = subject.experiment;
   int test_runs = 0, unusable = 0;
   double flights = 0.0, of_one_wheel = 0.0;
@@ -134,41 +134,34 @@ std::string header_html(const ReportSubject& subject) {
     settings.insert({cell.number("accelerometer_noise_mps2"), cell.number("knee_noise_nm"),
                      cell.number("wheel_noise_nm")});
   }
-  std::string html = fmt::format(
-      "<p class=\"kicker\">Contact estimation on a wheeled biped</p>\n<h1>{}</h1>\n"
-      "<p class=\"lead\">Is each wheel in contact with the ground? {} {} it from joint torques and "
-      "an "
-      "accelerometer, in {}, under sensor noise.</p>\n<dl class=\"facts\">\n",
-      escaped(experiment.name), experiments::plural(experiment.estimators.size(), "estimator"),
-      experiment.estimators.size() == 1 ? "estimates" : "estimate",
-      escaped(in_words(engines_of(experiment))));
-  html += fact_html("physics engines", std::to_string(experiment.simulators.size()));
-  html += fact_html("test runs scored", std::to_string(test_runs));
-  html += fact_html("flights of both wheels at once", fmt::format("{:.0f}", flights));
-  html += fact_html("flights of one wheel alone", fmt::format("{:.0f}", of_one_wheel));
-  html += fact_html("noise settings", std::to_string(settings.size()));
-  html += fact_html("noise seeds per run", std::to_string(experiment.noise.seeds));
-  html += "</dl>\n";
-  html += fmt::format(
-      "<p class=\"note\">Film, replay and latencies count each wheel's flights of at least {:.0f} "
-      "ms. {}",
-      1e3 * experiment.scoring.minimum_flight, escaped(experiments::conditions_text(experiment)));
+  std::string note = fmt::format(
+      "Film, replay and latencies count each wheel's flights of at least {:.0f} ms. {}",
+      1e3 * experiment.scoring.minimum_flight, experiments::conditions_text(experiment));
   if (unusable > 0) {
-    html += fmt::format(" {} test {} fell, diverged or could not be simulated and {} not scored.",
+    note += fmt::format(" {} test {} fell, diverged or could not be simulated and {} not scored.",
                         unusable, unusable == 1 ? "run" : "runs", unusable == 1 ? "is" : "are");
   }
-  return html + "</p>\n";
+  return {experiment.name,
+          fmt::format("Is each wheel in contact with the ground? {} {} it from joint torques and "
+                      "an accelerometer, in {}, under sensor noise.",
+                      experiments::plural(experiment.estimators.size(), "estimator"),
+                      experiment.estimators.size() == 1 ? "estimates" : "estimate",
+                      in_words(engines_of(experiment))),
+          {{"physics engines", std::to_string(experiment.simulators.size())},
+           {"test runs scored", std::to_string(test_runs)},
+           {"flights of both wheels at once", fmt::format("{:.0f}", flights)},
+           {"flights of one wheel alone", fmt::format("{:.0f}", of_one_wheel)},
+           {"noise settings", std::to_string(settings.size())},
+           {"noise seeds per run", std::to_string(experiment.noise.seeds)}},
+          note};
 }
 
 ReportSection results_section(const ReportSubject& subject) {
-  ReportSection section{"results", "Results", {}};
-  if (subject.tables.cells.rows.empty()) return section;
-  section.html = findings_html(subject);
-  const std::string notes = experiments::score_notes(subject.experiment, subject.tables);
-  if (!notes.empty()) section.html += fmt::format("<p>{}</p>\n", escaped(notes));
   const experiments::Experiment& experiment = subject.experiment;
+  if (subject.tables.cells.rows.empty()) return {"results", "Results"};
+  Json tables = Json::array();
   for (const noise::NoiseCell& cell : experiment.highlights) {
-    experiments::CaptionedTable table{
+    const experiments::CaptionedTable table{
         fmt::format(
             "F1 of takeoffs and landings within 20 ms, decided switches that detect none of them, "
             "per "
@@ -177,13 +170,16 @@ ReportSection results_section(const ReportSubject& subject) {
             cell.torque, cell.accelerometer, experiments::setup_caption(experiment)),
         fmt::format("F1 at {} N·m and {} m/s²", cell.torque, cell.accelerometer),
         experiments::accuracy_table(experiment, subject.tables, cell, engines_of(experiment))};
-    section.html += table_html(table, 1);
+    tables.push_back(table_members(table, 1));
   }
-  return section;
+  return {"results", "Results",
+          html_of("results.html", {{"findings", findings(subject)},
+                                   {"notes", experiments::score_notes(experiment, subject.tables)},
+                                   {"tables", std::move(tables)}})};
 }
 
 ReportSection paper_section(const ReportSubject& subject) {
-  ReportSection section{"paper", "Comparison with the paper", {}};
+  Json cells = Json::array();
   for (const noise::NoiseCell& cell : subject.experiment.highlights) {
     const auto is_here = [&](const TableRow& row) { return experiments::is_at(row, cell); };
     if (where(subject.tables.scores.all(), is_here).empty()) continue;
@@ -191,28 +187,26 @@ ReportSection paper_section(const ReportSubject& subject) {
         "Torque noise {} N·m, accelerometer noise {} m/s², {}{}.", cell.torque, cell.accelerometer,
         experiments::plural(static_cast<std::size_t>(subject.experiment.noise.seeds), "noise seed"),
         experiments::setup_caption(subject.experiment));
-    std::string tables;
+    Json tables = Json::array();
     for (const experiments::CaptionedTable& table :
          experiments::paper_tables(subject.experiment, subject.tables, cell, how)) {
-      tables += with_engine_titles(table);
+      tables.push_back(with_engine_titles(table));
     }
     experiments::CaptionedTable compared =
         experiments::difference_text_table(subject.experiment, subject.tables, cell);
     compared.caption =
         "Paired differences: both estimators processed the same runs with the same noise. " + how;
-    if (!compared.table.rows.empty()) tables += with_engine_titles(compared);
-    section.html +=
-        fmt::format("<details{}><summary>{} N·m, {} m/s²</summary>\n{}</details>\n",
-                    section.html.empty() ? " open" : "", cell.torque, cell.accelerometer, tables);
+    if (!compared.table.rows.empty()) tables.push_back(with_engine_titles(compared));
+    cells.push_back({{"is_first", cells.empty()},
+                     {"torque", fmt::format("{}", cell.torque)},
+                     {"accelerometer", fmt::format("{}", cell.accelerometer)},
+                     {"tables", std::move(tables)}});
   }
-  if (!section.html.empty()) {
-    section.html = fmt::format(
-                       "<p>The last column repeats the paper's measurements on the real robot: "
-                       "another machine, ten other drops, labels by hand, no intervals. It is a "
-                       "reference, not a target. {}</p>\n",
-                       escaped(experiments::conditions_text(subject.experiment))) +
-                   section.html;
-  }
+  ReportSection section{"paper", "Comparison with the paper"};
+  if (cells.empty()) return section;
+  section.html =
+      html_of("paper.html", {{"conditions", experiments::conditions_text(subject.experiment)},
+                             {"cells", std::move(cells)}});
   return section;
 }
 

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -18,7 +17,7 @@ namespace touchdown::render {
 ReportSection estimators_section(const ReportSubject& subject);
 
 /// The title, one sentence, and the numbers of engines, runs, flights and noise settings.
-std::string header_html(const ReportSubject& subject);
+PageHeader report_header(const ReportSubject& subject);
 
 /// The results at the highlighted noise settings, in words and as tables of success rates.
 ReportSection results_section(const ReportSubject& subject);
@@ -26,8 +25,8 @@ ReportSection results_section(const ReportSubject& subject);
 /// The paper's tables at the highlighted noise settings, with the paper's numbers beside ours.
 ReportSection paper_section(const ReportSubject& subject);
 
-/// The table as HTML, with its caption. The first `text_columns` name the row.
-std::string table_html(const experiments::CaptionedTable& table, std::size_t text_columns);
+/// The members of `table.html`. The first `text_columns` name the row.
+Json table_members(const experiments::CaptionedTable& table, std::size_t text_columns);
 
 /// Every CSV table of the run directory in readable form: columns `x`, `x_low`, `x_high` are
 /// merged.
@@ -37,11 +36,11 @@ ReportSection more_tables_section(const ReportSubject& subject);
 /// numbers.
 ReportSection heatmap_section(const ReportSubject& subject);
 
-/// A figure of the run directory with its texts and links to its files, those of its data in the
-/// order of these engines; empty for one that is too large. `overlay` lies over the picture.
-std::string figure_html(const std::filesystem::path& file,
-                        const std::vector<std::string>& simulators,
-                        const std::string& overlay = {});
+/// The members of `figure.html`: a figure of the run directory with its texts and its files, those
+/// of its data in the order of these engines; null for one that is too large. `readouts` are what
+/// the cells of a map show.
+Json figure_members(const std::filesystem::path& file, const std::vector<std::string>& simulators,
+                    const std::string& readouts = {});
 
 /// The other figures of the run directory, with the texts of their scripts.
 ReportSection figures_section(const ReportSubject& subject);
@@ -63,8 +62,7 @@ inline constexpr double replay_belief_rate = 100.0;
 ///   in 32 bits. `truth` has bit 0 for the left wheel, bit 1 for the right. `beliefs` of each
 ///   estimator have a byte per step and wheel: twice P(contact) in 127ths, plus its
 ///   decision (without decisions, whether P(contact) is above ½).
-nlohmann::ordered_json replay_data(const std::vector<VideoSource>& runs,
-                                   const scoring::LabelConfig& labels);
+Json replay_data(const std::vector<VideoSource>& runs, const scoring::LabelConfig& labels);
 
 /// Triangles of a mesh.
 struct TriangleMesh {

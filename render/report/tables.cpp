@@ -18,14 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_rows = 400;
 
-/// The cell with its interval marked up, which the page shows in a lighter colour.
-std::string cell_html(const std::string& cell) {
-  const std::size_t interval = cell.find(" [");
-  if (interval == std::string::npos) return escaped(cell);
-  return fmt::format("{} <span class=\"interval\">{}</span>", escaped(cell.substr(0, interval)),
-                     escaped(cell.substr(interval + 1)));
-}
-
 bool is_number(const std::string& cell) {
   return !cell.empty() && cell.find_first_not_of("0123456789.+-eE") == std::string::npos;
 }
@@ -91,47 +83,46 @@ std::string title_of(const fs::path& file) {
 
 }  // namespace
 
-std::string table_html(const experiments::CaptionedTable& captioned, std::size_t text_columns) {
+Json table_members(const experiments::CaptionedTable& captioned, std::size_t text_columns) {
   const TextTable& table = captioned.table;
   const std::size_t reference_column = static_cast<std::size_t>(
       std::find_if(table.header.begin(), table.header.end(),
                    [](const std::string& name) { return name.starts_with("paper"); }) -
       table.header.begin());
-  std::string html = fmt::format(
-      "<div class=\"scroll\" role=\"region\" tabindex=\"0\" aria-label=\"{}\"><table>\n"
-      "<caption><span>{}</span></caption>\n<thead><tr>",
-      escaped(captioned.label), escaped(captioned.caption));
+  Json header = Json::array();
   for (std::size_t c = 0; c < table.header.size(); ++c) {
-    html += fmt::format("<th scope=\"col\"{}>{}</th>", c < text_columns ? " class=\"name\"" : "",
-                        escaped(table.header[c]));
+    header.push_back({{"text", table.header[c]}, {"is_name", c < text_columns}});
   }
-  html += "</tr></thead>\n<tbody>\n";
+  Json rows = Json::array();
   for (const auto& row : table.rows) {
-    html += "<tr>";
+    Json cells = Json::array();
     for (std::size_t c = 0; c < row.size(); ++c) {
-      if (c + 1 == text_columns) {
-        html += fmt::format("<th scope=\"row\" class=\"name\">{}</th>", escaped(row[c]));
-      } else if (c < text_columns) {
-        html += fmt::format("<td class=\"name\">{}</td>", escaped(row[c]));
-      } else if (c == reference_column) {
-        html += fmt::format("<td class=\"reference\">{}</td>", escaped(row[c]));
-      } else {
-        html += "<td>" + cell_html(row[c]) + "</td>";
-      }
+      const bool is_name = c < text_columns, is_reference = c == reference_column;
+      // The page shows the interval of an own number in a lighter colour.
+      const std::size_t end = is_name || is_reference ? row[c].npos : row[c].find(" [");
+      cells.push_back({{"is_title", c + 1 == text_columns},
+                       {"class", is_name        ? "name"
+                                 : is_reference ? "reference"
+                                                : ""},
+                       {"text", row[c].substr(0, end)},
+                       {"interval", end == row[c].npos ? "" : row[c].substr(end + 1)}});
     }
-    html += "</tr>\n";
+    rows.push_back({{"cells", std::move(cells)}});
   }
-  return html + "</tbody></table></div>\n";
+  return {{"label", captioned.label},
+          {"caption", captioned.caption},
+          {"header", std::move(header)},
+          {"rows", std::move(rows)}};
 }
 
 ReportSection more_tables_section(const ReportSubject& subject) {
-  ReportSection section{"tables", "Every table", {}};
   std::error_code ignored;
   std::vector<fs::path> files;
   for (const fs::path& entry : entries_in(subject.directory / "tables")) {
     if (entry.extension() == ".csv" && fs::is_regular_file(entry, ignored)) files.push_back(entry);
   }
   std::sort(files.begin(), files.end());
+  Json tables = Json::array();
   for (const fs::path& file : files) {
     Table table = table_of(from_csv(read_file(file)));
     const std::size_t rows = table.rows.size();
@@ -147,11 +138,9 @@ ReportSection more_tables_section(const ReportSubject& subject) {
            shown.rows[0][text_columns].find_first_of("0123456789") == std::string::npos) {
       ++text_columns;
     }
-    section.html +=
-        fmt::format("<details><summary>{}</summary>\n{}</details>\n", escaped(title_of(file)),
-                    table_html({caption, title_of(file), shown}, text_columns));
+    tables.push_back(table_members({caption, title_of(file), shown}, text_columns));
   }
-  return section;
+  return {"tables", "Every table", html_of("tables.html", {{"tables", std::move(tables)}})};
 }
 
 }  // namespace touchdown::render

@@ -154,10 +154,7 @@ StudyPictures benchmark_pictures() {
   };
   const auto section = [](const ReportSubject& subject) {
     write_benchmark_page(subject);
-    return ReportSection{
-        "scenes", "Scene by scene",
-        "<p><a href=\"benchmark.html\">Which estimator works where?</a> The benchmark's page shows "
-        "every scene, for every robot with its sensors.</p>\n"};
+    return ReportSection{"scenes", "Scene by scene", html_of("benchmark_link.html", {})};
   };
   return {.is_requested = has_section<experiments::BenchmarkConfig>,
           .draw = draw,

@@ -62,39 +62,32 @@ struct AccuracyCell {
   std::string tooltip = {};
 };
 
-/// A table with a row per estimator. The best of each column is bold, and columns can be sorted.
-std::string accuracy_table(const Estimators& external, const std::string& caption,
-                           const std::vector<std::string>& columns,
-                           const std::vector<std::string>& estimators,
-                           const std::vector<std::vector<AccuracyCell>>& cells) {
-  std::string html = fmt::format(
-      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\">\n<table "
-      "class=\"shares\">\n<caption><span>{0}</span></caption>\n<thead><tr><th class=\"name\" "
-      "scope=\"col\">estimator</th>",
-      escaped(caption));
-  for (const std::string& column : columns) {
-    html +=
-        fmt::format("<th scope=\"col\"><button class=\"sort\">{}</button></th>", escaped(column));
-  }
-  html += "</tr></thead>\n<tbody>\n";
+/// The members of `accuracy_table.html`: a row per estimator. The best of each column is bold.
+Json accuracy_table(const Estimators& external, const std::string& caption,
+                    const std::vector<std::string>& columns,
+                    const std::vector<std::string>& estimators,
+                    const std::vector<std::vector<AccuracyCell>>& cells) {
+  Json rows = Json::array();
   for (std::size_t row = 0; row < estimators.size(); ++row) {
-    html += fmt::format("<tr><th class=\"name\" scope=\"row\">{}</th>",
-                        escaped(experiments::estimator_title(estimators[row], external)));
+    Json of_row = Json::array();
     for (std::size_t column = 0; column < columns.size(); ++column) {
-      const AccuracyCell& cell = cells[row][column];
-      if (std::isnan(cell.value)) {
-        html += "<td>–</td>";
+      const auto& [value, tooltip] = cells[row][column];
+      if (std::isnan(value)) {
+        of_row.push_back({{"text", ""}});
         continue;
       }
       double best = 0.0;
       for (const auto& other : cells) best = std::fmax(best, other[column].value);
-      html += fmt::format("<td class=\"level-{}{}\" data-value=\"{}\" title=\"{}\">{:.3f}</td>",
-                          level_of(cell.value), cell.value >= best - 0.0005 ? " best" : "",
-                          cell.value, escaped(cell.tooltip), cell.value);
+      of_row.push_back({{"text", accuracy_text(value)},
+                        {"level", level_of(value)},
+                        {"is_best", value >= best - 0.0005},
+                        {"value", fmt::format("{}", value)},
+                        {"tooltip", tooltip}});
     }
-    html += "</tr>\n";
+    rows.push_back({{"title", experiments::estimator_title(estimators[row], external)},
+                    {"cells", std::move(of_row)}});
   }
-  return html + "</tbody></table></div>\n";
+  return {{"caption", caption}, {"columns", columns}, {"rows", std::move(rows)}};
 }
 
 double accuracy_of(const TableRow& score) { return score.number("balanced_accuracy"); }
@@ -104,8 +97,8 @@ std::string name_of(const TableRow& score) {
   return score.text("scene") + (score.text("split") == "unseen" ? " *" : "");
 }
 
-std::string scene_table(const Estimators& external, const std::vector<TableRow>& scores,
-                        const std::string& caption) {
+Json scene_table(const Estimators& external, const std::vector<TableRow>& scores,
+                 const std::string& caption) {
   const auto estimators = unique(scores, estimator_of);
   const auto columns = unique(scores, name_of);
   std::vector<std::vector<AccuracyCell>> cells(estimators.size());
@@ -128,7 +121,7 @@ std::string matrix_html(const BenchmarkTables& tables) {
   const std::vector<TableRow> standings = tables.standings.all();
   const auto estimators = unique(standings, estimator_of);
   const auto settings = unique(standings, setting_of);
-  std::string html;
+  Json of_noise = Json::array();
   for (const std::string& noise : unique(standings, noise_of)) {
     std::vector<std::vector<AccuracyCell>> cells(estimators.size(),
                                                  std::vector<AccuracyCell>(settings.size()));
@@ -145,22 +138,22 @@ std::string matrix_html(const BenchmarkTables& tables) {
                       standing.text("worst_scene"),
                       simulators::simulator_title(standing.text("worst_simulator")))};
     }
-    html += accuracy_table(
+    of_noise.push_back(accuracy_table(
         tables.external,
         fmt::format("Mean balanced accuracy over all scenes and engines, by robot and sensors, {}",
                     noise),
-        settings, estimators, cells);
+        settings, estimators, cells));
   }
-  return html;
+  return html_of("benchmark_matrix.html", {{"tables", std::move(of_noise)}});
 }
 
 /// Balanced accuracy by scene for one robot with its sensors: a table for every engine and noise
 /// setting, with a row per estimator and a column per scene. A star marks scenes that no estimator
 /// was fitted to.
-std::string scenes_html(const BenchmarkTables& tables, const std::string& setting,
-                        const std::vector<std::string>& simulators) {
+Json scene_tables(const BenchmarkTables& tables, const std::string& setting,
+                  const std::vector<std::string>& simulators) {
   const std::vector<TableRow> scores = tables.scenes.all();
-  std::string html;
+  Json of_engines = Json::array();
   for (const std::string& noise : unique(scores, noise_of)) {
     for (const std::string& simulator : simulators) {
       const std::vector<TableRow> alike = where(scores, [&](const TableRow& score) {
@@ -168,12 +161,13 @@ std::string scenes_html(const BenchmarkTables& tables, const std::string& settin
                score.text("simulator") == simulator;
       });
       if (alike.empty()) continue;
-      html += scene_table(tables.external, alike,
-                          fmt::format("Balanced accuracy by scene: {}, {}, {}",
-                                      simulators::simulator_title(simulator), setting, noise));
+      of_engines.push_back(
+          scene_table(tables.external, alike,
+                      fmt::format("Balanced accuracy by scene: {}, {}, {}",
+                                  simulators::simulator_title(simulator), setting, noise)));
     }
   }
-  return html;
+  return of_engines;
 }
 
 constexpr std::size_t most_failures = 4;  ///< scenes on a card
@@ -202,8 +196,9 @@ std::string standing_text(const TableRow& standing) {
                      noise_of(standing));
 }
 
-std::string card(const BenchmarkTables& tables, const std::string& estimator,
-                 const fs::path& run_directory) {
+/// The members of a card of `benchmark_cards.html`.
+Json card(const BenchmarkTables& tables, const std::string& estimator,
+          const fs::path& run_directory) {
   const auto is_its_own = [&](const TableRow& row) { return estimator_of(row) == estimator; };
   const std::vector<TableRow> standings = where(tables.standings.all(), is_its_own);
   const TableRow* best = &standings.front();
@@ -220,109 +215,94 @@ std::string card(const BenchmarkTables& tables, const std::string& estimator,
   std::stable_sort(failures.begin(), failures.end(), [](const auto& one, const auto& other) {
     return accuracy_of(one) < accuracy_of(other);
   });
-  std::string items;
+  Json items = Json::array();
   std::vector<std::string> listed;
   for (const TableRow& score : failures) {
     const std::string scene = score.text("scene");
     if (listed.size() == most_failures) break;
     if (std::find(listed.begin(), listed.end(), scene) != listed.end()) continue;
     listed.push_back(scene);
-    items += fmt::format("<li><b>{}</b> {:.3f}: {} ({}, {}, {})</li>\n", escaped(scene),
-                         accuracy_of(score), errors_of(score),
-                         escaped(simulators::simulator_title(score.text("simulator"))),
-                         escaped(setting_of(score)), escaped(noise_of(score)));
+    items.push_back({{"scene", scene},
+                     {"accuracy", accuracy_text(accuracy_of(score))},
+                     {"errors", errors_of(score)},
+                     {"engine", simulators::simulator_title(score.text("simulator"))},
+                     {"setting", setting_of(score)},
+                     {"noise", noise_of(score)}});
   }
   const fs::path film = run_directory / "videos" / fmt::format("worst_{}.mp4", estimator);
-  const std::string film_html =
-      is_there(film)
-          ? fmt::format(
-                "<figure class=\"film\"><video controls muted playsinline "
-                "preload=\"metadata\" aria-label=\"The worst two seconds of {0}\" "
-                "src=\"{1}\"></video>\n<figcaption>The two seconds in which it makes the most "
-                "errors.</figcaption></figure>\n",
-                escaped(experiments::estimator_title(estimator, tables.external)),
-                data_uri("video/mp4", film))
-          : "";
-  return fmt::format(
-      "<article class=\"card\">\n<h3>{}</h3>\n<p>{}. Not significantly worse than the best in {} "
-      "of {} settings. Mean balanced accuracy: {} to {}.</p>\n{}{}</article>\n",
-      escaped(experiments::estimator_title(estimator, tables.external)),
-      escaped(summary_of(estimator, tables.external)), not_worse, standings.size(),
-      escaped(standing_text(*worst)), escaped(standing_text(*best)),
-      items.empty() ? fmt::format("<p>At least {:.2f} in every scene.</p>\n", failure)
-                    : "<ul>\n" + items + "</ul>\n",
-      film_html);
+  return {{"title", experiments::estimator_title(estimator, tables.external)},
+          {"summary", summary_of(estimator, tables.external)},
+          {"not_worse", not_worse},
+          {"settings", standings.size()},
+          {"worst", standing_text(*worst)},
+          {"best", standing_text(*best)},
+          {"failure", fmt::format("{:.2f}", failure)},
+          {"has_failures", !items.empty()},
+          {"failures", std::move(items)},
+          {"film", is_there(film) ? data_uri("video/mp4", film) : ""}};
 }
 
 /// A card for each estimator: a summary, its best and worst mean, and the scenes in which it fails,
 /// with its errors there. A card shows `videos/worst_<estimator>.mp4` if the run directory has it.
 std::string cards_html(const BenchmarkTables& tables, const fs::path& run_directory) {
-  std::string html = "<div class=\"cards\">\n";
+  Json cards = Json::array();
   for (const std::string& estimator : unique(tables.standings.all(), estimator_of)) {
     if (estimator == experiments::always_contact_name) continue;
-    html += card(tables, estimator, run_directory);
+    cards.push_back(card(tables, estimator, run_directory));
   }
-  return html + "</div>\n";
+  return html_of("benchmark_cards.html", {{"cards", std::move(cards)}});
 }
 
-std::string header_of(const ReportSubject& subject, const BenchmarkTables& tables) {
-  const auto fact = [](const char* name, const Table& table, const char* column) {
+PageHeader header_of(const ReportSubject& subject, const BenchmarkTables& tables) {
+  const auto count = [](const Table& table, const char* column) {
     const auto values = unique(table.all(), [&](const TableRow& row) { return row.text(column); });
-    return fact_html(name, std::to_string(values.size()));
+    return std::to_string(values.size());
   };
-  return fmt::format(
-             "<p class=\"kicker\">Contact estimation on a wheeled biped</p>\n<h1>{}: which "
-             "estimator works where?</h1>\n<p class=\"lead\">Balanced accuracy is the mean of the "
-             "recall of contact and the recall of flight. In a scene with only one of the two, it "
-             "is the recall of that one. A constant answer scores 0.5 where both occur.</p>\n<dl "
-             "class=\"facts\">\n",
-             escaped(subject.experiment.name)) +
-         fact("estimators", tables.standings, "estimator") +
-         fact("scenes", tables.scenes, "scene") + fact("robots", tables.standings, "robot") +
-         fact("sensor profiles", tables.standings, "sensors") +
-         fact_html("noise settings",
-                   std::to_string(unique(tables.standings.all(), noise_of).size())) +
-         fact_html("physics engines", std::to_string(subject.experiment.simulators.size())) +
-         fmt::format(
-             "</dl>\n<p class=\"note\">{} {} runs per scene and engine. All numbers of "
-             "this page: <a href=\"tables/benchmark.csv\">benchmark.csv</a>, <a "
-             "href=\"tables/benchmark_standings.csv\">standings</a>, <a "
-             "href=\"tables/benchmark_differences.csv\">differences</a>. "
-             "The <a href=\"report.html\">report"
-             "</a> shows the rest of the experiment.</p>\n",
-             escaped(experiments::conditions_text(subject.experiment)),
-             subject.experiment.test.runs);
+  return {
+      subject.experiment.name + ": which estimator works where?",
+      "Balanced accuracy is the mean of the recall of contact and the recall of flight. In a "
+      "scene with only one of the two, it is the recall of that one. A constant answer scores "
+      "0.5 where both occur.",
+      {{"estimators", count(tables.standings, "estimator")},
+       {"scenes", count(tables.scenes, "scene")},
+       {"robots", count(tables.standings, "robot")},
+       {"sensor profiles", count(tables.standings, "sensors")},
+       {"noise settings", std::to_string(unique(tables.standings.all(), noise_of).size())},
+       {"physics engines", std::to_string(subject.experiment.simulators.size())}},
+      fmt::format("{} {} runs per scene and engine.",
+                  experiments::conditions_text(subject.experiment), subject.experiment.test.runs),
+      true};
 }
 
 }  // namespace
 
 fs::path write_benchmark_page(const ReportSubject& subject) {
   const BenchmarkTables tables = benchmark_tables(subject.directory);
+  Json standings = Json::array(), scenes = Json::array();
   const std::vector<TableRow> all = tables.standings.all();
-  std::string standings;
-  std::string scenes =
-      "<p>Cells show balanced accuracy: the best of each column is bold, and darker cells are "
-      "worse. A star marks scenes that are unlike all training scenes. Click a heading to sort; "
-      "point at a cell for more numbers.</p>\n";
   std::string last;
   for (const TableRow& standing : all) {
     if (setting_of(standing) == last) continue;
-    const char* open = last.empty() ? " open" : "";
+    const bool is_first = last.empty();
     last = setting_of(standing);
-    const auto folded = [&](const std::string& html) {
-      return html.empty() ? html
-                          : fmt::format("<details{}><summary>{}</summary>\n{}</details>\n", open,
-                                        escaped(last), html);
-    };
     const fs::path figure = standings_stem(subject.directory, standing).string() + ".svg";
-    if (is_there(figure)) standings += folded(figure_html(figure, subject.experiment.simulators));
-    scenes += folded(scenes_html(tables, last, subject.experiment.simulators));
+    Json drawn = is_there(figure) ? figure_members(figure, subject.experiment.simulators) : Json();
+    if (!drawn.is_null()) {
+      drawn.update({{"is_first", is_first}, {"setting", last}});
+      standings.push_back(std::move(drawn));
+    }
+    Json of_setting = scene_tables(tables, last, subject.experiment.simulators);
+    if (of_setting.empty()) continue;
+    scenes.push_back(
+        {{"is_first", is_first}, {"setting", last}, {"tables", std::move(of_setting)}});
   }
   fs::path path = experiments::record_file(subject.directory, "benchmark.html");
   write_page(subject, path, header_of(subject, tables),
-             {{"standings", "Ranking", standings},
+             {{"standings", "Ranking",
+               html_of("benchmark_standings.html", {{"settings", std::move(standings)}})},
               {"matrix", "Robots and sensors", matrix_html(tables)},
-              {"scenes", "Scene by scene", scenes},
+              {"scenes", "Scene by scene",
+               html_of("benchmark_scenes.html", {{"settings", std::move(scenes)}})},
               {"cards", "Failures of each estimator", cards_html(tables, subject.directory)}});
   return path;
 }

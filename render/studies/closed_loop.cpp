@@ -105,23 +105,19 @@ void film_closed_loop(const experiments::ExperimentResult& result, const std::at
 /// A still picture with a link for each of these films in the run directory; empty without films.
 std::string closed_loop_films_html(const ReportSubject& subject) {
   const fs::path folder = subject.directory / "videos";
-  std::string html;
+  Json films = Json::array();
   for (const std::string& simulator : subject.experiment.simulators) {
     const std::string name = loop_film_stem(simulator) + ".mp4";
     const fs::path picture = folder / (loop_film_stem(simulator) + ".jpg");
     std::error_code error;
     const std::uintmax_t bytes = fs::file_size(folder / name, error);
     if (error || !is_there(picture)) continue;
-    html += fmt::format(
-        "<figure class=\"still\"><a href=\"videos/{0}\"><img alt=\"{1}: the same run with "
-        "each contact source\" src=\"{2}\"></a>\n<figcaption>{1}: the same run with each contact "
-        "source. Below: the contact probabilities that each policy receives. The film is beside "
-        "this "
-        "file: <a href=\"videos/{0}\">{0}</a> ({3}).</figcaption></figure>\n",
-        escaped(name), escaped(simulators::simulator_title(simulator)),
-        data_uri("image/jpeg", picture), size_text(bytes));
+    films.push_back({{"file", name},
+                     {"engine", simulators::simulator_title(simulator)},
+                     {"picture", data_uri("image/jpeg", picture)},
+                     {"size", size_text(bytes)}});
   }
-  return html;
+  return html_of("closed_loop_films.html", {{"films", std::move(films)}});
 }
 
 }  // namespace

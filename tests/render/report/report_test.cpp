@@ -177,7 +177,7 @@ TEST_F(Report, ListsEstimatorsResultsAndCommit) {
   EXPECT_THAT(
       html,
       HasSubstr(
-          "<dt>Bayes filter (robust)</dt><dd>Runs the paper&#39;s Bayes filter with changes for "
+          "<dt>Bayes filter (robust)</dt><dd>Runs the paper&apos;s Bayes filter with changes for "
           "noisy sensors. It uses knee torques, wheel torques and the "
           "accelerometer.</dd>"));
   EXPECT_THAT(
