@@ -93,7 +93,9 @@ std::vector<RequestInput> inputs_of(const RunRequest& request) {
     add_text(named.file, noise::to_yaml(named.profile));
   }
   for (const NamedScenario& named : request.scenarios) {
-    add_text(named.file, scenarios::to_yaml(named.scenario));
+    scenarios::Scenario scenario = named.scenario;
+    scenario.robot = fs::path(scenario.robot).filename().string();  // its files are listed above
+    add_text(named.file, scenarios::to_yaml(scenario));
   }
   add_text("config.yaml", to_yaml(request.experiment));
   return inputs;

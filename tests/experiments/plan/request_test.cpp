@@ -37,6 +37,21 @@ TEST(Request, ReadsBackUnchanged) {
   }
 }
 
+/// The shipped robot's path is another one there.
+TEST(Request, IsTheSameInEveryWorkingDirectory) {
+  const ScratchFolder folder;
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(TOUCHDOWN_SOURCE_DIR);
+  const RunRequest request = shipped("tables");
+  write_request(request, RunDirectory("tables", request.id, folder / "run"), false);
+  for (const auto& elsewhere : {std::filesystem::path("/"), folder.path(), folder / "run"}) {
+    std::filesystem::current_path(elsewhere);
+    EXPECT_EQ(read_request(folder / "run").id, request.id) << elsewhere;
+    EXPECT_EQ(shipped("tables").id, request.id) << elsewhere;
+  }
+  std::filesystem::current_path(before);
+}
+
 TEST(Request, ReplacesAnotherOneOnlyWithOverwrite) {
   const ScratchFolder folder;
   const RunRequest stairs = shipped("stairs");
