@@ -6,7 +6,10 @@
 #include "apps/cli/verb.hpp"
 #include "core/files.hpp"
 #include "core/program.hpp"
+#include "experiments/studies/benchmark.hpp"
 #include "experiments/submissions/score_beliefs.hpp"
+#include "render/figures/chosen_run.hpp"
+#include "render/gnuplot/facets.hpp"
 #include "render/report/report.hpp"
 #include "render/studies/benchmark.hpp"
 #include "render/studies/registry.hpp"
@@ -45,7 +48,11 @@ std::string left_out(const experiments::BeliefReport& report) {
 
 void write_report_again(const std::filesystem::path& run, const CliSession& session) {
   const render::ReportSubject subject = render::read_subject(run);
-  render::draw_standings_figures(run, subject.experiment.intervals.bootstrap.level);
+  const Table standings = render::benchmark_tables(run).standings;
+  for (const auto& figure : experiments::standings_figures(standings, subject.experiment)) {
+    render::draw_facets(figure, standings,
+                        render::figure_file(run, figure.name, subject.experiment.figures));
+  }
   std::vector<render::FilmedRun> filmed;
   if (subject.experiment.video.enabled) filmed = render::filmed_runs(subject);
   render::film_for_report(filmed, subject.experiment, run, session.stop);

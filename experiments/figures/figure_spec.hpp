@@ -66,6 +66,7 @@ enum class MarkShape { curve, step, points, ring, cross, image, number };
 struct FigureMark {
   MarkShape shape = MarkShape::curve;
   std::vector<CellFilter> where = {};
+  std::string measure = {};  ///< the column of the only measure that has it; empty: all
 };
 
 /// A figure of a CSV table: a panel per group of `panels` and measure, a curve per group of

@@ -210,7 +210,11 @@ class BenchmarkStudy final : public SectionStudy<BenchmarkConfig> {
 
   StudyResult summarize(const Evaluation& evaluation,
                         const RunDirectory& directory) const override {
-    return {{write_benchmark(evaluation, directory)}};
+    const std::string text = write_benchmark(evaluation, directory);
+    return {{text},
+            {},
+            standings_figures(directory.read_table("benchmark_standings.csv"),
+                              evaluation.request.experiment)};
   }
 };
 

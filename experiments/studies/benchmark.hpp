@@ -149,6 +149,11 @@ std::vector<Standings> standings(const std::vector<BenchmarkRow>& rows,
 /// Empty without standings.
 std::string unseen_markdown(const std::vector<Standings>& unseen, const Experiment& experiment);
 
+/// The rankings of `benchmark_standings.csv`: a figure for every robot with its sensors,
+/// `benchmark_<robot>_<sensors>`. A ring marks a balanced accuracy that is not significantly worse
+/// than the best.
+std::vector<FigureSpec> standings_figures(const Table& standings, const Experiment& experiment);
+
 /// Writes the tables of a benchmark with its submissions. Returns the text for the terminal:
 /// standings for every robot with its sensors, and scores by scene for the experiment's own.
 std::string write_benchmark(const Evaluation& evaluation, const RunDirectory& directory);

@@ -399,4 +399,38 @@ std::string write_benchmark(const Evaluation& evaluation, const RunDirectory& di
   return text_of(rows, all, unseen, markdown, experiment);
 }
 
+std::vector<FigureSpec> standings_figures(const Table& standings, const Experiment& experiment) {
+  const FigureGroups setups =
+      combinations_in(standings, {"robot", "sensors"}, [](const auto&) { return std::string(); });
+  std::vector<FigureSpec> specs;
+  for (const FigureGroup& setup : setups.groups) {
+    const std::string &robot = setup.values[0], &sensors = setup.values[1];
+    FigureSpec spec{.name = fmt::format("benchmark_{}_{}", robot, sensors),
+                    .table = "benchmark_standings.csv",
+                    .where = {{"robot", robot}, {"sensors", sensors}}};
+    spec.panels = noise_panels(standings);
+    const auto title = [&](const std::string& name) {
+      return estimator_title_in(experiment, name);
+    };
+    spec.rows = groups_in(standings, "estimator", title, spec.where);
+    spec.measures = {axis_with_interval("event_f1", "F1 of events"),
+                     axis_with_interval("mean_balanced_accuracy", "balanced accuracy"),
+                     {.column = "worst_balanced_accuracy", .title = "that of the worst scene"}};
+    for (FigureAxis& measure : spec.measures) measure.to = 1.01;
+    spec.marks = {
+        {MarkShape::points},
+        {MarkShape::ring, {{"is_not_significantly_worse", "1"}}, "mean_balanced_accuracy"}};
+    spec.title = fmt::format("Estimators on {} with {} sensors", robot, sensors);
+    spec.caption = fmt::format(
+        "Over all scenes and engines, with {:.0f} % intervals: F1 of takeoffs and landings, "
+        "balanced accuracy, and that of the scene and engine where it is lowest. A ring: not "
+        "significantly worse than the best, because the simultaneous band of their paired "
+        "difference includes zero.",
+        100.0 * experiment.intervals.bootstrap.level);
+    spec.alt = "F1 of takeoffs and landings by estimator." + values_text(spec, standings);
+    specs.push_back(std::move(spec));
+  }
+  return specs;
+}
+
 }  // namespace touchdown::experiments

@@ -311,8 +311,11 @@ std::string plot_command(const FigureSpec& spec, const FigureAxis& measure, Mark
       fmt::format("({}):({})", selected(has_rows ? value : position, plot.selections),
                   has_rows ? position : value);
   if (has_interval) {
-    columns += fmt::format(":({}):({})", value_text(measure, measure.low),
-                           value_text(measure, measure.high));
+    // A value without an interval is drawn, too: with ends at the value itself.
+    for (const std::string& end : {measure.low, measure.high}) {
+      columns += fmt::format(":(strcol({}) eq 'nan' ? {} : {})", gnuplot_text(end), value,
+                             value_text(measure, end));
+    }
   }
   return fmt::format("{} using {} with {} {}{} notitle", file, columns,
                      shape_text(shape, has_rows, has_interval), plot.style,

@@ -301,6 +301,8 @@ class FacetFigure {
                                           ? style + ' ' + curve_width(i, series_.size())
                                           : style;
       for (std::size_t mark = 0; mark < spec_.marks.size(); ++mark) {
+        const std::string& only = spec_.marks[mark].measure;
+        if (!only.empty() && only != measures_[place.measure]->column) continue;
         const bool is_drawn = std::any_of(data_.begin(), data_.end(), [&](const FacetRow& row) {
           return row.panel == panel && row.series == series_[i] &&
                  experiments::passes(row.cells, spec_.marks[mark].where);

@@ -33,7 +33,6 @@ BenchmarkTables benchmark_tables(const std::filesystem::path& run_directory) {
     return is_there(file) ? table_of(from_csv(read_file(file))) : Table();
   };
   BenchmarkTables tables{table("benchmark.csv"), table("benchmark_standings.csv"),
-                         table("benchmark_differences.csv"),
                          experiments::written_estimators(run_directory)};
   const Table all = std::exchange(tables.scenes, {tables.scenes.columns, {}});
   for (std::size_t i = 0; i < all.rows.size(); ++i) {
@@ -144,10 +143,6 @@ void film_worst_segments(const experiments::ExperimentResult& result,
 }  // namespace
 
 StudyPictures benchmark_pictures() {
-  const auto draw = [](const experiments::ExperimentResult& result) {
-    draw_standings_figures(result.directory.path(), result.experiment.intervals.bootstrap.level,
-                           result.experiment.figures);
-  };
   const auto film = [](const experiments::ExperimentResult& result, const std::atomic<bool>* stop) {
     if (result.experiment.studies.at<experiments::BenchmarkConfig>().clips)
       film_worst_segments(result, stop);
@@ -156,10 +151,8 @@ StudyPictures benchmark_pictures() {
     write_benchmark_page(subject);
     return ReportSection{"scenes", "Scene by scene", html_of("benchmark_link.html", {})};
   };
-  return {.is_requested = has_section<experiments::BenchmarkConfig>,
-          .draw = draw,
-          .film = film,
-          .section = section};
+  return {
+      .is_requested = has_section<experiments::BenchmarkConfig>, .film = film, .section = section};
 }
 
 }  // namespace touchdown::render

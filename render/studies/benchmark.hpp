@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/table.hpp"
-#include "render/gnuplot/figure.hpp"
 #include "render/report/report.hpp"
 
 namespace touchdown::render {
@@ -16,9 +15,6 @@ namespace touchdown::render {
 struct BenchmarkTables {
   Table scenes;     ///< `benchmark.csv`: in-domain scores alone
   Table standings;  ///< `benchmark_standings.csv`
-  /// `benchmark_differences.csv`. Rows without a scene have differences of the means over all
-  /// scenes.
-  Table pairs;
   std::vector<experiments::EstimatorEntry> external = {};  ///< those written in Python
 };
 
@@ -32,23 +28,6 @@ inline std::string estimator_of(const TableRow& row) { return row.text("estimato
 inline double mean_of(const TableRow& standing) {
   return standing.number("mean_balanced_accuracy");
 }
-
-/// The path, without its extension, of the figure of one robot with its sensors.
-std::filesystem::path standings_stem(const std::filesystem::path& run_directory,
-                                     const TableRow& standing);
-
-/// Draws the ranking of the estimators on one robot with its sensors, a row of panels for every
-/// noise setting. The left panel has means over all scenes and engines with their intervals, the
-/// best above. Bars join estimators that do not differ significantly, as Demšar (2006) draws
-/// critical differences; here the simultaneous bands of paired differences decide. The right panel
-/// has the worst scene of each. `level` is the confidence level of the intervals. Files and errors
-/// as `draw_figure`.
-Figure draw_standings_figure(const BenchmarkTables& tables, const std::string& setting,
-                             double level, const FigureFile& target);
-
-/// Draws a figure for every robot with its sensors in the run directory's tables.
-void draw_standings_figures(const std::filesystem::path& run_directory, double level,
-                            const experiments::PrintConfig& print = {});
 
 /// Writes `benchmark.html` into the run directory of an experiment with a benchmark, from its
 /// tables and figures: the ranking, robots × sensors, every scene, a card for each estimator.

@@ -285,7 +285,9 @@ fs::path write_benchmark_page(const ReportSubject& subject) {
     if (setting_of(standing) == last) continue;
     const bool is_first = last.empty();
     last = setting_of(standing);
-    const fs::path figure = standings_stem(subject.directory, standing).string() + ".svg";
+    const fs::path figure =
+        subject.directory / "figures" /
+        fmt::format("benchmark_{}_{}.svg", standing.text("robot"), standing.text("sensors"));
     Json drawn = is_there(figure) ? figure_members(figure, subject.experiment.simulators) : Json();
     if (!drawn.is_null()) {
       drawn.update({{"is_first", is_first}, {"setting", last}});

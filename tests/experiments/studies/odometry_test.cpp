@@ -90,15 +90,16 @@ TEST(OdometryStudy, ScoresOdometryWithEveryEstimatorAndTheTruth) {
     EXPECT_EQ(row.text("runs"), "2");
   }
   EXPECT_THAT(result.studies.back(), HasSubstr("Truth, delayed 100 ms (oracle)"));
-  ASSERT_EQ(result.figures.size(), 2U);
-  EXPECT_EQ(result.figures[0].name, "odometry_upkie_upkie");
-  EXPECT_EQ(result.figures[1].name, "odometry_upkie_ideal");
+  ASSERT_EQ(result.figures.size(), 4U);  // two of the benchmark itself
+  const FigureSpec& figure = result.figures[2];
+  EXPECT_EQ(figure.name, "odometry_upkie_upkie");
+  EXPECT_EQ(result.figures[3].name, "odometry_upkie_ideal");
   // The contact sources are ranked by their errors, summed over engines.
   std::map<std::string, double> sums = column(table, "mujoco", "rms_m");
   for (const auto& [contact, error] : column(table, "bullet", "rms_m")) sums[contact] += error;
   double last = 0.0;
-  ASSERT_EQ(result.figures[0].rows.groups.size(), sums.size());
-  for (const FigureGroup& contact : result.figures[0].rows.groups) {
+  ASSERT_EQ(figure.rows.groups.size(), sums.size());
+  for (const FigureGroup& contact : figure.rows.groups) {
     EXPECT_GE(sums.at(contact.values.front()), last);
     last = sums.at(contact.values.front());
   }

@@ -12,7 +12,6 @@
 #include "core/files.hpp"
 #include "render/figures/figures.hpp"
 #include "render/gnuplot/facets.hpp"
-#include "render/studies/benchmark.hpp"
 #include "render/studies/registry.hpp"
 #include "tests/render/figures/noise_map.hpp"
 #include "tests/scratch_folder.hpp"
@@ -82,17 +81,6 @@ Figure print_facets(const FigureFile& file, bool has_rows) {
   return draw_facets(spec, table, file).value();
 }
 
-Figure print_standings(const FigureFile& file) {
-  BenchmarkTables tables;
-  tables.standings = table_of(
-      from_csv("robot,sensors,torque_noise_nm,accelerometer_noise_mps2,estimator,"
-               "mean_balanced_accuracy,mean_balanced_accuracy_low,mean_balanced_accuracy_high,"
-               "worst_balanced_accuracy,worst_scene,worst_simulator\n"
-               "upkie,harsh,0,0,robust,0.845,0.83,0.85,0.7,stairs_authors,mujoco\n"
-               "upkie,harsh,0,0,paper,0.83,0.82,0.84,0.7,hop,mujoco\n"));
-  return draw_standings_figure(tables, "upkie, harsh sensors", 0.95, file);
-}
-
 Figure print_overlay(const FigureFile& file) {
   const auto drop = [](const std::string& engine) {
     logs::Recording recording;
@@ -127,7 +115,6 @@ const PrintedKind kinds[] = {
     {"latency", print_latencies},
     {"curves", [](const FigureFile& file) { return print_facets(file, false); }},
     {"rows", [](const FigureFile& file) { return print_facets(file, true); }},
-    {"standings", print_standings},
     {"overlay", print_overlay},
 };
 
@@ -175,9 +162,9 @@ TEST(PrintedFigures, LeaveTitleAndCaptionToTheDocument) {
 TEST(PrintedFigures, OnlyTheChosenOneIsDrawn) {
   const ScratchFolder scratch;
   EXPECT_TRUE(
-      print_standings({scratch / "one", {.width_mm = 88.0, .only = "another"}}).png.empty());
+      print_latencies({scratch / "one", {.width_mm = 88.0, .only = "another"}}).png.empty());
   EXPECT_FALSE(is_there(scratch / "one.gp"));
-  EXPECT_FALSE(print_standings({scratch / "one", {.width_mm = 88.0, .only = "one"}}).png.empty());
+  EXPECT_FALSE(print_latencies({scratch / "one", {.width_mm = 88.0, .only = "one"}}).png.empty());
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
+#include "experiments/studies/benchmark.hpp"
+#include "render/gnuplot/facets.hpp"
 #include "render/report/report.hpp"
 #include "render/studies/registry.hpp"
 #include "tests/render/report/score_files.hpp"
@@ -28,8 +30,7 @@ test: {scenarios: [scenarios/stairs.yaml]}
 benchmark: {}
 )";
 
-/// Four estimators in two scenes. Of the first three, neighbouring ranks do not differ
-/// significantly, but the first and the third do.
+/// Four estimators in two scenes. Two of them do not differ significantly.
 class BenchmarkPage : public ::testing::Test {
  protected:
   BenchmarkPage() {
@@ -45,27 +46,18 @@ class BenchmarkPage : public ::testing::Test {
         "mujoco,upkie,harsh,stairs,test,free_fall,0.5,0.4,0.6,nan,0,0,0,own\n"
         "mujoco,upkie,harsh,stairs,test,robust,0.1,0,0.2,1,1,0,0,bullet\n"  // a transfer
         "mujoco,upkie,harsh,<i>hop,unseen,robust,0.7,0.6,0.8,0.9,0.45,0,0,own\n"
-        "mujoco,upkie,harsh,<i>hop,unseen,free_fall,nan,nan,nan,nan,nan,0,0,own\n"
+        "mujoco,upkie,harsh,<i>hop,unseen,free_fall,0.2,0.1,0.3,nan,nan,0,0,own\n"
         "mujoco,upkie,harsh,<i>hop\n");  // torn
     folder_.write("tables/benchmark_standings.csv",
                   "robot,sensors,torque_noise_nm,accelerometer_noise_mps2,estimator,"
+                  "event_f1,event_f1_low,event_f1_high,"
                   "mean_balanced_accuracy,mean_balanced_accuracy_low,mean_balanced_accuracy_high,"
                   "worst_balanced_accuracy,worst_scene,worst_simulator,is_not_significantly_worse,"
                   "log_loss_bits\n"
-                  "upkie,harsh,0,0,robust,0.845,0.83,0.85,0.7,<i>hop,mujoco,1,0.125\n"
-                  "upkie,harsh,0,0,load_filter,0.84,0.83,0.85,0.7,<i>hop,mujoco,1\n"
-                  "upkie,harsh,0,0,paper,0.83,0.82,0.84,0.7,<i>hop,mujoco,0\n"
-                  "upkie,harsh,0,0,free_fall,0.5,0.4,0.6,0.5,stairs,mujoco,0\n");
-    folder_.write("tables/benchmark_differences.csv",
-                  "robot,sensors,torque_noise_nm,accelerometer_noise_mps2,scene,first,second,"
-                  "difference,difference_low,difference_high\n"
-                  "upkie,harsh,0,0,,robust,load_filter,0.005,-0.01,0.02\n"
-                  "upkie,harsh,0,0,,robust,paper,0.015,0.001,0.03\n"
-                  "upkie,harsh,0,0,,robust,free_fall,0.345,0.3,0.4\n"
-                  "upkie,harsh,0,0,,load_filter,paper,0.01,-0.005,0.025\n"
-                  "upkie,harsh,0,0,,load_filter,free_fall,0.34,0.3,0.4\n"
-                  "upkie,harsh,0,0,,paper,free_fall,0.33,0.3,0.4\n"
-                  "upkie,harsh,0,0,stairs,load_filter,paper,0.5,0.4,0.6\n");
+                  "upkie,harsh,0,0,robust,0.9,0.8,1,0.845,0.83,0.85,0.7,<i>hop,mujoco,1,0.125\n"
+                  "upkie,harsh,0,0,load_filter,0.8,0.7,0.9,0.84,0.83,0.85,0.7,<i>hop,mujoco,1\n"
+                  "upkie,harsh,0,0,paper,0.7,0.6,0.8,0.83,0.82,0.84,0.7,<i>hop,mujoco,0\n"
+                  "upkie,harsh,0,0,free_fall,0.2,0.1,0.3,0.5,0.4,0.6,0.5,stairs,mujoco,0\n");
   }
   std::string page() const { return read_file(write_benchmark_page(read_subject(folder_.path()))); }
 
@@ -101,39 +93,40 @@ TEST_F(BenchmarkPage, ListsTheScenesAndErrorsOfEachFailure) {
                             HasSubstr("Not significantly worse than the best in 1 of 1 settings")));
 }
 
-/// A single run per scene gives no intervals.
-TEST_F(BenchmarkPage, DrawsMeansWithoutIntervalsToo) {
-  BenchmarkTables tables = benchmark_tables(folder_.path());
-  const auto points = [&](const char* name) {
-    const Figure figure =
-        draw_standings_figure(tables, "upkie, harsh sensors", 0.95, folder_ / name);
-    const std::string svg = read_file(figure.svg);
-    std::set<std::string> places;  // of dots: two dots at one position count once
-    for (std::size_t at = svg.find("#gpPt6"); at != std::string::npos;
-         at = svg.find("#gpPt6", at + 1)) {
-      const std::size_t begin = svg.find("translate(", at);
-      places.insert(svg.substr(begin, svg.find(')', begin) - begin));
-    }
-    return places.size();
-  };
-  EXPECT_EQ(points("with"), 2U * 4U);  // the mean and the worst scene of four
-  for (std::vector<Cell>& cells : tables.standings.rows) cells[6] = cells[7] = NAN;
-  EXPECT_EQ(points("without"), 2U * 4U);
-}
-
 TEST_F(BenchmarkPage, ShowsTheFilmOfTheWorstSegmentIfThereIsOne) {
   EXPECT_THAT(page(), Not(HasSubstr("<video")));
   folder_.write("videos/worst_robust.mp4", "film");
   EXPECT_THAT(page(), HasSubstr("The worst two seconds of Bayes filter (robust)"));
 }
 
-TEST_F(BenchmarkPage, JoinsEstimatorsThatDoNotDifferSignificantly) {
-  draw_standings_figures(folder_.path(), 0.95);
-  // Ranks from above: 3, 2, 1, 0. Bars join the first and second, and the second and third.
-  EXPECT_THAT(read_file(folder_ / "figures/benchmark_upkie_harsh.dat"),
-              HasSubstr("\n\n\n0\t1.7\t3.3\n1\t0.7\t2.3\n\n"));
-  EXPECT_THAT(page(), AllOf(HasSubstr("src=\"data:image/svg+xml;base64,"),
-                            HasSubstr("Bayes filter (robust) 0.845 (worst 0.700, &lt;i&gt;hop)")));
+/// The drawn dots of one kind at different positions.
+std::set<std::string> places_of(const std::string& dot, const Figure& figure) {
+  const std::string svg = read_file(figure.svg);
+  std::set<std::string> places;
+  for (std::size_t at = svg.find(dot); at != std::string::npos; at = svg.find(dot, at + 1)) {
+    const std::size_t begin = svg.find("translate(", at);
+    places.insert(svg.substr(begin, svg.find(')', begin) - begin));
+  }
+  return places;
+}
+
+/// Without intervals too: those of a single run per scene.
+TEST_F(BenchmarkPage, RingsBalancedAccuraciesThatAreNotSignificantlyWorse) {
+  const ReportSubject subject = read_subject(folder_.path());
+  Table standings = benchmark_tables(folder_.path()).standings;
+  std::filesystem::create_directory(folder_ / "figures");
+  for (const bool has_intervals : {true, false}) {
+    const auto specs = experiments::standings_figures(standings, subject.experiment);
+    ASSERT_EQ(specs.size(), 1U);
+    const Figure figure =
+        draw_facets(specs[0], standings, folder_ / "figures" / specs[0].name).value();
+    EXPECT_EQ(places_of("'#gpPt6' transform", figure).size(), 3U * 4U);  // three measures of four
+    EXPECT_EQ(places_of("'#gpPt5' transform", figure).size(), 2U) << has_intervals;
+    for (std::vector<Cell>& cells : standings.rows) {
+      cells[6] = cells[7] = cells[9] = cells[10] = NAN;
+    }
+  }
+  EXPECT_THAT(page(), HasSubstr("src=\"data:image/svg+xml;base64,"));
 }
 
 void expect_segment(const std::vector<std::vector<int>>& wrong, std::size_t length, std::size_t run,
