@@ -1,6 +1,7 @@
 #include "experiments/plan/request.hpp"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -73,10 +74,15 @@ std::vector<RequestInput> inputs_of(const RunRequest& request) {
     inputs.push_back({file, Fingerprint().add(text).text()});
   };
   const auto add_file = [&](const fs::path& file) {
-    if (listed.insert(file).second) inputs.push_back({file.string(), file_fingerprint(file)});
+    if (!listed.insert(fs::canonical(file)).second) return;
+    inputs.push_back({file.string(), file_fingerprint(file)});
   };
+  std::map<std::string, std::string> robots;  // digests of their files, by path
   for (const NamedScenario& named : request.scenarios) {
-    for (const fs::path& file : models::robot_files(named.scenario.robot)) add_file(file);
+    const std::string& robot = named.scenario.robot;
+    if (robots.contains(robot)) continue;
+    robots[robot] = models::robot_digest(robot);
+    for (const fs::path& file : models::robot_files(robot)) add_file(file);
   }
   for (const std::string& name : request.experiment.estimators) {
     const EstimatorEntry& entry = estimator_entry(request.experiment, name);
@@ -94,7 +100,7 @@ std::vector<RequestInput> inputs_of(const RunRequest& request) {
   }
   for (const NamedScenario& named : request.scenarios) {
     scenarios::Scenario scenario = named.scenario;
-    scenario.robot = fs::path(scenario.robot).filename().string();  // its files are listed above
+    scenario.robot = robots.at(scenario.robot);  // the path depends on the working directory
     add_text(named.file, scenarios::to_yaml(scenario));
   }
   add_text("config.yaml", to_yaml(request.experiment));

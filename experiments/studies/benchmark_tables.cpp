@@ -427,7 +427,12 @@ std::vector<FigureSpec> standings_figures(const Table& standings, const Experime
         "significantly worse than the best, because the simultaneous band of their paired "
         "difference includes zero.",
         100.0 * experiment.intervals.bootstrap.level);
-    spec.alt = "F1 of takeoffs and landings by estimator." + values_text(spec, standings);
+    spec.alt = "Estimators by F1 of takeoffs and landings and by balanced accuracy.";
+    FigureSpec one = spec;
+    for (const FigureAxis& measure : spec.measures) {
+      one.measures = {measure};
+      spec.alt += fmt::format(" {}:{}", measure.title, values_text(one, standings));
+    }
     specs.push_back(std::move(spec));
   }
   return specs;

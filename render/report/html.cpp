@@ -58,7 +58,8 @@ std::string html_of(std::string_view name, const Json& members) {
   mustache::mustache page(text);
   std::string html = page.render(data);
   if (!page.is_valid()) throw Error(fmt::format("{}: {}", name, page.error_message()));
-  return html;
+  // The line of a tag that shows nothing may stay.
+  return html.find_first_not_of(" \n") == html.npos ? "" : html;
 }
 
 void write_page(const ReportSubject& subject, const std::filesystem::path& path,

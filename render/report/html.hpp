@@ -21,7 +21,8 @@ using Json = nlohmann::ordered_json;
 
 /// A template of `render/report/templates` (mustache), filled with an object's members: `{{name}}`
 /// is a text, whose markup characters are escaped, and `{{{name}}}` is HTML or a `data:` URI. An
-/// empty text counts as absent. Templates include each other by their file names.
+/// empty text counts as absent. Templates include each other by their file names. Empty where the
+/// template shows nothing.
 std::string html_of(std::string_view name, const Json& members);
 
 std::string base64(std::string_view bytes);

@@ -135,6 +135,27 @@ TEST(Request, NamesTheFileThatWasChanged) {
   EXPECT_EQ(with_robot_in(folder).id, request.id);
 }
 
+/// Of two robots with one file name, each scenario has its own.
+TEST(Request, DistinguishesRobotsOfOneNameInOtherFolders) {
+  const ScratchFolder folder;
+  const std::string scenario = read_file(TOUCHDOWN_SOURCE_DIR "/scenarios/flat.yaml");
+  const auto robot = [&](const char* name) { return "robot: " + (folder / name).string() + "\n"; };
+  folder.write("a/bot.yaml", "mjcf: " TOUCHDOWN_SOURCE_DIR "/models/upkie.xml\nmass: 1.05\n");
+  folder.write("b/bot.yaml", "mjcf: " TOUCHDOWN_SOURCE_DIR "/models/upkie.xml\nmass: 1.2\n");
+  const auto id = [&](const char* of_last) {
+    folder.write("1.yaml", scenario + robot("a/bot.yaml"));
+    folder.write("2.yaml", scenario + robot("b/bot.yaml"));
+    folder.write("3.yaml", scenario + robot(of_last));
+    YamlDocument document = YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/experiments/stairs.yaml");
+    const auto path = [&](const char* name) { return (folder / name).string(); };
+    document.override_value(
+        fmt::format("test.scenarios=[{}, {}, {}]", path("1.yaml"), path("2.yaml"), path("3.yaml")));
+    return request_of(experiment_from_yaml(document)).id;
+  };
+  EXPECT_NE(id("a/bot.yaml"), id("b/bot.yaml"));
+  EXPECT_EQ(id("a/bot.yaml"), id("a/bot.yaml"));
+}
+
 RunRequest request_with(const std::string& sensors) {
   YamlDocument document = YamlDocument::load(TOUCHDOWN_SOURCE_DIR "/experiments/stairs.yaml");
   if (!sensors.empty()) document.override_value("sensors=" + sensors);
