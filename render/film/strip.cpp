@@ -77,7 +77,6 @@ void fit_range(StripRow& row) {
   row.high = range;
 }
 
-constexpr int wide = 1000;         ///< from this width on, names fit beside the plots
 constexpr int smallest_names = 7;  ///< height of letters (px)
 constexpr double seconds = 4.0;    ///< that the strip shows
 constexpr double present = 0.75;   ///< position of the present in them
@@ -136,22 +135,11 @@ SignalStrip::SignalStrip(std::vector<StripRow> rows, int width, int height)
     : rows_(std::move(rows)),
       width_(width),
       height_(height),
-      narrow_(width < wide),
-      letters_(narrow_ ? std::clamp(height * 11 / 150, 8, 13) : std::max(9, height * 12 / 220)),
+      letters_(std::max(std::clamp(height * 11 / 150, 8, 13), height * 13 / 220)),
       names_(letters_ - 1),
-      left_(narrow_ ? 3 * letters_ : std::max(width * 176 / 1280, 60)),
-      right_(narrow_ ? width - letters_ : width - width * 24 / 1280) {
-  const auto is_cut = [this] {
-    return std::ranges::any_of(rows_, [this](const StripRow& row) {
-      return std::ranges::any_of(row.curves, [this](const StripCurve& curve) {
-        return !narrow_ && legend_width(curve) > left_ - 2 * letters_ - width_ * 12 / 1280;
-      });
-    });
-  };
-  while (is_cut() && names_ > smallest_names) --names_;
-  if (!place_rows_alike()) {
-    while (!place_rows_by_legend() && names_ > smallest_names) --names_;
-  }
+      left_(3 * letters_),
+      right_(width - letters_) {
+  while (!place_rows() && names_ > smallest_names) --names_;
   background_ = cv::Mat(height_, width_, CV_8UC3, strip_paper);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     draw_ticks(i);
@@ -173,76 +161,48 @@ bool SignalStrip::is_in_legend_before(std::size_t i, const StripCurve& curve) co
 }
 
 std::vector<SignalStrip::Name> SignalStrip::names_of(std::size_t i) const {
-  const int left = narrow_ ? left_ : width_ * 12 / 1280;
-  const int right = narrow_ ? right_ : left_ - letters_ * 2;
-  int x = narrow_ ? left_ + pen_.width(rows_[i].title, letters_) + letters_ : left;
-  int line = narrow_ ? 0 : 1;
+  int x = left_ + pen_.width(rows_[i].title, letters_) + letters_;
+  int line = 0;
   std::vector<Name> names;
   // The first curve of the legend is drawn last.
   for (auto curve = rows_[i].curves.rbegin(); curve != rows_[i].curves.rend(); ++curve) {
     if (!curve->emphasis || curve->label.empty() || is_in_legend_before(i, *curve)) continue;
-    if (x > left && x + legend_width(*curve) > right) {
-      x = left;
+    if (x > left_ && x + legend_width(*curve) > right_) {
+      x = left_;
       ++line;
     }
     names.push_back({&*curve, x, line});
-    x += legend_width(*curve) + (narrow_ ? letters_ / 2 : 0);
+    x += legend_width(*curve) + letters_ / 2;
   }
   return names;
 }
 
-int SignalStrip::lines_of(std::size_t i) const {
-  const std::vector<Name> names = names_of(i);
-  return names.empty() ? 0 : names.back().line;
-}
-
-/// Rows of the same height, unless a legend is longer.
-bool SignalStrip::place_rows_alike() {
-  const int gap = std::max(4, height_ / 20);
-  const int count = std::max<int>(1, static_cast<int>(rows_.size()));
-  const int row_height = (height_ - gap * (count + 1)) / count;
-  line_ = std::min(letters_ * 7 / 4, row_height / 2);
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const int lines = lines_of(i);
-    if (narrow_ ? lines > 0 : 2 + lines * line_ + letters_ > row_height + 4) return false;
-  }
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const int top = gap + static_cast<int>(i) * (row_height + gap);
-    areas_.push_back({top + std::min(header_of(i), row_height / 2), top + row_height});
-  }
-  return true;
-}
-
-/// Rows as high as their legends, with the remaining height shared evenly. False if the strip is
-/// too low; its rows are then cut off.
-bool SignalStrip::place_rows_by_legend() {
+/// Plots of one height below their titles and legends. False if the strip is too low; its rows are
+/// then cut off.
+bool SignalStrip::place_rows() {
   line_ = names_ + std::max(2, names_ / 4);
-  const int gap = std::max(4, height_ / 20);
-  const int count = static_cast<int>(rows_.size());
-  std::vector<int> heights;
+  const int gap = std::max(4, height_ / 40);
+  const int count = std::max<int>(1, static_cast<int>(rows_.size()));
   int rest = height_ - gap * (count + 1);
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    heights.push_back(narrow_ ? header_of(i) + 2 * letters_
-                              : std::max(2 * letters_, 2 + lines_of(i) * line_ + names_));
-    rest -= heights.back();
-  }
+  for (std::size_t i = 0; i < rows_.size(); ++i) rest -= header_of(i) + 2 * letters_;
   areas_.clear();
-  int top = gap;
+  int bottom = 0;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const int bottom = std::min(height_ - 2, top + heights[i] + std::max(0, rest) / count);
-    areas_.push_back({std::min(top + header_of(i), bottom - 2), bottom});
-    top = bottom + gap;
+    const int top = bottom + gap + header_of(i);
+    bottom = std::min(height_ - 2, top + 2 * letters_ + std::max(0, rest) / count);
+    areas_.push_back({std::min(top, bottom - 2), bottom});
   }
   return rest >= 0;
 }
 
 /// The height of title and legend above a plot (px).
 int SignalStrip::header_of(std::size_t i) const {
-  return narrow_ ? letters_ + letters_ / 2 + lines_of(i) * line_ : 0;
+  const std::vector<Name> names = names_of(i);
+  return letters_ + letters_ / 2 + (names.empty() ? 0 : names.back().line * line_);
 }
 
 void SignalStrip::draw_ticks(std::size_t i) {
-  const int letters = narrow_ ? letters_ - 1 : letters_ - 2;
+  const int letters = letters_ - 1;
   for (const double share : {0.0, 1.0}) {
     const float value = rows_[i].low + static_cast<float>(share) * (rows_[i].high - rows_[i].low);
     const std::string tick = fmt::format("{:.2g}", value);
@@ -263,11 +223,9 @@ void SignalStrip::draw_legend(const StripCurve& curve, int x, int top) {
   pen_.write(background_, curve.label, x + dash + 4, top, names_, curve.colour);
 }
 
-/// Title and legend, beside the plot or above it.
 void SignalStrip::draw_names(std::size_t i) {
-  const int left = narrow_ ? left_ : width_ * 12 / 1280;
-  const int top = narrow_ ? areas_[i].top - header_of(i) : areas_[i].top + 2;
-  pen_.write(background_, rows_[i].title, left, top, letters_, strip_ink);
+  const int top = areas_[i].top - header_of(i);
+  pen_.write(background_, rows_[i].title, left_, top, letters_, strip_ink);
   for (const Name& name : names_of(i)) draw_legend(*name.curve, name.x, top + name.line * line_);
 }
 
@@ -275,12 +233,10 @@ void SignalStrip::draw(cv::Mat image, double time) {
   background_.copyTo(image);
   cv::Mat plots = image.colRange(left_, right_);
   plots_->copy_window(time - present * seconds, plots);
-  if (narrow_) {  // names stand on the plots' paper, above them
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const int bottom = areas_[i].top;
-      const int top = std::max(0, bottom - header_of(i));
-      background_.rowRange(top, bottom).copyTo(image.rowRange(top, bottom));
-    }
+  for (std::size_t i = 0; i < rows_.size(); ++i) {  // names stand on the plots' paper, above them
+    const int bottom = areas_[i].top;
+    const int top = std::max(0, bottom - header_of(i));
+    background_.rowRange(top, bottom).copyTo(image.rowRange(top, bottom));
   }
   const int now = plots.cols - fog_.cols;
   for (const PlotArea& area : areas_) {

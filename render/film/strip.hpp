@@ -16,9 +16,8 @@ std::vector<StripRow> strip_rows(const std::vector<VideoSource>& sources,
                                  const scoring::LabelConfig& labels);
 
 /// Moving plots below the view: four seconds with the present at their third quarter and the future
-/// faded. Titles and legends are left of the plots, or above them in a narrow strip. Every curve is
-/// in a legend once: a row with a long legend is higher than others, and its names are smaller if
-/// need be.
+/// faded. Title and legend are above each plot. Every curve is in a legend once: a long legend has
+/// several lines, and names are smaller if need be.
 class SignalStrip {
  public:
   /// A strip of `width`·`height` pixels.
@@ -28,16 +27,14 @@ class SignalStrip {
   void draw(cv::Mat image, double time);
 
  private:
-  /// A name of a legend: its curve, its left edge and its line below or beside the title.
+  /// A name of a legend: its curve, its left edge and its line, 0 beside the title.
   struct Name {
     const StripCurve* curve;
     int x, line;
   };
   std::vector<Name> names_of(std::size_t i) const;
-  int lines_of(std::size_t i) const;
   bool is_in_legend_before(std::size_t i, const StripCurve& curve) const;
-  bool place_rows_alike();
-  bool place_rows_by_legend();
+  bool place_rows();
   int header_of(std::size_t i) const;
   void draw_ticks(std::size_t i);
   void draw_names(std::size_t i);
@@ -46,7 +43,6 @@ class SignalStrip {
 
   std::vector<StripRow> rows_;
   int width_, height_;
-  bool narrow_;
   int letters_;       ///< height of the text
   int names_;         ///< height of the names in legends
   int line_ = 0;      ///< distance of a legend's lines
