@@ -1,8 +1,6 @@
 #include "render/report/html.hpp"
 
-#include <algorithm>
 #include <cstdint>
-#include <iterator>
 #include <kainjow/mustache.hpp>
 
 #include <fmt/format.h>

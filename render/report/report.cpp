@@ -50,8 +50,9 @@ ReportSection reproduce_section(const ReportSubject& subject) {
   for (auto& row : table.rows) {
     std::replace(row[0].begin(), row[0].end(), '_', ' ');
   }
-  Json tables = {
-      table_members({"Versions, seeds and computing times", "versions and seeds", table}, 1)};
+  Json tables = Json::array();
+  tables.push_back(
+      table_members({"Versions, seeds and computing times", "versions and seeds", table}, 1));
   if (manifest.contains("failed_runs") && manifest["failed_runs"].is_array() &&
       !manifest["failed_runs"].empty()) {
     TextTable failed{{"recording", "outcome"}, {}};
