@@ -56,10 +56,11 @@ struct FigureAxis {
   bool has_diagonal = false;                 ///< of a measure: a line where it equals x
 };
 
-/// A `step` holds its value until the next one. An `image` is a cell at x and `FigureSpec::y` with
+/// A `line` is a curve without points; a figure of lines alone has wide panels, as over time. A
+/// `step` holds its value until the next one. An `image` is a cell at x and `FigureSpec::y` with
 /// the first measure as its colour: a share in percent, the colours logarithmic in its distance
 /// from 100. A `number` writes the share, and its interval, where up to 64 cells have room for it.
-enum class MarkShape { curve, step, points, ring, cross, image, number };
+enum class MarkShape { curve, line, step, points, ring, cross, image, number };
 
 /// The look of the rows that pass all of `where`. Marks may overlap: a row has each
 /// mark with conditions that it passes.

@@ -39,6 +39,7 @@ std::string value_text(const FigureAxis& axis, const std::string& column) {
 std::string shape_text(MarkShape shape, bool has_rows, bool has_interval) {
   if (is_highlight(shape)) return "points";
   if (shape == MarkShape::step) return "steps";
+  if (shape == MarkShape::line) return "lines";
   if (has_rows) return has_interval ? "xerrorbars" : "points";
   if (shape == MarkShape::points) return has_interval ? "yerrorbars" : "points";
   return has_interval ? "yerrorlines" : "linespoints";
@@ -101,8 +102,9 @@ Grid grid_of(const FacetShape& shape) {
 double panel_width(const FacetShape& shape, const Grid& grid) {
   if (is_image(shape)) return shape.cells.panel_width();
   const auto columns = static_cast<double>(grid.columns);
+  const double most = shape.is_wide ? 860.0 : 330.0;
   return columns_in(shape.room, margin_of(shape) + right_margin,
-                    {grid.columns, std::clamp(960.0 / columns, 225.0, 330.0), column_gap}, 0.0)
+                    {grid.columns, std::clamp(960.0 / columns, 225.0, most), column_gap}, 0.0)
       .width;
 }
 
@@ -112,6 +114,7 @@ double panel_height(const FacetShape& shape, const Grid& grid, double panel_widt
     const double row = std::max(27.0, 9.0 + 9.0 * static_cast<double>(shape.series));
     return row * static_cast<double>(shape.rows);
   }
+  if (shape.is_wide) return 160.0;
   return (grid.lines == 1 ? 1.0 : 0.7) * panel_width;
 }
 
@@ -214,7 +217,7 @@ const char* key_shape(const FigureSpec& spec) {
   for (const experiments::FigureMark& mark : spec.marks) {
     if (!spec.rows.columns.empty()) break;
     if (mark.shape == MarkShape::curve) return "linespoints";
-    if (mark.shape == MarkShape::step) return "lines";
+    if (mark.shape == MarkShape::step || mark.shape == MarkShape::line) return "lines";
   }
   return "points";
 }

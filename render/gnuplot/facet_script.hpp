@@ -92,6 +92,7 @@ struct FacetShape {
   ImageCells cells = {};  ///< of images
   bool has_titles = false;
   bool is_own_x = false;  ///< each panel has its own values of x
+  bool is_wide = false;   ///< of lines alone
   double row_names = 0.0, key = 0.0;
   double room = HUGE_VAL;  ///< in which panels should fit (px)
 };

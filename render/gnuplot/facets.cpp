@@ -128,6 +128,9 @@ class FacetFigure {
     shape.has_titles = std::ranges::any_of(
         panels_, [&](std::size_t panel) { return !title_of(spec_.panels, panel).empty(); });
     shape.is_own_x = is_ordinal();
+    shape.is_wide = std::ranges::all_of(spec_.marks, [](const experiments::FigureMark& mark) {
+      return mark.shape == experiments::MarkShape::line;
+    });
     constexpr double axis_title = 42.0;  // px, with the tics' distance
     shape.row_names = has_rows()   ? widest(spec_.rows, rows_) + 26.0
                       : is_image() ? std::max(text_width(steps_of(spec_.y, {})) + axis_title, 68.0)

@@ -9,7 +9,7 @@
 #include "experiments/results/captions.hpp"
 #include "experiments/results/drops.hpp"
 #include "render/figures/chosen_run.hpp"
-#include "render/gnuplot/frame.hpp"
+#include "render/gnuplot/facets.hpp"
 #include "render/studies/registry.hpp"
 #include "simulators/registry.hpp"
 
@@ -29,31 +29,25 @@ scoring::Flight flight_of(const logs::Recording& recording, const DropOverlay& w
                   recording.info.simulator, found.size(), what.drop));
 }
 
-/// The data: time since takeoff (ms), then the drawn quantities. Heights count from takeoff's.
-std::string columns(const logs::Recording& recording, const DropOverlay& what) {
+/// Adds the steps of a run around its takeoff, from which time and height count.
+void add_steps(const logs::Recording& recording, const DropOverlay& what, Table& table) {
   const std::size_t takeoff = flight_of(recording, what).takeoff;
   const auto steps = [&](double seconds) {
     return static_cast<std::size_t>(std::llround(seconds / recording.period()));
   };
-  std::string text =
-      "# time_ms\theight_m\tforce_n\tknee_torque_nm\twheel_torque_nm\tacceleration_mps2\n";
   const std::size_t begin = takeoff - std::min(takeoff, steps(before));
   const std::size_t end = std::min(recording.steps(), takeoff + steps(after));
   for (std::size_t k = begin; k < end; ++k) {
     const models::Observation& observation = recording.observation[k];
     const models::GroundTruth& truth = recording.truth[k];
     const double time = (static_cast<double>(k) - static_cast<double>(takeoff)) * 1e3;
-    const std::array<double, 6> row = {
-        time * recording.period(),
-        truth.base_position.z() - recording.truth[takeoff].base_position.z(),
-        truth.wheel_normal_force[0],
-        observation.servo[models::index(models::Servo::left_knee)].torque,
-        observation.servo[models::index(models::Servo::left_wheel)].torque,
-        models::vertical_acceleration(observation.imu)};
-    for (const double value : row) text.append(number(value)).append(1, '\t');
-    text.back() = '\n';
+    table.rows.push_back({recording.info.simulator, time * recording.period(),
+                          truth.base_position.z() - recording.truth[takeoff].base_position.z(),
+                          truth.wheel_normal_force[0],
+                          observation.servo[models::index(models::Servo::left_knee)].torque,
+                          observation.servo[models::index(models::Servo::left_wheel)].torque,
+                          models::vertical_acceleration(observation.imu)});
   }
-  return text;
 }
 
 std::string described(const std::array<const logs::Recording*, 2>& recordings,
@@ -73,38 +67,26 @@ std::string described(const std::array<const logs::Recording*, 2>& recordings,
 
 Figure draw_drop_overlay(const logs::Recording& first, const logs::Recording& second,
                          const DropOverlay& what, const FigureFile& target) {
-  constexpr std::array<const char*, 5> labels = {"base height\n(m)", "normal force\n(N)",
-                                                 "knee torque\n(N·m)", "wheel torque\n(N·m)",
-                                                 "vertical acc.\n(m/s²)"};
-  constexpr std::array<double, labels.size()> tics = {0.1, 500.0, 5.0, 1.0, 100.0};
-  const std::string name = target.name();
-  const std::array<const logs::Recording*, 2> recordings = {&first, &second};
-  std::vector<PlotData> data;
-  for (const logs::Recording* recording : recordings) {
-    data.push_back(
-        {fmt::format("{}_{}.dat", name, recording->info.simulator), columns(*recording, what)});
+  experiments::FigureSpec spec;
+  spec.x = {.column = "time_ms", .title = "time since takeoff", .unit = "ms"};
+  spec.x.from = -1e3 * before;
+  spec.x.to = 1e3 * after;
+  spec.measures = {{.column = "height_m", .title = "base height", .unit = "m"},
+                   {.column = "force_n", .title = "normal force", .unit = "N"},
+                   {.column = "knee_torque_nm", .title = "knee torque", .unit = "N·m"},
+                   {.column = "wheel_torque_nm", .title = "wheel torque", .unit = "N·m"},
+                   {.column = "acceleration_mps2", .title = "vertical acc.", .unit = "m/s²"}};
+  Table table{{{"simulator"}, {spec.x.column, ColumnRole::key, ColumnType::exact}}, {}};
+  for (const experiments::FigureAxis& measure : spec.measures) {
+    table.columns.push_back({measure.column, ColumnRole::metric, ColumnType::exact});
   }
-  PanelGrid::Layout layout;
-  layout.row_heights.assign(labels.size(), 124.0);
-  layout.panel_width = 860.0;
-  layout.right = 130.0;
-  layout.keys = {2};
-  const PanelGrid grid(target, layout, {what.title, what.caption, described(recordings, what)});
-  std::string commands =
-      grid.begin(-1e3 * before, 1e3 * after) +
-      "set arrow 1 from 0,graph 0 to 0,graph 1 nohead back lc rgb '#6b747d' lw 1.2 dt 1\n";
-  for (std::size_t panel = 0; panel < labels.size(); ++panel) {
-    commands += grid.panel(panel, 0, labels[panel]) + (panel == 0 ? grid.key(0) : "") +
-                fmt::format("set ytics {}\nplot ", tics[panel]);
-    for (std::size_t i = 0; i < recordings.size(); ++i) {
-      commands +=
-          fmt::format("{}{} using 1:{} with lines lt {} title {}", i == 0 ? "" : ", ",
-                      gnuplot_file(data[i].name), panel + 2, i + 1,
-                      gnuplot_text(simulators::simulator_title(recordings[i]->info.simulator)));
-    }
-    commands += '\n';
-  }
-  return grid.draw(commands, data);
+  for (const logs::Recording* recording : {&first, &second}) add_steps(*recording, what, table);
+  spec.series = experiments::groups_in(table, "simulator", simulators::simulator_title);
+  spec.marks = {{experiments::MarkShape::line}};
+  spec.title = what.title;
+  spec.caption = what.caption;
+  spec.alt = described({&first, &second}, what);
+  return draw_facets(spec, table, target).value();
 }
 
 static Figure draw_overlay(const experiments::ExperimentResult& result) {

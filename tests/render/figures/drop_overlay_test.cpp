@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
+#include "core/table.hpp"
 #include "render/studies/registry.hpp"
 #include "tests/complaint.hpp"
 #include "tests/scratch_folder.hpp"
@@ -36,18 +36,6 @@ logs::Recording dropped(const std::string& simulator, std::size_t takeoff) {
   return recording;
 }
 
-std::vector<std::vector<double>> numbers_of(const std::filesystem::path& path) {
-  std::vector<std::vector<double>> rows;
-  std::istringstream lines(read_file(path));
-  for (std::string line; std::getline(lines, line);) {
-    if (line.empty() || line.front() == '#') continue;
-    std::istringstream cells(line);
-    rows.emplace_back();
-    for (double value = 0.0; cells >> value;) rows.back().push_back(value);
-  }
-  return rows;
-}
-
 TEST(DropOverlay, AlignsBothEnginesAtTheirTakeoffs) {
   const ScratchFolder folder;
   DropOverlay what;
@@ -55,19 +43,16 @@ TEST(DropOverlay, AlignsBothEnginesAtTheirTakeoffs) {
   const Figure figure =
       draw_drop_overlay(dropped("mujoco", 400), dropped("bullet", 650), what, folder / "overlay");
   EXPECT_TRUE(std::filesystem::exists(figure.png));
-  for (const char* engine : {"mujoco", "bullet"}) {
-    const auto rows = numbers_of(folder / (std::string("overlay_") + engine + ".dat"));
-    ASSERT_EQ(rows.size(), 600U) << engine;  // 150 ms before takeoff, 450 ms after it
-    for (const auto& row : rows) {
-      ASSERT_EQ(row.size(), 6U);
-      const double time = 1e-3 * row[0];
-      const double fallen = std::clamp(time, 0.0, 0.2);
-      EXPECT_NEAR(row[1], -0.5 * 9.81 * fallen * fallen, 1e-12);
-      const bool flies = row[0] > -0.5 && row[0] < 199.5;
-      EXPECT_DOUBLE_EQ(row[2], flies ? 0.0 : 26.0);
-      EXPECT_DOUBLE_EQ(row[3], flies ? 0.1 : 1.5);
-      EXPECT_DOUBLE_EQ(row[4], flies ? 0.02 : 0.4);
-    }
+  const Table table = table_of(from_csv(read_file(folder / "overlay.dat")));
+  EXPECT_EQ(table.rows.size(), 2 * 600U);  // 150 ms before takeoff, 450 ms after it
+  for (const TableRow& row : table.all()) {
+    const double time = row.number("time_ms");
+    const double fallen = std::clamp(1e-3 * time, 0.0, 0.2);
+    EXPECT_NEAR(row.number("height_m"), -0.5 * 9.81 * fallen * fallen, 1e-12);
+    const bool flies = time > -0.5 && time < 199.5;
+    EXPECT_EQ(row.number("force_n"), flies ? 0.0 : 26.0) << row.text("simulator") << time;
+    EXPECT_EQ(row.number("knee_torque_nm"), flies ? 0.1 : 1.5);
+    EXPECT_EQ(row.number("wheel_torque_nm"), flies ? 0.02 : 0.4);
   }
 }
 
