@@ -44,6 +44,17 @@ mustache::data data_of(const Json& value) {
   return text;
 }
 
+/// A name that a template has and its members lack is a mistake, not an empty text.
+class Members : public mustache::context<std::string> {
+ public:
+  using context::context;
+  const mustache::data* get(const std::string& name) const override {
+    const mustache::data* const found = context::get(name);
+    if (found == nullptr) throw Error(fmt::format("a page lacks '{}'", name));
+    return found;
+  }
+};
+
 }  // namespace
 
 std::string html_of(std::string_view name, const Json& members) {
@@ -53,8 +64,9 @@ std::string html_of(std::string_view name, const Json& members) {
     data.set(one.name, mustache::partial([&one] { return one.content; }));
     if (one.name == name) text = one.content;
   }
+  Members context(&data);
   mustache::mustache page(text);
-  std::string html = page.render(data);
+  std::string html = page.render(context);
   if (!page.is_valid()) throw Error(fmt::format("{}: {}", name, page.error_message()));
   // The line of a tag that shows nothing may stay.
   return html.find_first_not_of(" \n") == html.npos ? "" : html;
