@@ -283,7 +283,6 @@ Figure draw_drop_detail(const experiments::DropDetail& detail,
                         const FigureFile& target) {
   const std::string name = target.name();
   PanelGrid::Layout layout;
-  layout.columns.clear();
   layout.at = detail.at;
   constexpr std::array heights = {84.0, 118.0, 118.0, 118.0, 156.0, 150.0, 150.0, 130.0};
   const bool has_evidence = std::ranges::any_of(detail.noisy, [](const auto& drop) {
@@ -295,7 +294,6 @@ Figure draw_drop_detail(const experiments::DropDetail& detail,
     rows.emplace(static_cast<Row>(row), rows.size());
     layout.row_heights.push_back(heights[row]);
   }
-  layout.panel_width = 427.0;
   std::vector<std::string> names;
   for (const auto& trace : detail.noisy.front().beliefs) names.push_back(trace.title);
   layout.right = std::max(300.0, 70.0 + 1.1 * text_width(names));  // letters of 11 pt
@@ -306,7 +304,6 @@ Figure draw_drop_detail(const experiments::DropDetail& detail,
                           : row == evidence                           ? 1
                                                                       : 2);
   }
-  layout.narrow_right = 190.0;  // tics and colour bar of the spectra
   for (const experiments::NoisyDrop& drop : detail.noisy) {
     layout.columns.push_back(fmt::format("noise: torques {} N·m, accelerometer {} m/s²",
                                          drop.noise.torque, drop.noise.accelerometer));

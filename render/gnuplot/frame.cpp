@@ -151,7 +151,7 @@ double PanelGrid::key_height(std::size_t row) const {
 double PanelGrid::top(std::size_t row) const {
   std::ptrdiff_t lines = 0;  // of the columns' titles
   for (const std::string& title : layout_.columns) {
-    if (!title.empty()) lines = std::max(lines, 1 + std::ranges::count(title, '\n'));
+    lines = std::max(lines, 1 + std::ranges::count(title, '\n'));
   }
   double top = 14.0 + 2.0 * layout_.letters * static_cast<double>(lines) + key_height(0);
   for (std::size_t above = 0; above < row; ++above) {
@@ -168,7 +168,6 @@ std::string PanelGrid::begin(double from, double to) const {
           "set xtics {} font ',12'\nset key font ',11' spacing 1.15 samplen 1.6\nunset key\n",
           from, to, inner_tics(from, to, layout_.panel_width / 50.0));
   for (std::size_t i = 0; i < layout_.columns.size(); ++i) {
-    if (layout_.columns[i].empty()) continue;
     const auto lines = std::count(layout_.columns[i].begin(), layout_.columns[i].end(), '\n');
     text += frame_.label(
         layout_.columns[i], left(i) + 0.5 * layout_.panel_width,

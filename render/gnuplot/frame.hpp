@@ -65,15 +65,15 @@ class FigureFrame {
 class PanelGrid {
  public:
   struct Layout {
-    std::vector<std::string> columns = {""};  ///< their titles; empty for none
-    std::vector<double> row_heights;          ///< px
-    double panel_width = 452.0;               ///< px; less where the figure is printed narrow
-    double right = 250.0;                     ///< width of the legends beside the panels (px)
-    std::vector<std::size_t> keys = {};       ///< lines of each row's legend; none: no legends
-    double narrow_right = 24.0;               ///< the same with the legends above their rows (px)
-    bool is_narrow = false;                   ///< printed on a width that is too small for it
-    double letters = 11.0;                    ///< at least (pt)
-    std::optional<double> at = {};            ///< origin of the time axis (s); default: a takeoff
+    std::vector<std::string> columns;  ///< their titles
+    std::vector<double> row_heights;   ///< px
+    double panel_width = 427.0;        ///< px; less where the figure is printed narrow
+    double right = 0.0;                ///< width of the legends beside the panels (px)
+    std::vector<std::size_t> keys;     ///< lines of each row's legend
+    double narrow_right = 190.0;       ///< the same with the legends above their rows (px)
+    bool is_narrow = false;            ///< printed on a width that is too small for it
+    double letters = 11.0;             ///< at least (pt)
+    std::optional<double> at = {};     ///< origin of the time axis (s); default: a takeoff
   };
 
   PanelGrid(const FigureFile& file, Layout layout, FigureText text);
