@@ -184,11 +184,15 @@ bool SignalStrip::place_rows() {
   const int gap = std::max(4, height_ / 40);
   const int count = std::max<int>(1, static_cast<int>(rows_.size()));
   int rest = height_ - gap * (count + 1);
-  for (std::size_t i = 0; i < rows_.size(); ++i) rest -= header_of(i) + 2 * letters_;
+  headers_.clear();
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    headers_.push_back(header_of(i));
+    rest -= headers_.back() + 2 * letters_;
+  }
   areas_.clear();
   int bottom = 0;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const int top = bottom + gap + header_of(i);
+    const int top = bottom + gap + headers_[i];
     bottom = std::min(height_ - 2, top + 2 * letters_ + std::max(0, rest) / count);
     areas_.push_back({std::min(top, bottom - 2), bottom});
   }
@@ -224,7 +228,7 @@ void SignalStrip::draw_legend(const StripCurve& curve, int x, int top) {
 }
 
 void SignalStrip::draw_names(std::size_t i) {
-  const int top = areas_[i].top - header_of(i);
+  const int top = areas_[i].top - headers_[i];
   pen_.write(background_, rows_[i].title, left_, top, letters_, strip_ink);
   for (const Name& name : names_of(i)) draw_legend(*name.curve, name.x, top + name.line * line_);
 }
@@ -235,7 +239,7 @@ void SignalStrip::draw(cv::Mat image, double time) {
   plots_->copy_window(time - present * seconds, plots);
   for (std::size_t i = 0; i < rows_.size(); ++i) {  // names stand on the plots' paper, above them
     const int bottom = areas_[i].top;
-    const int top = std::max(0, bottom - header_of(i));
+    const int top = std::max(0, bottom - headers_[i]);
     background_.rowRange(top, bottom).copyTo(image.rowRange(top, bottom));
   }
   const int now = plots.cols - fog_.cols;

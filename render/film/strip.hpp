@@ -43,10 +43,11 @@ class SignalStrip {
 
   std::vector<StripRow> rows_;
   int width_, height_;
-  int letters_;       ///< height of the text
-  int names_;         ///< height of the names in legends
-  int line_ = 0;      ///< distance of a legend's lines
-  int left_, right_;  ///< of the plots
+  int letters_;               ///< height of the text
+  int names_;                 ///< height of the names in legends
+  int line_ = 0;              ///< distance of a legend's lines
+  int left_, right_;          ///< of the plots
+  std::vector<int> headers_;  ///< height of title and legend above each plot (px)
   std::vector<PlotArea> areas_;
   TextPen pen_;
   cv::Mat background_;
