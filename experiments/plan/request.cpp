@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <set>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -69,20 +68,22 @@ fs::path inputs_file(const fs::path& run_directory) {
 /// comes after them, so that the first difference between two lists is its cause.
 std::vector<RequestInput> inputs_of(const RunRequest& request) {
   std::vector<RequestInput> inputs;
-  std::set<fs::path> listed;
+  std::map<fs::path, std::string> listed;  // with their digests
   const auto add_text = [&](const std::string& file, std::string_view text) {
     inputs.push_back({file, Fingerprint().add(text).text()});
   };
-  const auto add_file = [&](const fs::path& file) {
-    if (!listed.insert(fs::canonical(file)).second) return;
-    inputs.push_back({file.string(), file_fingerprint(file)});
+  const auto add_file = [&](const fs::path& file) -> const std::string& {
+    const auto [one, is_new] = listed.try_emplace(fs::canonical(file));
+    if (is_new) inputs.push_back({file.string(), one->second = file_fingerprint(file)});
+    return one->second;
   };
-  std::map<std::string, std::string> robots;  // digests of their files, by path
+  std::map<std::string, std::string> robots;  // digests of all their files, by path
   for (const NamedScenario& named : request.scenarios) {
-    const std::string& robot = named.scenario.robot;
-    if (robots.contains(robot)) continue;
-    robots[robot] = models::robot_digest(robot);
-    for (const fs::path& file : models::robot_files(robot)) add_file(file);
+    const auto [robot, is_new] = robots.try_emplace(named.scenario.robot);
+    if (!is_new) continue;
+    Fingerprint all;
+    for (const fs::path& file : models::robot_files(robot->first)) all.add(add_file(file));
+    robot->second = all.text();
   }
   for (const std::string& name : request.experiment.estimators) {
     const EstimatorEntry& entry = estimator_entry(request.experiment, name);
