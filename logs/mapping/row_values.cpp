@@ -4,6 +4,7 @@
 #include <array>
 
 #include "estimator/record.hpp"
+#include "logs/sample_times.hpp"
 
 namespace touchdown::logs {
 
