@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/table.hpp"
+#include "render/gnuplot/facets.hpp"
 
 namespace touchdown::training {
 
@@ -35,19 +36,6 @@ std::vector<std::string> header() {
   for (const auto& [name, value] : columns(any)) names.emplace_back(name);
   return names;
 }
-
-constexpr const char* commands = R"gnuplot(set datafile separator comma
-set key above
-set xrange [0:*]
-set logscale y
-set format y "%g"
-set xlabel "Iteration (each with new data)"
-set ylabel "Cross-entropy (nat) + squared velocity error (m²/s²)"
-set arrow from {chosen}, graph 0 to {chosen}, graph 1 nohead dt 2 lc rgb "#888888"
-set label "chosen" at {chosen}, graph 0.03 right offset -0.5,0 textcolor rgb "#555555"
-plot "training.dat" using "iteration":"training_loss" with linespoints lt 1 dt 1 title "training (last epoch)", \
-     "" using "iteration":"validation_loss" with linespoints lt 2 dt 1 title "validation"
-)gnuplot";
 
 }  // namespace
 
@@ -103,13 +91,34 @@ TrainingHistory read_history(const std::filesystem::path& path) {
   return history;
 }
 
-std::filesystem::path draw_losses(const std::filesystem::path& history,
-                                  const render::FigureFile& file, int chosen_iteration) {
+std::filesystem::path draw_losses(const TrainingHistory& history, const render::FigureFile& file) {
+  using experiments::MarkShape;
+  const std::size_t chosen = best_iteration(history);
+  Table losses{{{"of"}, {"iteration"}, {"loss"}, {"chosen"}}, {}};
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    const auto add = [&](const char* of, const Loss& loss, bool is_chosen) {
+      losses.rows.push_back(
+          {of, exact(history[i].iteration), exact(loss.total), is_chosen ? "1" : "0"});
+    };
+    add("training (last epoch)", history[i].training, false);
+    add("validation", history[i].validation, i == chosen);
+  }
+  experiments::FigureSpec spec;
+  spec.series = experiments::groups_in(losses, "of", [](const auto& name) { return name; });
+  spec.x = {.column = "iteration", .title = "iteration, each with new data"};
+  spec.measures = {{.column = "loss",
+                    .title = "contact (nat) + squared velocity error (m²/s²)",
+                    .scale = experiments::AxisScale::log}};
+  spec.marks = {{MarkShape::curve}, {MarkShape::ring, {{"chosen", "1"}}}};
+  spec.title = "Loss of the neural measurement network";
+  spec.caption = fmt::format(
+      "Cross-entropy of contact and weighted squared error of the velocity; a ring marks "
+      "the chosen iteration, {} (tables/training.csv).",
+      history[chosen].iteration);
+  spec.alt = "Loss by iteration." + experiments::values_text(spec, losses);
   try {
-    return render::draw_figure(file, 640, 427,
-                               fmt::format(commands, fmt::arg("chosen", chosen_iteration)),
-                               {{"training.dat", read_file(history)}})
-        .png;
+    const auto figure = render::draw_facets(spec, losses, file);
+    return figure ? figure->png : std::filesystem::path();
   } catch (const Error&) {
     return {};  // the figure is optional
   }

@@ -30,9 +30,8 @@ void write_history(const TrainingHistory& history, const std::filesystem::path& 
 /// Reads a history. Errors: `InputError` for anything that `write_history` cannot have written.
 TrainingHistory read_history(const std::filesystem::path& path);
 
-/// Draws training and validation loss by iteration from a history's table, and marks the chosen
-/// iteration. Returns the figure's PNG; empty if it cannot be drawn.
-std::filesystem::path draw_losses(const std::filesystem::path& history,
-                                  const render::FigureFile& file, int chosen_iteration);
+/// Draws training and validation loss by iteration, and marks the chosen one. Returns the figure's
+/// PNG; empty if it cannot be drawn.
+std::filesystem::path draw_losses(const TrainingHistory& history, const render::FigureFile& file);
 
 }  // namespace touchdown::training

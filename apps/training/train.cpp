@@ -238,7 +238,7 @@ class TrainingSession {
     const render::FigureFile figure(
         directory_.file("figures", "training"), {},
         [&](const std::string& file) { (void)directory_.own_file("figures", file); });
-    result.figure = draw_losses(history_file_, figure, history_[result.chosen].iteration);
+    result.figure = draw_losses(history_, figure);
     const std::string about = manifest(result);
     write_atomically(directory_.own_file("models", "nmn.json"), about);
     if (!request_.network.empty()) {

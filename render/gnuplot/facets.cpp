@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "render/gnuplot/facet_script.hpp"
 #include "render/gnuplot/frame.hpp"
@@ -59,6 +60,20 @@ Range with_margin(Range range, const FigureAxis& axis) {
     range = {range.from - margin, range.to + margin};
   }
   return {axis.from.value_or(range.from), axis.to.value_or(range.to)};
+}
+
+/// The tics of a logarithmic axis: decades, with numbers between them on an axis of less than two.
+std::string log_tics(const Range& range) {
+  if (!(range.from > 0.0) || range.to > 100.0 * range.from) return "autofreq";
+  const bool is_narrow = range.to < 4.0 * range.from;
+  const std::vector<double> digits =
+      is_narrow ? std::vector{1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0} : std::vector{1.0, 2.0, 5.0};
+  std::vector<std::string> tics;
+  for (int power = static_cast<int>(std::floor(std::log10(range.from)));
+       std::pow(10.0, power) <= range.to; ++power) {
+    for (const double digit : digits) tics.push_back(fmt::format("{}e{}", digit, power));
+  }
+  return fmt::format("({})", fmt::join(tics, ", "));
 }
 
 /// One figure: the drawn groups, and the commands of its panels.
@@ -208,7 +223,8 @@ class FacetFigure {
         "{} logscale {}\nset {}range [{:.6g}:{:.6g}]\nset {}tics {}\n"
         "set format {} '{}'\n",
         is_log ? "set" : "unset", name, name, range.from, range.to, name,
-        is_log ? "autofreq" : fmt::format("{:.6g}", tick_step(range.to - range.from, most_tics)),
+        is_log ? log_tics(range)
+               : fmt::format("{:.6g}", tick_step(range.to - range.from, most_tics)),
         name,
         // "100k": wide numbers would push the title out.
         !has_tics                   ? ""

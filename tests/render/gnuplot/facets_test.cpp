@@ -179,6 +179,31 @@ TEST_F(Facets, LeaveOutValuesThatALogarithmicAxisCannotShow) {
   EXPECT_THAT(script(spec, "x,y\n1,0\n2,4\n3,8\n"), HasSubstr("set yrange [3.2:10]"));
 }
 
+TEST_F(Facets, NumberALogarithmicAxisThatReachesNoDecade) {
+  for (const auto& [low, high] : {std::pair{0.24, 0.48},
+                                  {0.3, 0.35},
+                                  {1.3, 1.4},
+                                  {4.0, 7.0},
+                                  {88.0, 110.0},
+                                  {0.003, 0.0041},
+                                  {0.64, 5.0},
+                                  {2.0, 90.0}}) {
+    FigureSpec spec;
+    spec.x = {.column = "x", .title = "x"};
+    spec.measures = {{.column = "y", .title = "y", .scale = AxisScale::log}};
+    const std::string text = script(spec, fmt::format("x,y\n1,{}\n2,{}\n", low, high));
+    const std::string tics = lines_with(text, "set ytics (").at(0);
+    std::istringstream numbers(tics.substr(tics.find('(') + 1));
+    int inside = 0;
+    for (std::string number; std::getline(numbers, number, ',');) {
+      const double tic = std::stod(number);
+      if (tic >= 0.8 * low && tic <= 1.25 * high) ++inside;
+    }
+    EXPECT_GE(inside, 1) << tics;
+    EXPECT_LE(inside, 6) << tics;
+  }
+}
+
 TEST_F(Facets, DrawNamesThatGnuplotWouldInterpret) {
   const std::vector<std::string> names = {"a \"quoted\", 'name'", "$x @y `z`", "-dash",    "#hash",
                                           "back\\nslash",         "100 %",     "line\nend"};
