@@ -162,7 +162,7 @@ LogSteps::LogSteps(logs::LogReader& reader, const logs::ContactIntervals* labels
       info_(reader.info()),
       robot_mass_(robot.legs ? robot.legs->robot_mass : scoring::robot_mass(info_)),
       signals_(sample_rate_),
-      plausibility_(1.0 / sample_rate_, robot_, reader.start_time()) {
+      plausibility_(1.0 / sample_rate_, robot_, reader.start_time(), reader.quaternion_reading()) {
   info_.control_period_us = std::llround(1e6 / sample_rate_);
   if (!robot_.doubt.empty())
     reader.notes().warnings.push_back(fmt::format("{}: {}", reader.name(), robot_.doubt));

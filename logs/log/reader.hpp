@@ -61,6 +61,8 @@ class LogReader {
   std::string_view record() const { return current_.record; }
   std::string_view skipped() const { return current_.skipped; }
 
+  QuaternionReading quaternion_reading() const { return records_->quaternion_reading(); }
+
   /// Of the log and its source; callers may add to them.
   LogNotes& notes() { return records_->notes(); }
   /// One line per problem that was not fatal: those of the notes, then of the records' values.

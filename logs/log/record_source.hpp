@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "logs/log/byte_source.hpp"
 #include "logs/log/notes.hpp"
 #include "logs/log/row.hpp"
@@ -13,6 +15,13 @@
 #include "logs/sample_times.hpp"
 
 namespace touchdown::logs {
+
+/// How the quaternion of a log was read, so that the other order of its numbers can be tried.
+struct QuaternionReading {
+  bool is_w_last = false;
+  bool is_z_up = false;                                ///< its reference's z axis
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< `AssemblyConfig::axes`
+};
 
 /// The records of a log as they are, one at a time: MessagePack maps, the rows of another
 /// robot's log (`mapped_records`), or a recording in memory. `LogReader` pulls them and cleans
@@ -44,6 +53,7 @@ class RecordSource {
   /// Reads the origin of the log, if the present record has it: `info` of a log that touchdown
   /// wrote, or the name of the `robot`.
   virtual void read_origin(std::optional<RecordingInfo>& info, std::string& robot) const = 0;
+  virtual QuaternionReading quaternion_reading() const { return {}; }
 
   LogNotes& notes() { return notes_; }
   const LogNotes& notes() const { return notes_; }

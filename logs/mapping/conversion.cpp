@@ -193,6 +193,9 @@ class MappedRecords final : public RecordSource {
   void read_origin(std::optional<RecordingInfo>& /*info*/, std::string& robot) const override {
     robot = mapping_.robot;
   }
+  QuaternionReading quaternion_reading() const override {
+    return {mapping_.is_w_last, mapping_.conventions.reference_is_z_up, mapping_.conventions.axes};
+  }
 
   const std::string& robot() const { return mapping_.robot; }
   /// Complete at the end.

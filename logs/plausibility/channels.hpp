@@ -130,9 +130,11 @@ class StoppedChannels {
   std::array<Channel, 24> channels_ = {};  ///< of joints and IMU
   Channel orientation_;
   Eigen::Quaterniond last_ = Eigen::Quaterniond::Identity();
-  double since_ = 0.0;                                ///< the orientation repeats itself (s)
-  double time_ = 0.0;                                 ///< of the last record (s)
-  Eigen::Vector3d turned_ = Eigen::Vector3d::Zero();  ///< by the gyroscope since then (rad)
+  double since_ = 0.0;                                 ///< the orientation repeats itself (s)
+  double time_ = 0.0;                                  ///< of the last record (s)
+  Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();     ///< of the gyroscope, smoothed (rad/s)
+  Eigen::Vector3d turned_ = Eigen::Vector3d::Zero();   ///< by it since then (rad)
+  Eigen::Vector3d squares_ = Eigen::Vector3d::Zero();  ///< of the smoothed rate, times time
 };
 
 /// Finds servos in a limit cycle: their torque changes its sign in most records. Noise about zero

@@ -22,11 +22,13 @@ std::vector<std::string> Findings::lines() const {
   return lines;
 }
 
-PlausibilityCheck::PlausibilityCheck(double period, const CheckedRobot& robot, double start)
-    : windows_(period),
+PlausibilityCheck::PlausibilityCheck(double period, const CheckedRobot& robot, double start,
+                                     const QuaternionReading& reading)
+    : windows_(period, reading),
       clock_(period, start),
       held_(period),
       joint_range_(robot),
+      relations_(reading),
       lateness_(period),
       load_(robot.legs.value_or(LegGeometry{}), robot.legs.has_value()) {}
 
@@ -53,7 +55,7 @@ void PlausibilityCheck::add(const models::Observation& reported, const ServoTarg
 std::vector<std::string> PlausibilityCheck::findings() const {
   Findings findings;
   clock_.report(findings);
-  held_.report(findings);
+  const bool has_signs = held_.report(findings);
   const bool measures_acceleration = constant_.report(findings);
   stopped_.report(findings);
   sensor_range_.report(findings);
@@ -62,8 +64,8 @@ std::vector<std::string> PlausibilityCheck::findings() const {
   relations_.report(findings, measures_acceleration);
   // The wheels of a robot that hangs follow its swinging.
   if (!load_.hangs()) lateness_.report(findings);
-  // A leg's load follows from its pose, and from the vertical.
-  if (has_positions && relations_.is_upright() && !constant_.lacks_hips()) {
+  // A leg's load follows from its pose, its torques with their signs, and the vertical.
+  if (has_positions && has_signs && relations_.is_upright() && !constant_.lacks_hips()) {
     load_.report(findings, relations_.drives());
   }
   return findings.lines();

@@ -59,7 +59,8 @@ class HeldChannels {
   explicit HeldChannels(double period) : period_(period) {}
 
   void add(const models::Observation& record);
-  void report(Findings& findings) const;
+  /// Returns whether torques have signs.
+  bool report(Findings& findings) const;
 
  private:
   static constexpr std::size_t joint_channels = 3;  ///< position, velocity, torque
@@ -95,7 +96,8 @@ class HeldChannels {
   };
 
   void report_alternation(Findings& findings) const;
-  void report_signs(Findings& findings) const;
+  bool report_signs(Findings& findings) const;
+  void report_rates(Findings& findings) const;
 
   double period_;
   double records_ = 0.0;
@@ -114,7 +116,8 @@ inline constexpr double shortest_log = 1.0;
 class PlausibilityCheck {
  public:
   /// `period`: between two records (s). `start`: the log's clock at time 0 (s).
-  explicit PlausibilityCheck(double period, const CheckedRobot& robot = {}, double start = 0.0);
+  explicit PlausibilityCheck(double period, const CheckedRobot& robot = {}, double start = 0.0,
+                             const QuaternionReading& reading = {});
 
   /// `targets`: the commands of the step before.
   void add(const models::Observation& reported, const ServoTargets& targets = {});

@@ -121,23 +121,28 @@ void HeldChannels::report_alternation(Findings& findings) const {
 }
 
 /// The wheels of a robot that balances push both ways, and their torques come near 0.
-void HeldChannels::report_signs(Findings& findings) const {
+bool HeldChannels::report_signs(Findings& findings) const {
   for (std::size_t i = 0; i < alternations_.size(); ++i) {
     const Alternation& one = alternations_.at(i);
     const double largest = std::max(one.highest, -one.lowest);
     const bool is_wheel = i % 3 == 2;
-    if (one.lowest < 0.0 && one.highest > 0.0) return;
-    if (is_wheel && !(one.nearest < 0.1 * largest)) return;
+    if (one.lowest < 0.0 && one.highest > 0.0) return true;
+    if (is_wheel && !(one.nearest < 0.1 * largest)) return true;
   }
   findings.add("torques",
                "never change their sign, not even those of the wheels: are they sizes without a "
                "sign, or percent of a limit? Map a column with signs");
+  return false;
 }
 
-void HeldChannels::report(Findings& findings) const {
-  if (records_ < few_records) return;
+bool HeldChannels::report(Findings& findings) const {
+  if (records_ < few_records) return true;
   report_alternation(findings);
-  report_signs(findings);
+  report_rates(findings);
+  return report_signs(findings);
+}
+
+void HeldChannels::report_rates(Findings& findings) const {
   const double rate = 1.0 / period_;
   const auto rates = [&](double period) {
     return fmt::format("{} times a second, rows come at {} Hz", readable(rate / period, 3),

@@ -277,7 +277,7 @@ void LoadRelation::report(Findings& findings, bool drives) const {
   const bool is_too_large =
       is_known_ ? factor > largest_factor : factor > 2.0 * largest_factor && explains_weight();
   if (misfit_[0] > largest_misfit * stretches_ || is_too_large) {
-    const bool is_possible = load >= 0.0 && load <= weight;
+    const bool is_possible = load >= 0.0 && load <= 1.2 * weight;
     add(fmt::format(
         "{} N, expected {} N{}{}: {}", fixed(load, 0),
         is_possible ? fmt::format("{:.0f}", weight) : fmt::format("0 to {:.0f}", weight),
@@ -336,8 +336,12 @@ std::string LoadRelation::cause(bool carries) const {
   // A cause that is only better than the log as it is comes after a factor that explains all.
   const bool is_explained = best > 0 && misfit_.at(best) < stretches_;
   const bool has_scale = carried_ > 0.0 && to_carry_ > 0.0;
-  if (has_scale && !is_explained && scaled_misfit_ < stretches_) return scale_text();
-  if (best > 0) return fmt::format("probably {}", all_causes().at(best).text);
+  const bool scale_explains = has_scale && scaled_misfit_ < stretches_;
+  if (scale_explains && !is_explained) return scale_text();
+  if (best > 0) {
+    return fmt::format("probably {}{}", all_causes().at(best).text,
+                       scale_explains ? fmt::format("; or {}", scale_text()) : "");
+  }
   if (has_scale && scaled_misfit_ < explains * misfit_[0]) return scale_text();
   return fmt::format("check signs, units, gear ratios and the order of joints{}",
                      is_known_ ? ", or whether the legs are those of --robot" : "");
@@ -370,13 +374,16 @@ bool LoadRelation::report_zero(Findings& findings) const {
   constexpr double largest_zero = 0.5;  // rad: joints are zeroed by hand
   const double zero = -shift_.at(best) / standing_stretches_;
   const std::string sign = all_causes().at(best_cause(true, true)).text;
-  const bool is_sign = !sign.empty() && std::abs(zero) > largest_zero;
-  findings.add(is_sign ? "wheels" : names.at(best),
-               fmt::format("the left wheel is {:.2f} m {} the right one while the robot stands: {}",
-                           std::abs(apart), apart > 0.0 ? "in front of" : "behind",
-                           is_sign ? fmt::format("probably {}", sign)
-                                   : fmt::format("is the zero of this joint off by {:.2f} rad{}{}",
-                                                 zero, sign.empty() ? "" : ", or: ", sign)));
+  const bool is_zero = std::abs(zero) <= largest_zero;
+  const bool is_sign = !sign.empty() && !is_zero;
+  findings.add(
+      is_zero ? names.at(best) : "wheels",
+      fmt::format("the left wheel is {:.2f} m {} the right one while the robot stands: {}",
+                  std::abs(apart), apart > 0.0 ? "in front of" : "behind",
+                  is_sign   ? fmt::format("probably {}", sign)
+                  : is_zero ? fmt::format("is the zero of this joint off by {:.2f} rad{}{}", zero,
+                                          sign.empty() ? "" : ", or: ", sign)
+                            : "does a hip or knee count the other way, or is its zero off"));
   return true;
 }
 

@@ -158,6 +158,9 @@ constexpr double follows = 0.7;
 constexpr double unrelated = 0.4;
 /// A velocity behind a low-pass is smaller than the derivative; attitude filters err.
 constexpr double largest_factor = 1.6;
+/// A velocity that follows so closely is behind no low-pass of this effect.
+constexpr double precisely = 0.98;
+constexpr double largest_precise_factor = 1.25;
 
 /// Slower turns show the gyroscope's bias (0.05 rad/s per axis) and the attitude filter's error,
 /// which adds 0.1 rad/s to a tenth of a second and 0.05 rad/s to half a second (harsh.yaml).
@@ -186,8 +189,8 @@ constexpr double least_wheel_acceleration = 0.4;  // rad/s², root mean square
 constexpr double position_error = 0.1;    // rad
 constexpr double law_torque_error = 0.3;  // N·m
 constexpr double law_share_error = 0.5;   // of the measured torque
-/// Motors of closed legs turn up to 4 times as much as the joints that a log has.
-constexpr double largest_law_ratio = 4.5;
+/// Motors of closed legs turn up to 5 times as much as the joints that a log has.
+constexpr double largest_law_ratio = 6.0;
 constexpr double least_law_motion = 0.1;  // N·m, standard deviation
 constexpr double law_follows = 0.9;       // correlation
 constexpr double law_explains = 0.5;      // the other joint's torque differs by less of its own
@@ -219,16 +222,23 @@ bool is_near(double value, double expected, double share) {
 
 }  // namespace
 
-Relations::Relations()
+Relations::Turning::Turning() : windows(3, least_fast_turn), half_seconds(3, least_slow_turn) {}
+
+bool Relations::Turning::is_fast() const { return windows.windows() >= least_turn_windows; }
+
+bool Relations::Turning::is_known() const {
+  return is_fast() || half_seconds.windows() >= least_turn_windows * static_cast<int>(half_second);
+}
+
+Relations::Relations(const QuaternionReading& reading)
     : velocity_(models::servo_count),
       exchanged_(models::servo_count),
-      turning_(3, least_fast_turn),
-      slow_turning_(3, least_slow_turn),
       wheels_(1, least_wheel_speed),
       acceleration_(3),
       proper_(3),
       linear_(3),
-      targets_(models::servo_count, Relation(2)) {}
+      targets_(models::servo_count, Relation(2)),
+      reading_(reading) {}
 
 void Relations::add(const CheckedWindow& window) {
   Eigen::VectorXd velocity(models::servo_count);
@@ -244,9 +254,11 @@ void Relations::add(const CheckedWindow& window) {
   }
   velocity_.add(velocity, derivative);
   exchanged_.add(position, acceleration);
-  turning_.add(window.angular_velocity, window.turn_rate);
+  turning_.windows.add(window.angular_velocity, window.turn_rate);
+  other_turning_.windows.add(window.angular_velocity, window.other_turn_rate);
   if (window.up.allFinite()) {
     up_ += window.up;
+    other_up_ += window.other_up;
     ++oriented_;
   }
   if (std::abs(window.angular_velocity.dot(window.up)) < fastest_straight_turn) {
@@ -287,13 +299,16 @@ void Relations::add_driving(const CheckedWindow& window) {
       0.5 * (last_.front().linear_acceleration + last_.back().linear_acceleration);
   Eigen::Vector3d gyroscope = Eigen::Vector3d::Zero();
   Eigen::Vector3d orientation = Eigen::Vector3d::Zero();
+  Eigen::Vector3d other_order = Eigen::Vector3d::Zero();
   for (std::size_t i = 1; i < half_second; ++i) imu += last_[i].linear_acceleration;
   for (std::size_t i = 0; i < half_second; ++i) {
     gyroscope += last_[i].angular_velocity / half_second;
     orientation += last_[i].turn_rate / half_second;
+    other_order += last_[i].other_turn_rate / half_second;
   }
   acceleration_.add(imu / half_second, Eigen::Vector3d::Constant(wheels));
-  slow_turning_.add(gyroscope, orientation);
+  turning_.half_seconds.add(gyroscope, orientation);
+  other_turning_.half_seconds.add(gyroscope, other_order);
   last_.erase(last_.begin());
 }
 
@@ -304,15 +319,32 @@ void Relations::add_still(const CheckedWindow& stretch) {
 }
 
 void Relations::report(Findings& findings, bool measures_acceleration) const {
-  report_velocities(findings);
+  const bool has_velocities = report_velocities(findings);
   report_targets(findings);
+  if (is_other_order()) {
+    findings.add("orientation",
+                 fmt::format("turns as the gyroscope does if its numbers are {}: set its `order`",
+                             reading_.is_w_last ? "w, x, y, z" : "x, y, z, w"));
+    return;  // the vertical, and accelerations without gravity, are wrong by it
+  }
   report_turning(findings);
   const bool has_acceleration = report_gravity(findings, measures_acceleration);
-  report_driving(findings, has_acceleration);
+  report_driving(findings, has_acceleration, has_velocities);
 }
 
-void Relations::report_velocities(Findings& findings) const {
-  if (velocity_.windows() < least_windows) return;
+bool Relations::is_other_order() const {
+  if (!turning_.is_known() || !other_turning_.is_known()) return false;
+  constexpr double better = 0.3;
+  const double own = turning_.relation().agreement();
+  const double other = other_turning_.relation().agreement();
+  // A robot that only pitches turns the other way in the other order, as with a gyroscope of the
+  // other sign.
+  return own > -follows && other > std::max(follows, own + better);
+}
+
+bool Relations::report_velocities(Findings& findings) const {
+  bool are_wheels_right = true;
+  if (velocity_.windows() < least_windows) return are_wheels_right;
   for (int i = 0; i < models::servo_count; ++i) {
     const double velocity = velocity_.measured(i);
     const double derivative = velocity_.predicted(i);
@@ -320,38 +352,39 @@ void Relations::report_velocities(Findings& findings) const {
     if (std::max(velocity, derivative) < least_speed || velocity * derivative == 0.0) continue;
     const double own = velocity_.correlation(i, i);
     const double factor = velocity / derivative;
-    const bool is_of_other_size = std::abs(std::log(factor)) > std::log(largest_factor);
+    const double most = own > precisely ? largest_precise_factor : largest_factor;
+    const bool is_of_other_size = std::abs(std::log(factor)) > std::log(most);
     const double exchanged = exchanged_.measured(i) / exchanged_.predicted(i);
     const bool fits_exchanged = exchanged_.correlation(i, i) > follows &&
                                 std::abs(std::log(exchanged)) < std::log(largest_factor);
+    const auto add = [&](const std::string& finding) {
+      findings.add(name_of(i), finding);
+      are_wheels_right = are_wheels_right && i != left_wheel && i != right_wheel;
+    };
     if (own < follows && fits_exchanged && (own > -follows || is_of_other_size)) {
-      findings.add(name_of(i),
-                   "position follows the derivative of velocity: are the two exchanged");
+      add("position follows the derivative of velocity: are the two exchanged");
     } else if (own < -follows) {
-      findings.add(name_of(i), "velocity has the other sign than the derivative of position");
+      add("velocity has the other sign than the derivative of position");
     } else if (own > follows && is_of_other_size) {
       constexpr double error = 0.04;  // 2π and a gear of 6 differ by this
-      findings.add(
-          name_of(i),
-          fmt::format("velocity is {} times the derivative of position: {}", readable(factor, 2),
+      add(fmt::format("velocity is {} times the derivative of position: {}", readable(factor, 2),
                       cause_of("rate", factor, error,
-                               "check their units, or a gear ratio between motor and "
-                               "joint")));
+                               "check their units, a gear ratio between motor and joint, or the "
+                               "unit of time")));
     } else if (own < unrelated && std::min(velocity, derivative) > least_speed) {
       int best = i;
       for (int j = 0; j < models::servo_count; ++j) {
         const bool moves = velocity_.predicted(j) >= least_speed;
         if (moves && velocity_.correlation(i, j) > velocity_.correlation(i, best)) best = j;
       }
-      findings.add(name_of(i),
-                   best != i && velocity_.correlation(i, best) > follows
-                       ? fmt::format("velocity follows the position of {}: are joints in another "
-                                     "order",
-                                     name_of(best))
-                       : std::string("velocity does not follow the derivative of position: is it "
-                                     "that of another joint, or commanded"));
+      add(best != i && velocity_.correlation(i, best) > follows
+              ? fmt::format("velocity follows the position of {}: are joints in another order",
+                            name_of(best))
+              : "velocity does not follow the derivative of position: is it that of another "
+                "joint, or commanded");
     }
   }
+  return are_wheels_right;
 }
 
 void Relations::report_targets(Findings& findings) const {
@@ -399,13 +432,11 @@ void Relations::report_targets(Findings& findings) const {
 }
 
 void Relations::report_turning(Findings& findings) const {
-  const bool is_fast = turning_.windows() >= least_turn_windows;
-  const Relation& turns = is_fast ? turning_ : slow_turning_;
-  // Half seconds overlap.
-  const int least = least_turn_windows * static_cast<int>(is_fast ? 1 : half_second);
-  if (turns.windows() < least) return;
+  if (!turning_.is_known()) return;
+  const Relation& turns = turning_.relation();
   const double factor = turns.factor();
-  if (!(factor > 0.0) || !std::isfinite(factor)) return;
+  constexpr double never = 1e6;  // an orientation that stands still is named elsewhere
+  if (!(factor > 0.0 && factor < never)) return;
   const auto add = [&](const std::string& finding, const char* axis = "") {
     findings.add(fmt::format("angular_velocity{}", axis), finding);
   };
@@ -439,8 +470,8 @@ void Relations::report_turning(Findings& findings) const {
   } else if (factor > much) {
     add(times(factor));
   } else if (own < -follows) {
-    add("turns the other way than the orientation: its sign is wrong, or the orientation is the "
-        "inverse one (from the reference to the IMU)");
+    add("turns the other way than the orientation: its sign is wrong, the quaternion has another "
+        "`order`, or it is the inverse one (from the reference to the IMU)");
   } else if (const Relation::Axes best = turns.best(); best.fit > follows) {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -466,7 +497,7 @@ bool Relations::report_gravity(Findings& findings, bool measures_acceleration) c
   if (oriented_ > 0 && !is_upright()) {
     findings.add("orientation",
                  fmt::format("has the robot {}: is the IMU mounted so, or its z axis not the one "
-                             "that points down? Check axes and reference",
+                             "that points down? Check axes, reference and order",
                              up_.z() > 0.5 * oriented_ ? "upside down" : "lie on its side"));
   }
   if (!measures_acceleration || linear_.windows() == 0) return measures_acceleration;
@@ -528,7 +559,8 @@ bool Relations::drives() const {
          std::abs(acceleration_.slope(0, 0)) > least_radius;
 }
 
-void Relations::report_driving(Findings& findings, bool has_acceleration) const {
+void Relations::report_driving(Findings& findings, bool has_acceleration,
+                               bool has_velocities) const {
   if (wheels_oppose()) {
     findings.add("wheels",
                  "turn in opposite directions although the robot does not turn: on Upkie the right "
@@ -547,7 +579,7 @@ void Relations::report_driving(Findings& findings, bool has_acceleration) const 
   constexpr double smallest_wheel = 0.008;  // m
   constexpr double largest_wheel = 0.3;     // m
   const double radius = std::abs(acceleration_.slope(0, 0));
-  if (std::abs(acceleration_.covariation(0, 0)) > clearly &&
+  if (has_velocities && std::abs(acceleration_.covariation(0, 0)) > clearly &&
       acceleration_.predicted(0) > least_wheel_acceleration &&
       (radius < smallest_wheel || radius > largest_wheel)) {
     findings.add(

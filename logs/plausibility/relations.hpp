@@ -71,7 +71,7 @@ std::string cause_of(const char* quantity, double factor, double error, const ch
 /// gravity and by the wheels, the right wheel by the left one, torques by the servos' targets.
 class Relations {
  public:
-  Relations();
+  explicit Relations(const QuaternionReading& reading);
 
   void add(const CheckedWindow& window);
   /// Adds a stretch in which the robot is still (`StillStretches`).
@@ -81,21 +81,34 @@ class Relations {
   /// Whether the wheels drive the robot: they are on the ground.
   bool drives() const;
   /// Whether the orientation has the robot upright on average.
-  bool is_upright() const { return up_.z() < -0.5 * oriented_; }
+  bool is_upright() const { return !is_other_order() && up_.z() < -0.5 * oriented_; }
 
  private:
-  void report_velocities(Findings& findings) const;
+  /// The gyroscope by the orientation.
+  struct Turning {
+    Turning();
+    const Relation& relation() const { return is_fast() ? windows : half_seconds; }
+    bool is_fast() const;
+    bool is_known() const;
+
+    Relation windows;
+    Relation half_seconds;  ///< for a robot that turns slowly; they overlap
+  };
+
+  /// Returns whether those of the wheels are the derivatives of their positions.
+  bool report_velocities(Findings& findings) const;
   void report_targets(Findings& findings) const;
   void report_turning(Findings& findings) const;
   bool report_gravity(Findings& findings, bool measures_acceleration) const;
-  void report_driving(Findings& findings, bool has_acceleration) const;
+  void report_driving(Findings& findings, bool has_acceleration, bool has_velocities) const;
+  bool is_other_order() const;
   void add_driving(const CheckedWindow& window);
   bool wheels_oppose() const;
 
   Relation velocity_;
-  Relation exchanged_;     ///< positions by the change of velocities
-  Relation turning_;       ///< of windows
-  Relation slow_turning_;  ///< of half seconds
+  Relation exchanged_;  ///< positions by the change of velocities
+  Turning turning_;
+  Turning other_turning_;  ///< if the quaternion's numbers are in the other order
   Relation wheels_;        ///< the right one by the left one, while the robot drives straight
   Relation acceleration_;  ///< of the IMU by that of the wheels
   Relation proper_;        ///< by gravity
@@ -104,7 +117,9 @@ class Relations {
   std::array<std::array<int, 4>, models::servo_count> apart_ = {};
   std::vector<CheckedWindow> last_;               ///< half a second
   Eigen::Vector3d up_ = Eigen::Vector3d::Zero();  ///< sum
-  int oriented_ = 0;                              ///< windows of it
+  Eigen::Vector3d other_up_ = Eigen::Vector3d::Zero();
+  QuaternionReading reading_;
+  int oriented_ = 0;  ///< windows of it
 };
 
 }  // namespace touchdown::logs

@@ -33,15 +33,24 @@ void StoppedChannels::add(const models::Observation& record) {
   // Written so that NaN starts anew.
   if (!(q.coeffs() == last_.coeffs() && step >= 0.0 && step < longest_step)) {
     turned_.setZero();
+    squares_.setZero();
     since_ = time_;
     last_ = q;
   } else {
-    turned_ += step * record.imu.angular_velocity;
+    constexpr double memory = 0.05;  // s, of a low-pass against noise
+    const Eigen::Vector3d& rate = record.imu.angular_velocity;
+    rate_ += std::min(1.0, step / memory) * (rate - rate_);
+    turned_ += step * rate;
+    squares_ += step * rate_.cwiseAbs2();
   }
   constexpr double after = 0.25;       // s
   constexpr double least_turn = 0.25;  // rad/s: a biased gyroscope turns less
+  constexpr double least_sway = 0.06;  // rad/s, about the mean, which has the bias
   const double held = time_ - since_;
-  orientation_.add(held >= after && turned_.norm() > least_turn * held, since_, q.w());
+  const Eigen::Vector3d mean = turned_ / held;
+  const bool turns = mean.norm() > least_turn ||
+                     (squares_ / held - mean.cwiseAbs2()).sum() > least_sway * least_sway;
+  orientation_.add(held >= after && turns, since_, q.w());
 }
 
 void StoppedChannels::report(Findings& findings) const {

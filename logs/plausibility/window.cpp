@@ -51,10 +51,29 @@ Eigen::Vector3d rotation_between(const Eigen::Quaterniond& before,
   return 2.0 * std::atan2(sine, turn.w()) / sine * turn.vec();
 }
 
+/// The upward vertical in the IMU's frame; the reference's z axis points down.
+Eigen::Vector3d up_by(const Eigen::Quaterniond& orientation) {
+  return orientation.conjugate() * Eigen::Vector3d(0.0, 0.0, -1.0);
+}
+
+/// An orientation as it would be if its numbers were read in the other order.
+Eigen::Quaterniond in_other_order(const Eigen::Quaterniond& orientation,
+                                  const QuaternionReading& reading) {
+  const Eigen::Quaterniond axes(reading.axes);
+  const auto z_up = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);  // half a turn about x
+  const auto reference = reading.is_z_up ? z_up : Eigen::Quaterniond::Identity();
+  const Eigen::Quaterniond q = reference.conjugate() * orientation * axes;
+  const Eigen::Quaterniond other = reading.is_w_last
+                                       ? Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w())
+                                       : Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y());
+  return reference * other * axes.conjugate();
+}
+
 }  // namespace
 
-WindowCollector::WindowCollector(double period)
+WindowCollector::WindowCollector(double period, const QuaternionReading& reading)
     : period_(period),
+      reading_(reading),
       length_(std::max<std::size_t>(
           2, static_cast<std::size_t>(std::llround(window_length / period)))) {}
 
@@ -105,10 +124,14 @@ CheckedWindow WindowCollector::finish(const models::Observation& record) const {
   window.angular_velocity *= share;
   window.linear_acceleration *= share;
   window.proper_acceleration *= share;
-  window.turn_rate =
-      rotation_between(first_.imu.orientation, record.imu.orientation) / window.duration;
-  // The reference's z axis points down.
-  window.up = record.imu.orientation.conjugate() * Eigen::Vector3d(0.0, 0.0, -1.0);
+  const Eigen::Quaterniond& first = first_.imu.orientation;
+  const Eigen::Quaterniond& last = record.imu.orientation;
+  window.turn_rate = rotation_between(first, last) / window.duration;
+  window.up = up_by(last);
+  const Eigen::Quaterniond other_last = in_other_order(last, reading_);
+  window.other_turn_rate =
+      rotation_between(in_other_order(first, reading_), other_last) / window.duration;
+  window.other_up = up_by(other_last);
   return window;
 }
 

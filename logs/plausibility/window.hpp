@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "estimator/signals.hpp"
+#include "logs/log/record_source.hpp"
 #include "models/robot.hpp"
 
 namespace touchdown::logs {
@@ -36,13 +37,16 @@ struct CheckedWindow {
   Eigen::Vector3d linear_acceleration = Eigen::Vector3d::Zero();  ///< m/s²
   Eigen::Vector3d proper_acceleration = Eigen::Vector3d::Zero();  ///< m/s²
   Eigen::Vector3d up = Eigen::Vector3d::Zero();  ///< by the orientation, in the IMU frame
+  /// The same two if the quaternion's numbers are in the other order (`QuaternionReading`).
+  Eigen::Vector3d other_turn_rate = Eigen::Vector3d::Zero();
+  Eigen::Vector3d other_up = Eigen::Vector3d::Zero();
 };
 
 /// Collects records to windows. A gap in time, or a step back, drops the window that it interrupts.
 class WindowCollector {
  public:
   /// `period`: between two records (s).
-  explicit WindowCollector(double period);
+  WindowCollector(double period, const QuaternionReading& reading);
 
   /// Adds a record. Returns the window that it completes, if any.
   std::optional<CheckedWindow> add(const models::Observation& record, const ServoTargets& targets);
@@ -51,6 +55,7 @@ class WindowCollector {
   CheckedWindow finish(const models::Observation& record) const;
 
   double period_;
+  QuaternionReading reading_;
   std::size_t length_;
   std::size_t count_ = 0;
   CheckedWindow sum_;

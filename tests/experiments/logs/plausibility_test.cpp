@@ -350,6 +350,8 @@ std::vector<Damage> damages() {
        "left_wheel, right_wheel: velocity has the other sign"},
       {"wheel positions negated", scaled(position, {2, 5}, -1.0),
        "left_wheel, right_wheel: velocity has the other sign"},
+      {"velocities in another unit of time", scaled(velocity, all, 1.5),
+       "is 1.5 times the derivative"},
       {"a gear ratio of 6", scaled(velocity, {2, 5}, 6.0), "is 6 times the derivative"},
       {"sides swapped in wheel velocities",
        [](O& o, std::size_t) { std::swap(o.servo[2].velocity, o.servo[5].velocity); },
@@ -469,6 +471,70 @@ TEST(PlausibilityCheck, NamesEveryKindOfDamage) {
         fmt::print("| {} | {} | {} |\n", name, damage.name, fmt::join(lines, "; "));
       }
     }
+  }
+}
+
+/// A robot that turns about two axes shows it, whatever the frames of its IMU.
+TEST(PlausibilityCheck, NamesTheOrderInWhichAQuaternionWasMisread) {
+  const Records records = reported("kerb_turn", "mujoco", "ideal");
+  for (const std::array<const char*, 3> axes :
+       {std::array{"x", "y", "z"}, {"-x", "y", "-z"}, {"-y", "-x", "-z"}, {"z", "x", "y"}}) {
+    for (const bool is_z_up : {false, true}) {
+      for (const bool is_w_last : {false, true}) {
+        AssemblyConfig config;
+        config.axes = signed_axes({axes[0], axes[1], axes[2]});
+        config.reference_is_z_up = is_z_up;
+        const Eigen::AngleAxisd reference(is_z_up ? std::numbers::pi : 0.0,
+                                          Eigen::Vector3d::UnitX());
+        PlausibilityCheck right(1e-3, {}, 0.0, {is_w_last, is_z_up, config.axes});
+        PlausibilityCheck misread = right;
+        for (models::Observation record : records) {
+          const Eigen::Quaterniond q =
+              reference.inverse() * record.imu.orientation * Eigen::Quaterniond(config.axes);
+          right.add(record);
+          RobotRecord read;
+          read.orientation = is_w_last ? std::array{q.z(), q.w(), q.x(), q.y()}
+                                       : std::array{q.x(), q.y(), q.z(), q.w()};
+          const auto& [w, x, y, z] = imu_of(read, config).orientation;
+          record.imu.orientation = Eigen::Quaterniond(w, x, y, z);
+          misread.add(record);
+        }
+        EXPECT_THAT(right.findings(), IsEmpty());
+        EXPECT_THAT(
+            misread.findings(),
+            Contains(HasSubstr(is_w_last ? "if its numbers are w, x, y, z: set its `order`"
+                                         : "if its numbers are x, y, z, w: set its `order`")))
+            << axes[0] << axes[1] << axes[2] << is_z_up;
+      }
+    }
+  }
+}
+
+/// One that drives sways by less than the bias of its gyroscope.
+TEST(PlausibilityCheck, NamesAnOrientationThatStopsWhileTheRobotDrives) {
+  for (const std::string scenario : {"flat", "stairs", "washboard"}) {
+    Records records = reported(scenario, "bullet", "upkie");
+    for (std::size_t k = 1500; k < 3500; ++k) {
+      records[k].imu.orientation = records[1499].imu.orientation;
+    }
+    EXPECT_THAT(findings(records), Contains(HasSubstr("orientation: repeats itself from 1.")))
+        << scenario;
+  }
+}
+
+/// Their size is no cause of its own, nor is what follows from it.
+TEST(PlausibilityCheck, NamesOneCauseOfSizesWithoutSignsAndOfVelocitiesInRpm) {
+  for (const std::string scenario : {"flat", "hop", "roam"}) {
+    const Records records = reported(scenario, "mujoco", "ideal");
+    Records sizes = records;
+    Records rpm = records;
+    for (std::size_t k = 0; k < records.size(); ++k) {
+      for (models::ServoReading& servo : sizes[k].servo) servo.torque = std::abs(servo.torque);
+      for (models::ServoReading& servo : rpm[k].servo) servo.velocity *= 30.0 / std::numbers::pi;
+    }
+    EXPECT_THAT(findings(sizes), ::testing::ElementsAre(HasSubstr("never change their sign")))
+        << scenario;
+    EXPECT_THAT(findings(rpm), ::testing::Each(HasSubstr("in rpm"))) << scenario;
   }
 }
 
