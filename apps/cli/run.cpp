@@ -139,7 +139,7 @@ void add_run(CLI::App& program, const CliSession& session) {
       "touchdown run experiments/stairs.yaml\n\n"
       "Runs an experiment: simulates, fits and runs estimators on noisy signals, scores them and\n"
       "draws figures. Of a run directory it computes what is missing, such as the results after\n"
-      "its last shard.");
+      "its last shard, and draws all figures and videos again.");
   const auto flags = std::make_shared<RunFlags>();
   verb.option("experiment", &flags->experiment, "Experiment file, or a run directory").required();
   verb.option("--out", &flags->out, "Run directory (default: runs/<experiment>/<id>)")

@@ -10,6 +10,7 @@
 #include "experiments/estimators/registry.hpp"
 #include "experiments/results/result.hpp"
 #include "experiments/results/scores.hpp"
+#include "simulators/registry.hpp"
 
 namespace touchdown::experiments {
 
@@ -108,14 +109,23 @@ bool is_fitted_to_test(const Experiment& experiment, const std::string& estimato
 std::string score_notes(const Experiment& experiment, const ScoreTables& tables) {
   std::vector<std::string> notes, silent, fitted;
   for (const std::string& name : experiment.estimators) {
-    const bool is_ever_silent = std::ranges::any_of(tables.cells.all(), [&](const TableRow& cell) {
-      return cell.text("estimator") == name && is_silent(cell) &&
-             std::ranges::any_of(experiment.highlights, [&](const noise::NoiseCell& highlight) {
-               return is_at(cell, highlight);
-             });
-    });
+    std::vector<std::string> settings;
+    std::size_t all = 0;
+    for (const noise::NoiseCell& highlight : experiment.highlights) {
+      for (const TableRow& cell : tables.cells.all()) {
+        if (cell.text("estimator") != name || !is_at(cell, highlight)) continue;
+        ++all;
+        if (!is_silent(cell)) continue;
+        settings.push_back(fmt::format("{} in {}", noise_text(highlight),
+                                       simulators::simulator_title(cell.text("simulator"))));
+      }
+    }
     const EstimatorEntry& entry = estimator_entry(experiment, name);
-    if (is_ever_silent && entry.fits()) silent.push_back(entry.title);
+    if (!settings.empty() && entry.fits()) {
+      silent.push_back(settings.size() == all
+                           ? entry.title
+                           : fmt::format("{} (at {})", entry.title, fmt::join(settings, "; at ")));
+    }
     if (is_fitted_to_test(experiment, name)) fitted.push_back(entry.title);
   }
   int scored = 0;

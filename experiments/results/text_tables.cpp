@@ -129,7 +129,7 @@ TextTable table_of(const Experiment& experiment, const Rows& scores,
   }
   const bool has_paper = std::ranges::any_of(
       scores, [](const TableRow& score) { return paper_row(score.text("estimator")) != nullptr; });
-  if (has_paper) table.header.emplace_back("paper, real robot");
+  if (has_paper) table.header.emplace_back(paper_column);
   for (const TableRow& score : scores) {
     const std::string estimator = score.text("estimator");
     std::vector<std::string> row = {score.text("simulator"),
@@ -224,7 +224,7 @@ TextTable accuracy_table(const Experiment& experiment, const ScoreTables& tables
       const TableRow& score = own.front();
       row.push_back(with_interval(score.interval("event_f1")));
       const bool is_never_air = !where(of_engine(silent, simulator), is_own).empty();
-      if (is_never_air && estimator != always_contact_name) row.back() += ", never air";
+      if (is_never_air && estimator != always_contact_name) row.back() += ", hardly any air";
       row.push_back(plain(score, "extra_switches_per_minute", "{:.1f}"));
       row.push_back(with_interval(score.interval("balanced_accuracy")));
     }
@@ -284,7 +284,11 @@ std::vector<CaptionedTable> paper_tables(const Experiment& experiment, const Sco
            experiment, scores,
            {"contact_precision", "contact_recall", "no_contact_precision", "no_contact_recall"},
            metric_cell, &PaperRow::classification)},
-      {"Transitions. " + how, "transitions",
+      {fmt::format(
+           "Transitions. Switches within {:.0f} ms of a flight are no false alarms here, as "
+           "they are for F1. {}",
+           1e3 * experiment.scoring.hold_off, how),
+       "transitions",
        table_of(experiment, scores,
                 {"takeoff_precision", "takeoff_recall", "landing_precision", "landing_recall"},
                 metric_cell, &PaperRow::transitions)},

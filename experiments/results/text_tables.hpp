@@ -24,6 +24,7 @@ TextTable accuracy_table(const Experiment& experiment, const ScoreTables& tables
 /// engine and estimator, in one noise setting. If the paper has one of the estimators, the last
 /// column has its numbers from the real robot. They are a reference, not a target: another robot,
 /// other drops, hand labels.
+inline constexpr const char* paper_column = "paper, real robot";  ///< if one of its estimators is
 std::vector<CaptionedTable> paper_tables(const Experiment& experiment, const ScoreTables& tables,
                                          const noise::NoiseCell& cell, const std::string& how);
 

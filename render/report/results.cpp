@@ -130,9 +130,11 @@ PageHeader report_header(const ReportSubject& subject) {
     of_one_wheel += run.number("wheel_flights");
   }
   std::set<std::array<double, 3>> settings;
+  bool is_noisy = false;
   for (const TableRow& cell : subject.tables.cells.all()) {
     settings.insert({cell.number("accelerometer_noise_mps2"), cell.number("knee_noise_nm"),
                      cell.number("wheel_noise_nm")});
+    is_noisy = is_noisy || *settings.rbegin() != std::array{0.0, 0.0, 0.0};
   }
   std::string note = fmt::format(
       "Film, replay and latencies count each wheel's flights of at least {:.0f} ms. {}",
@@ -143,10 +145,10 @@ PageHeader report_header(const ReportSubject& subject) {
   }
   return {experiment.name,
           fmt::format("Is each wheel in contact with the ground? {} {} it from joint torques and "
-                      "an accelerometer, in {}, under sensor noise.",
+                      "an accelerometer, in {}{}.",
                       experiments::plural(experiment.estimators.size(), "estimator"),
                       experiment.estimators.size() == 1 ? "estimates" : "estimate",
-                      in_words(engines_of(experiment))),
+                      in_words(engines_of(experiment)), is_noisy ? ", under sensor noise" : ""),
           {{"physics engines", std::to_string(experiment.simulators.size())},
            {"test runs scored", std::to_string(test_runs)},
            {"flights of both wheels at once", fmt::format("{:.0f}", flights)},
@@ -180,6 +182,7 @@ ReportSection results_section(const ReportSubject& subject) {
 
 ReportSection paper_section(const ReportSubject& subject) {
   Json cells = Json::array();
+  bool has_paper = false;
   for (const noise::NoiseCell& cell : subject.experiment.highlights) {
     const auto is_here = [&](const TableRow& row) { return experiments::is_at(row, cell); };
     if (where(subject.tables.scores.all(), is_here).empty()) continue;
@@ -190,6 +193,7 @@ ReportSection paper_section(const ReportSubject& subject) {
     Json tables = Json::array();
     for (const experiments::CaptionedTable& table :
          experiments::paper_tables(subject.experiment, subject.tables, cell, how)) {
+      has_paper = has_paper || table.table.header.back() == experiments::paper_column;
       tables.push_back(with_engine_titles(table));
     }
     experiments::CaptionedTable compared =
@@ -202,10 +206,11 @@ ReportSection paper_section(const ReportSubject& subject) {
                      {"accelerometer", fmt::format("{}", cell.accelerometer)},
                      {"tables", std::move(tables)}});
   }
-  ReportSection section{"paper", "Comparison with the paper"};
+  ReportSection section{"paper", "The paper's metrics"};
   if (cells.empty()) return section;
   section.html =
       html_of("paper.html", {{"conditions", experiments::conditions_text(subject.experiment)},
+                             {"has_paper", has_paper},
                              {"cells", std::move(cells)}});
   return section;
 }

@@ -57,6 +57,26 @@ TEST(ScoreNotes, NameEstimatorsThatNeverReportFlightAndTheFlightsThatTheirFitLac
   EXPECT_EQ(note({{"paper", 0.0}}, 0, 0), one) << "the test has none";
 }
 
+/// Without noise it may be good.
+TEST(ScoreNotes, NameTheSettingsInWhichAnEstimatorReportsNoFlight) {
+  Experiment experiment;
+  experiment.estimators = {"paper"};
+  experiment.highlights = {{0.0, 0.0}, {1.0, 5.0}};
+  ScoreTables tables;
+  tables.cells.columns = {{"estimator"},
+                          {"simulator"},
+                          {.name = "torque_noise_nm", .type = ColumnType::exact},
+                          {.name = "accelerometer_noise_mps2", .type = ColumnType::exact},
+                          {.name = "no_contact_recall", .type = ColumnType::measured}};
+  tables.cells.rows = {{"paper", "mujoco", 0.0, 0.0, 0.9},
+                       {"paper", "bullet", 0.0, 0.0, 0.8},
+                       {"paper", "mujoco", 1.0, 5.0, 0.3},
+                       {"paper", "bullet", 1.0, 5.0, 0.01}};
+  EXPECT_EQ(score_notes(experiment, tables),
+            "Bayes filter (paper) (at torque noise 1 N·m, accelerometer noise 5 m/s² in Bullet) "
+            "hardly ever reports flight, so that it decides as always contact does.");
+}
+
 TEST(ScoreNotes, NameATestWithoutAFlightAndEstimatorsThatAreFittedToItsScenes) {
   Experiment experiment;
   experiment.estimators = {"robust", "load_filter", "paper"};

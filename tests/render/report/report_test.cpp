@@ -212,7 +212,19 @@ TEST_F(Report, PutsThePapersNumbersBesideOurs) {
   write_score_files(folder_, "mujoco,reference,1,5,nan,nan,nan\n",
                     "mujoco,reference,1,5,nan,nan,nan,9.5,2.7,14.9,12.4\n");
   EXPECT_THAT(page(), AllOf(HasSubstr("9.5 ± 12.4"), HasSubstr("[2.7, 14.9]"),
-                            HasSubstr("77.1 ± 31.8 / 17.9 ± 9.1")));
+                            HasSubstr("77.1 ± 31.8 / 17.9 ± 9.1"),
+                            HasSubstr("The last column repeats the paper"),
+                            HasSubstr(", under sensor noise.")));
+}
+
+TEST_F(Report, NamesNeitherTheColumnNorTheNoiseThatAnExperimentLacks) {
+  std::string without_noise = config;
+  without_noise.replace(without_noise.find("highlights"), std::string::npos,
+                        "highlights: [{torque: 0.0, accelerometer: 0.0}]\n");
+  folder_.write("config.yaml", without_noise);
+  write_score_files(folder_, "mujoco,robust,0,0,0.9,0.8,1\n", "mujoco,robust,0,0,0.9,0.8,1\n");
+  EXPECT_THAT(page(), AllOf(HasSubstr("Transitions. "), Not(HasSubstr("The last column")),
+                            Not(HasSubstr("under sensor noise"))));
 }
 
 TEST_F(Report, JoinsIntervalsAndMarksMissingNumbers) {
