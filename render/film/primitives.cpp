@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "models/mjcf/types.hpp"
+
 namespace touchdown::render {
 
 namespace {
@@ -11,15 +13,6 @@ namespace {
 constexpr int groups_of_films = 3;        // MuJoCo's renderer draws groups 0 to 2
 constexpr double plane_extent = 40.0;     // m: of a plane without a size
 constexpr double plane_thickness = 1e-3;  // m
-
-Eigen::Vector3d vector_at(const mjtNum* numbers, int i) {
-  return Eigen::Map<const Eigen::Vector3d>(numbers + 3 * i);
-}
-
-Eigen::Quaterniond quaternion_at(const mjtNum* numbers, int i) {
-  const mjtNum* const q = numbers + 4 * i;
-  return {q[0], q[1], q[2], q[3]};
-}
 
 const float* colour_of(const mjModel& model, int geom) {
   const int material = model.geom_matid[geom];
@@ -31,11 +24,11 @@ bool is_drawn(const mjModel& model, int geom) {
 }
 
 void add_geom(const mjModel& model, int geom, std::vector<Primitive>& primitives) {
-  Primitive primitive{.position = vector_at(model.geom_pos, geom),
-                      .orientation = quaternion_at(model.geom_quat, geom)};
+  Primitive primitive{.position = models::vector_at(model.geom_pos, geom),
+                      .orientation = models::quaternion_at(model.geom_quat, geom)};
   std::copy_n(colour_of(model, geom), 4, primitive.colour.begin());
   const Eigen::Vector3d centre = primitive.position;
-  const Eigen::Vector3d size = vector_at(model.geom_size, geom);
+  const Eigen::Vector3d size = models::vector_at(model.geom_size, geom);
   const auto add = [&](Shape shape, const Eigen::Vector3d& full, double along_z = 0.0) {
     primitive.shape = shape;
     primitive.size = full;
@@ -94,20 +87,15 @@ std::string body_name(const mjModel& model, int body) {
   return name == nullptr ? fmt::format("body_{}", body) : name;
 }
 
-Eigen::Vector3d body_position(const mjData& data, int body) { return vector_at(data.xpos, body); }
-
-Eigen::Quaterniond body_orientation(const mjData& data, int body) {
-  return quaternion_at(data.xquat, body);
-}
-
-std::span<const float> mesh_vertices(const mjModel& model, int mesh) {
-  const int count = 3 * model.mesh_vertnum[mesh];
-  return {model.mesh_vert + 3 * model.mesh_vertadr[mesh], static_cast<std::size_t>(count)};
-}
-
-std::span<const int> mesh_triangles(const mjModel& model, int mesh) {
-  const int count = 3 * model.mesh_facenum[mesh];
-  return {model.mesh_face + 3 * model.mesh_faceadr[mesh], static_cast<std::size_t>(count)};
+TriangleMesh mesh_of(const mjModel& model, int mesh) {
+  TriangleMesh result;
+  const float* vertex = model.mesh_vert + 3 * model.mesh_vertadr[mesh];
+  for (int i = 0; i < model.mesh_vertnum[mesh]; ++i, vertex += 3) {
+    result.vertices.emplace_back(vertex[0], vertex[1], vertex[2]);
+  }
+  const int* const indices = model.mesh_face + 3 * model.mesh_faceadr[mesh];
+  result.indices.assign(indices, indices + 3 * model.mesh_facenum[mesh]);
+  return result;
 }
 
 }  // namespace touchdown::render

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -30,12 +29,11 @@ std::vector<Primitive> primitives_of(const mjModel& model, int body);
 /// The name of a body; "world" of body 0.
 std::string body_name(const mjModel& model, int body);
 
-/// The pose of a body in the world, from computed kinematics.
-Eigen::Vector3d body_position(const mjData& data, int body);
-Eigen::Quaterniond body_orientation(const mjData& data, int body);
-
-/// The vertices of a mesh (x, y, z each, m), and its triangles (three indices each).
-std::span<const float> mesh_vertices(const mjModel& model, int mesh);
-std::span<const int> mesh_triangles(const mjModel& model, int mesh);
+/// Triangles of a mesh.
+struct TriangleMesh {
+  std::vector<Eigen::Vector3d> vertices;  ///< m
+  std::vector<int> indices;               ///< three per triangle
+};
+TriangleMesh mesh_of(const mjModel& model, int mesh);
 
 }  // namespace touchdown::render

@@ -161,8 +161,7 @@ static std::vector<SceneVector> rods_of_loops(const mjModel& model, const mjData
       const int body = end == 0 ? model.eq_obj1id[loop] : model.eq_obj2id[loop];
       if (has_shape(body)) continue;
       const Eigen::Vector3d from = models::vector_at(data.xpos, body);
-      const Eigen::Vector3d anchor =
-          Eigen::Map<const Eigen::Vector3d>(model.eq_data + mjNEQDATA * loop + 3 * end);
+      const Eigen::Vector3d anchor = models::vector_at(model.eq_data + mjNEQDATA * loop, end);
       rods.push_back({from, from + models::quaternion_at(data.xquat, body) * anchor});
     }
   }
@@ -173,12 +172,11 @@ static std::vector<SceneVector> rods_of_loops(const mjModel& model, const mjData
 static double reach_of(const models::RobotModel& robot) {
   const models::MjDataPtr data = models::at_reference(robot);
   update_geoms(*robot.mj, *data);
-  const auto place = [](const mjtNum* at) { return Eigen::Map<const Eigen::Vector3d>(at); };
-  const Eigen::Vector3d base = place(data->xpos + 3 * robot.base_body);
+  const Eigen::Vector3d base = models::vector_at(data->xpos, robot.base_body);
   double reach = 0.0;
   for (int geom = 0; geom < robot.mj->ngeom; ++geom) {
     if (robot.mj->geom_bodyid[geom] == 0) continue;
-    const Eigen::Vector3d centre = place(data->geom_xpos + 3 * geom);
+    const Eigen::Vector3d centre = models::vector_at(data->geom_xpos, geom);
     reach = std::max(reach, (centre - base).norm() + robot.mj->geom_rbound[geom]);
   }
   return reach;

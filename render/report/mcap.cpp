@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <utility>
 
 #include <Eigen/Core>
@@ -13,6 +12,7 @@
 #include <mujoco/mujoco.h>
 
 #include "logs/log/mcap.hpp"
+#include "models/mjcf/types.hpp"
 #include "render/film/primitives.hpp"
 #include "render/film/scene_view.hpp"
 #include "scenarios/scenario.hpp"
@@ -53,17 +53,14 @@ McapJson sized(const Primitive& primitive) {
 }
 
 McapJson triangles(const mjModel& model, const Primitive& primitive) {
+  const TriangleMesh mesh = mesh_of(model, primitive.mesh);
   McapJson points = McapJson::array();
-  const std::span<const float> vertices = mesh_vertices(model, primitive.mesh);
-  for (std::size_t i = 0; i + 2 < vertices.size(); i += 3) {
-    points.push_back(vector(Eigen::Map<const Eigen::Vector3f>(vertices.data() + i).cast<double>()));
-  }
-  const std::span<const int> faces = mesh_triangles(model, primitive.mesh);
+  for (const Eigen::Vector3d& vertex : mesh.vertices) points.push_back(vector(vertex));
   return {{"pose", pose(primitive.position, primitive.orientation)},
           {"points", std::move(points)},
           {"color", colour(primitive)},
           {"colors", McapJson::array()},
-          {"indices", std::vector<int>(faces.begin(), faces.end())}};
+          {"indices", mesh.indices}};
 }
 
 void add(McapJson& entity, const mjModel& model, const Primitive& primitive) {
@@ -122,8 +119,8 @@ McapJson frame_transforms(const mjModel& model, const mjData& data, std::uint64_
     transforms.push_back({{"timestamp", mcap_time(time)},
                           {"parent_frame_id", "world"},
                           {"child_frame_id", body_name(model, body)},
-                          {"translation", vector(body_position(data, body))},
-                          {"rotation", quaternion(body_orientation(data, body))}});
+                          {"translation", vector(models::vector_at(data.xpos, body))},
+                          {"rotation", quaternion(models::quaternion_at(data.xquat, body))}});
   }
   return {{"transforms", std::move(transforms)}};
 }

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 #include <fmt/format.h>
 
+#include "models/mjcf/types.hpp"
 #include "render/film/primitives.hpp"
 #include "render/film/scene_view.hpp"
 #include "render/report/html.hpp"
@@ -62,14 +63,7 @@ double rounded(double value) { return std::round(value * 1e5) / 1e5; }
 Json numbers(const Eigen::Vector3d& v) { return {rounded(v.x()), rounded(v.y()), rounded(v.z())}; }
 
 Json mesh_json(const mjModel& model, int mesh, std::size_t most_triangles) {
-  TriangleMesh all;
-  const std::span<const float> vertices = mesh_vertices(model, mesh);
-  for (std::size_t i = 0; i + 2 < vertices.size(); i += 3) {
-    all.vertices.emplace_back(vertices[i], vertices[i + 1], vertices[i + 2]);
-  }
-  const std::span<const int> triangles = mesh_triangles(model, mesh);
-  all.indices.assign(triangles.begin(), triangles.end());
-  const TriangleMesh shown = reduced(all, most_triangles);
+  const TriangleMesh shown = reduced(mesh_of(model, mesh), most_triangles);
   std::vector<float> numbers;
   for (const Eigen::Vector3d& vertex : shown.vertices) {
     for (const double number : vertex) numbers.push_back(static_cast<float>(number));
@@ -139,8 +133,8 @@ void add_poses(const VideoSource& source, Json& run) {
   for (const std::size_t row : rows) {
     poses.apply(row, *data);
     for (std::size_t i = 1; i < bodies.size(); ++i) {
-      add(positions, body_position(*data, bodies[i]));
-      const Eigen::Quaterniond q = body_orientation(*data, bodies[i]);
+      add(positions, models::vector_at(data->xpos, bodies[i]));
+      const Eigen::Quaterniond q = models::quaternion_at(data->xquat, bodies[i]);
       add(orientations, std::array{q.w(), q.x(), q.y(), q.z()});
     }
   }

@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "experiments/results/text_tables.hpp"
+#include "render/film/primitives.hpp"
 #include "render/film/request.hpp"
 #include "render/report/html.hpp"
 
@@ -63,12 +62,6 @@ inline constexpr double replay_belief_rate = 100.0;
 ///   estimator have a byte per step and wheel: twice P(contact) in 127ths, plus its
 ///   decision (without decisions, whether P(contact) is above ½).
 Json replay_data(const std::vector<VideoSource>& runs, const scoring::LabelConfig& labels);
-
-/// Triangles of a mesh.
-struct TriangleMesh {
-  std::vector<Eigen::Vector3d> vertices;  ///< m
-  std::vector<int> indices;               ///< three per triangle
-};
 
 /// The mesh with at most `most_triangles`, if need be by moving its vertices to a coarser and
 /// coarser grid and leaving out triangles without area.

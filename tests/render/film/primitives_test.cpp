@@ -93,19 +93,16 @@ TEST(Primitives, MeshesKeepTheirPlace) {
   ASSERT_EQ(primitives.size(), 1U);
   ASSERT_EQ(primitives[0].shape, Shape::mesh);
   Eigen::Vector3d low = Eigen::Vector3d::Constant(1e9), high = -low;
-  const auto vertices = mesh_vertices(*model, primitives[0].mesh);
-  ASSERT_EQ(vertices.size(), 12U);
-  for (std::size_t i = 0; i < vertices.size(); i += 3) {
-    const Eigen::Vector3d vertex =
-        primitives[0].position +
-        primitives[0].orientation *
-            Eigen::Map<const Eigen::Vector3f>(vertices.data() + i).cast<double>();
+  const TriangleMesh mesh = mesh_of(*model, primitives[0].mesh);
+  ASSERT_EQ(mesh.vertices.size(), 4U);
+  for (const Eigen::Vector3d& in_mesh : mesh.vertices) {
+    const Eigen::Vector3d vertex = primitives[0].position + primitives[0].orientation * in_mesh;
     low = low.cwiseMin(vertex);
     high = high.cwiseMax(vertex);
   }
   EXPECT_LT((low - Eigen::Vector3d::Zero()).norm(), 1e-6);
   EXPECT_LT((high - Eigen::Vector3d::Ones()).norm(), 1e-6);
-  EXPECT_EQ(mesh_triangles(*model, primitives[0].mesh).size() % 3, 0U);
+  EXPECT_EQ(mesh.indices.size() % 3, 0U);
 }
 
 }  // namespace

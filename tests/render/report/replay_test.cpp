@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "render/film/primitives.hpp"
+#include "models/mjcf/types.hpp"
 #include "render/film/scene_view.hpp"
 #include "render/report/sections.hpp"
 #include "tests/render/staged_run.hpp"
@@ -73,10 +73,11 @@ TEST_F(ReplayData, PosesAreThoseOfTheRecording) {
     for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
       const auto place = run["wheels"][wheel].get<std::size_t>() - 1;
       const int body = robot_.mj->geom_bodyid[robot_.tyre_geom[wheel]];
-      EXPECT_LT((position_in(run, bodies, frame, place) - body_position(*state, body)).norm(),
-                1e-4);
+      EXPECT_LT(
+          (position_in(run, bodies, frame, place) - models::vector_at(state->xpos, body)).norm(),
+          1e-4);
       const std::vector<float> numbers = floats_of(run["orientations"]);
-      const Eigen::Quaterniond expected = body_orientation(*state, body);
+      const Eigen::Quaterniond expected = models::quaternion_at(state->xquat, body);
       const std::array<double, 4> q = {expected.w(), expected.x(), expected.y(), expected.z()};
       for (std::size_t k = 0; k < 4; ++k) {
         EXPECT_NEAR(numbers.at(4 * (frame * bodies + place) + k), q[k], 1e-4);
