@@ -18,10 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-double end_of(const FilmedRun& run) {
-  return static_cast<double>(run.recording.steps()) * run.recording.period();
-}
-
 /// Films some of the runs beside each other.
 void film(const std::vector<VideoSource>& sources, VideoOptions options, const FilmedRun& first,
           int workers, const fs::path& path, const std::atomic<bool>* stop) {
@@ -71,15 +67,13 @@ void film_for_report(const std::vector<FilmedRun>& runs, const experiments::Expe
   if (runs.empty()) return;
   if (is_current(files.video, run_directory) && is_current(files.picture, run_directory)) return;
   std::vector<VideoSource> shown;
-  double end = 0.0;
   for (const FilmedRun& run : runs) {
     if (shown.size() < 2) shown.push_back(run.source());
-    end = std::max(end, end_of(run));
   }
   VideoOptions small = film_of_width(0.75 * experiment.video.width);
   small.crf = 28;
   small.fps = 20;
-  small.to = std::min(end, longest_report_film);
+  small.to = longest_report_film;
   for (const char* const name : {"videos/report.mp4", "videos/report.jpg"}) {
     experiments::record_file(run_directory, name);
   }
@@ -111,11 +105,10 @@ void draw_pictures(experiments::ExperimentResult& result, const std::vector<Film
     }
     progress.advance();
   }
-  for (const StudyPictures& study : studies) {
-    if (!with_films) break;
-    if (study.film && study.is_requested(result.experiment)) study.film(result, stop);
-  }
   if (with_films) {
+    for (const StudyPictures& study : studies) {
+      if (study.film && study.is_requested(result.experiment)) study.film(result, stop);
+    }
     film_runs(filmed, result.experiment, result.directory.path(), stop);
     std::error_code ignored;
     fs::remove(report_film(result.directory.path()).video, ignored);

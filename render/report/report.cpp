@@ -79,12 +79,12 @@ constexpr double run_up = 0.4;
 /// The button of a flight stays highlighted until this time after the landing (s).
 constexpr double follow_through = 0.4;
 
-/// The flights of each wheel of a run, in a film until `end` (s). Its buttons jump to them.
-void add_wheels(const FilmedRun& run, double end, Json& wheels) {
+/// The flights of each wheel of a run in the report's film. Its buttons jump to them.
+void add_wheels(const FilmedRun& run, Json& wheels) {
   const std::string engine = simulators::simulator_title(run.recording.info.simulator);
   std::array<Json, models::wheel_count> flights = {Json::array(), Json::array()};
   for (const WheelFlight& flight : wheel_flights(run.recording, run.labels)) {
-    if (flight.takeoff <= 0.0 || flight.landing > end) continue;
+    if (flight.takeoff <= 0.0 || flight.landing > longest_report_film) continue;
     flights[flight.wheel].push_back(
         {{"seek", fmt::format("{:.3f}", std::max(0.0, flight.takeoff - run_up))},
          {"end", fmt::format("{:.3f}", flight.landing + follow_through)},
@@ -113,7 +113,7 @@ std::string film_html(const ReportSubject& subject, const std::vector<FilmedRun>
   for (const FilmedRun& run : runs) {
     const logs::RecordingInfo& info = run.recording.info;
     engines.push_back(simulators::simulator_title(info.simulator));
-    add_wheels(run, std::min(end, longest_report_film), wheels);
+    add_wheels(run, wheels);
     const std::string name = experiments::video_name(info.simulator, info.scenario);
     std::error_code error;
     const std::uintmax_t bytes = fs::file_size(subject.directory / "videos" / name, error);
