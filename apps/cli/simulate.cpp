@@ -22,13 +22,12 @@
 #include "logs/log/recording_file.hpp"
 #include "noise/reported_signals.hpp"
 #include "noise/sensor_profile.hpp"
+#include "render/film/request.hpp"
 #include "scenarios/engine.hpp"
 #include "scenarios/generation/generate.hpp"
 #include "scenarios/robot_check.hpp"
 #include "scenarios/scenario.hpp"
 #include "scenarios/scenario_file.hpp"
-#include "scoring/labels.hpp"
-#include "scoring/transitions.hpp"
 
 namespace touchdown::cli {
 
@@ -120,16 +119,10 @@ void simulate(SimulateFlags flags, const CliSession& session) {
   end_if(session.stop);
   if (sensors) report_through(*sensors, recording);
   logs::write_recording(recording, flags.output);
-  const auto shortest = static_cast<std::size_t>(
-      std::llround(scoring::ScoringConfig{}.minimum_flight / recording.period()));
-  std::size_t flights = 0;
-  for (const scoring::ContactSequence& wheel : scoring::contact_labels(recording, {})) {
-    flights += scoring::flights(wheel, shortest).size();
-  }
   print("{}: {} {}, {} of a wheel\n", flags.output, recording.info.scenario,
         scenarios::ending_text(recording, scenario.end) +
             scenarios::part_on_terrain(*scene, recording),
-        experiments::plural(flights, "flight"));
+        experiments::plural(render::wheel_flights(recording, {}).size(), "flight"));
 }
 
 }  // namespace
