@@ -155,27 +155,6 @@ std::string map_overlay(const ReportSubject& subject, const fs::path& drawing,
   return inline_json(data);
 }
 
-/// A drawn map and the readouts of its cells.
-struct MapOverlay {
-  fs::path drawing;
-  std::string readouts;  ///< JSON
-};
-
-/// The maps that the page shows with readouts.
-std::vector<MapOverlay> map_overlays(const ReportSubject& subject) {
-  std::vector<MapOverlay> overlays;
-  for (const NoiseMaps& maps : noise_maps(subject.experiment)) {
-    for (const std::string& simulator : subject.experiment.simulators) {
-      const fs::path drawing =
-          subject.directory / "figures" / fmt::format("{}_{}.svg", maps.name, simulator);
-      if (!is_there(drawing)) continue;
-      const std::string overlay = map_overlay(subject, drawing, simulator, maps);
-      if (!overlay.empty()) overlays.push_back({drawing, overlay});
-    }
-  }
-  return overlays;
-}
-
 std::string gallery(Json figures, bool has_readouts) {
   std::erase(figures.get_ref<Json::array_t&>(), Json());  // too large
   if (figures.empty()) return {};
@@ -209,31 +188,32 @@ Json figure_members(const fs::path& file, const std::vector<std::string>& simula
           {"files", std::move(files)}};
 }
 
-ReportSection heatmap_section(const ReportSubject& subject) {
-  Json figures = Json::array();
-  for (const auto& [drawing, readouts] : map_overlays(subject)) {
-    figures.push_back(figure_members(drawing, subject.experiment.simulators, readouts));
+FigureSections figure_sections(const ReportSubject& subject) {
+  const std::vector<std::string>& simulators = subject.experiment.simulators;
+  const fs::path folder = subject.directory / "figures";
+  std::vector<fs::path> drawings, files;
+  Json with_readouts = Json::array(), others = Json::array();
+  for (const NoiseMaps& maps : noise_maps(subject.experiment)) {
+    for (const std::string& simulator : simulators) {
+      const fs::path drawing = folder / fmt::format("{}_{}.svg", maps.name, simulator);
+      if (!is_there(drawing)) continue;
+      const std::string overlay = map_overlay(subject, drawing, simulator, maps);
+      if (overlay.empty()) continue;
+      drawings.push_back(drawing);
+      with_readouts.push_back(figure_members(drawing, simulators, overlay));
+    }
   }
-  return {"noise", "Under sensor noise", gallery(std::move(figures), true)};
-}
-
-ReportSection figures_section(const ReportSubject& subject) {
-  const std::vector<MapOverlay> maps = map_overlays(subject);
-  std::vector<fs::path> files;
-  for (const fs::path& path : entries_in(subject.directory / "figures")) {
-    const bool is_map = std::any_of(maps.begin(), maps.end(),
-                                    [&](const MapOverlay& map) { return map.drawing == path; });
+  for (const fs::path& path : entries_in(folder)) {
+    const bool is_map = std::ranges::find(drawings, path) != drawings.end();
     const bool drawn = path.extension() == ".svg" && !is_map;
     const bool painted =
         path.extension() == ".png" && !is_there(fs::path(path).replace_extension(".svg"));
     if (drawn || painted) files.push_back(path);
   }
-  sort_by_engine(files, subject.experiment.simulators);
-  Json figures = Json::array();
-  for (const fs::path& file : files) {
-    figures.push_back(figure_members(file, subject.experiment.simulators));
-  }
-  return {"figures", "Figures", gallery(std::move(figures), false)};
+  sort_by_engine(files, simulators);
+  for (const fs::path& file : files) others.push_back(figure_members(file, simulators));
+  return {{"noise", "Under sensor noise", gallery(std::move(with_readouts), true)},
+          {"figures", "Figures", gallery(std::move(others), false)}};
 }
 
 }  // namespace touchdown::render

@@ -163,10 +163,12 @@ fs::path make_report(const ReportSubject& subject, const std::vector<FilmedRun>&
   all.push_back(estimators_section(subject));
   all.push_back(results_section(subject));
   all.insert(all.end(), of_studies.begin(), of_studies.end());
-  for (ReportSection (*const section)(const ReportSubject&) :
-       {heatmap_section, paper_section, figures_section, more_tables_section, reproduce_section}) {
-    all.push_back(section(subject));
-  }
+  auto [maps, figures] = figure_sections(subject);
+  all.push_back(std::move(maps));
+  all.push_back(paper_section(subject));
+  all.push_back(std::move(figures));
+  all.push_back(more_tables_section(subject));
+  all.push_back(reproduce_section(subject));
   fs::path path = experiments::record_file(subject.directory, "report.html");
   write_page(subject, path, report_header(subject), all);
   return path;

@@ -31,18 +31,18 @@ Json table_members(const experiments::CaptionedTable& table, std::size_t text_co
 /// merged.
 ReportSection more_tables_section(const ReportSubject& subject);
 
-/// The drawn maps of the success rate over noise levels; a cell that the reader points at shows its
-/// numbers.
-ReportSection heatmap_section(const ReportSubject& subject);
-
 /// The members of `figure.html`: a figure of the run directory with its texts and its files, those
 /// of its data in the order of these engines; null for one that is too large. `readouts` are what
 /// the cells of a map show.
 Json figure_members(const std::filesystem::path& file, const std::vector<std::string>& simulators,
                     const std::string& readouts = {});
 
-/// The other figures of the run directory, with the texts of their scripts.
-ReportSection figures_section(const ReportSubject& subject);
+/// The drawn maps of the success rate over noise levels, where a cell that the reader points at
+/// shows its numbers; the other figures of the run directory, with the texts of their scripts.
+struct FigureSections {
+  ReportSection maps, others;
+};
+FigureSections figure_sections(const ReportSubject& subject);
 
 /// Only this much of a longer run is replayed (s), because the page contains it.
 inline constexpr double longest_replay = 60.0;
