@@ -87,8 +87,6 @@ std::string text_of(const std::string& path, const RobotCheck& check) {
         rounded(check.leg_mass[1]), rounded(check.wheel_radius), rounded(check.track),
         vector_text(check.imu), joints_text(check), rounded(check.hip), rounded(check.knee),
         check.lever);
-  }
-  if (!check.joints.empty()) {
     text += fmt::format("servos: gain margin {:.2f} in flight, {:.2f} standing (unstable at 1)\n",
                         check.margins.flight, check.margins.standing);
   }
@@ -245,25 +243,20 @@ std::size_t check_log(const std::string& path, const std::string& mapping,
   return findings.size();
 }
 
-/// What the checks found: complaints about robots always count, findings about logs if --strict.
-struct Found {
-  std::size_t complaints = 0;
-  std::size_t findings = 0;
-};
-
-/// The type of a file follows from its extension; with a mapping all files are logs.
-void check_file(const std::string& file, const CheckFlags& flags, const CliSession& session,
-                Found& found) {
+/// The type of a file follows from its extension; with a mapping all files are logs. Returns what
+/// counts: complaints about a robot always, findings about a log if --strict.
+std::size_t check_file(const std::string& file, const CheckFlags& flags,
+                       const CliSession& session) {
   if (flags.mapping.empty() && is_robot_file(file)) {
     if (models::is_about_an_mjcf(file)) {
       experiments::require_yaml_kind(YamlDocument::load(file), experiments::YamlKind::robot);
     }
-    found.complaints += check_robot(file, flags, session);
-    return;
+    return check_robot(file, flags, session);
   }
   if (flags.json) throw InputError(fmt::format("{}: --json is for robots", file));
-  found.findings +=
+  const std::size_t findings =
       check_log(file, flags.mapping, experiments::robot_of_file(flags.robot), session);
+  return flags.strict ? findings : 0;
 }
 
 /// Checks --write and --figure before anything is computed.
@@ -296,9 +289,8 @@ void require_outputs(const CheckFlags& flags) {
 
 void check(const CheckFlags& flags, const CliSession& session) {
   require_outputs(flags);
-  Found found;
-  for (const std::string& file : flags.files) check_file(file, flags, session, found);
-  const std::size_t all = found.complaints + (flags.strict ? found.findings : 0);
+  std::size_t all = 0;
+  for (const std::string& file : flags.files) all += check_file(file, flags, session);
   if (all > 0) throw Error("check: " + experiments::plural(all, "finding"));
 }
 
