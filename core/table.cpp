@@ -194,6 +194,20 @@ std::size_t width(const std::string& text) {
       text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }));
 }
 
+std::string wrapped(std::string_view text, std::size_t columns) {
+  std::string result;
+  std::size_t used = 0;
+  std::istringstream words{std::string(text)};
+  for (std::string word; words >> word;) {
+    const std::size_t letters = width(word);
+    const bool goes_on = used > 0 && used + 1 + letters <= columns;
+    if (used > 0) result += goes_on ? ' ' : '\n';
+    result += word;
+    used = goes_on ? used + 1 + letters : letters;
+  }
+  return result;
+}
+
 std::string csv_line(const std::vector<std::string>& cells) {
   std::vector<std::string> quoted;
   std::transform(cells.begin(), cells.end(), std::back_inserter(quoted), csv_cell);

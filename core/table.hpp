@@ -132,6 +132,9 @@ std::string to_text(const Table& table, std::size_t text_columns = 1);
 /// Number of characters of a UTF-8 text, as a terminal counts them.
 std::size_t width(const std::string& text);
 
+/// `text` broken into lines of at most `columns` characters; a longer word has a line of its own.
+std::string wrapped(std::string_view text, std::size_t columns);
+
 /// A number with so many decimals, or like 1e+18 if it is beyond any quantity; never a negative
 /// zero.
 std::string fixed(double value, int decimals);

@@ -2,7 +2,6 @@
 #include <cstddef>
 #include <memory>
 #include <span>
-#include <sstream>
 #include <string>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -66,19 +65,6 @@ std::vector<Key> without_repeats(const std::vector<Key>& keys) {
   return kept;
 }
 
-/// The text in lines of at most `columns` characters; longer words get a line of their own.
-std::vector<std::string> wrapped(const std::string& text, std::size_t columns) {
-  std::vector<std::string> lines(1);
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    if (!lines.back().empty() && width(lines.back()) + 1 + width(word) > columns) {
-      lines.emplace_back();
-    }
-    lines.back() += (lines.back().empty() ? "" : " ") + word;
-  }
-  return lines;
-}
-
 /// "number (N), 0 to 10; default 1"
 std::string value_line(const Key& key) {
   std::string line = key.type;
@@ -102,20 +88,18 @@ std::string reference_text(const FileKind& kind, std::size_t columns) {
   std::size_t longest = 0;
   for (const Key& key : keys) longest = std::max(longest, width(key.path));
   const std::size_t margin = std::min(longest, columns * 2 / 5) + 2;
-  std::string text = kind.title + "\n";
-  for (const std::string& line : wrapped(kind.usage, columns)) text += line + "\n";
-  text += "[]: any item of a list. none: no value, or off.\n";
+  const std::string indent(margin, ' ');
+  std::string text = kind.title + "\n" + wrapped(kind.usage, columns) +
+                     "\n[]: any item of a list. none: no value, or off.\n";
   for (const Key& key : keys) {
-    std::vector<std::string> lines = wrapped(value_line(key), columns - margin);
-    for (std::string& line : wrapped(key.meaning, columns - margin)) {
-      lines.push_back(std::move(line));
+    std::string about = wrapped(value_line(key), columns - margin) + "\n" +
+                        wrapped(key.meaning, columns - margin) + "\n";
+    for (std::size_t at = 0; (at = about.find('\n', at) + 1) < about.size();) {
+      about.insert(at, indent);
     }
     const bool fits = width(key.path) + 2 <= margin;
     if (key.path.find('.') == std::string::npos) text += "\n";
-    text += key.path + (fits ? std::string(margin - width(key.path), ' ') : "\n");
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      text += (i == 0 && fits ? "" : std::string(margin, ' ')) + lines[i] + "\n";
-    }
+    text += key.path + (fits ? indent.substr(width(key.path)) : "\n" + indent) + about;
   }
   return text;
 }

@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
+#include "core/table.hpp"
 #include "experiments/config/experiment.hpp"
 #include "experiments/results/captions.hpp"
 #include "render/figures/chosen_run.hpp"

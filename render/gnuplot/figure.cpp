@@ -295,20 +295,6 @@ std::string in_words(const std::vector<std::string>& things) {
   return text;
 }
 
-std::string wrapped(std::string_view text, std::size_t columns) {
-  std::string result;
-  std::size_t used = 0;
-  std::istringstream words{std::string(text)};
-  for (std::string word; words >> word;) {
-    const std::size_t letters = width(word);
-    const bool goes_on = used > 0 && used + 1 + letters <= columns;
-    if (used > 0) result += goes_on ? ' ' : '\n';
-    result += word;
-    used = goes_on ? used + 1 + letters : letters;
-  }
-  return result;
-}
-
 void PlotColumns::add(std::string name, std::vector<double> values) {
   if (!values_.empty() && values.size() != values_.front().size()) {
     throw Error(fmt::format("column {} has {} values, the others have {}", name, values.size(),

@@ -100,9 +100,6 @@ std::string number(double value);
 /// "a", "a and b", "a, b and c".
 std::string in_words(const std::vector<std::string>& things);
 
-/// `text` broken into lines of at most `columns` characters.
-std::string wrapped(std::string_view text, std::size_t columns);
-
 /// Columns of a data file, by name.
 class PlotColumns {
  public:

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/table.hpp"
+
 namespace touchdown::render {
 
 namespace {

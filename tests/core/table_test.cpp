@@ -167,5 +167,12 @@ TEST(Pivot, PutsADashWhereNoRowIs) {
               ElementsAre(ElementsAre("paper", "1", "2"), ElementsAre("bayes", "3", "–")));
 }
 
+TEST(WrappedText, CountsLettersNotBytes) {
+  EXPECT_EQ(wrapped("aaa bbb ccc", 7), "aaa bbb\nccc");
+  EXPECT_EQ(wrapped("äää äää ccc", 7), "äää äää\nccc");
+  EXPECT_EQ(wrapped("", 7), "");
+  EXPECT_EQ(wrapped("averylongword b", 4), "averylongword\nb");
+}
+
 }  // namespace
 }  // namespace touchdown

@@ -266,12 +266,5 @@ TEST_F(FigureFiles, MapsOfOneCellCanBeDrawnAndPanelsOfUnknownOnes) {
   EXPECT_THAT(read_file(figure.svg), AllOf(HasSubstr(">99.00<"), HasSubstr(">–<")));
 }
 
-TEST(FigureText, WrapsByLettersNotBytes) {
-  EXPECT_EQ(wrapped("aaa bbb ccc", 7), "aaa bbb\nccc");
-  EXPECT_EQ(wrapped("äää äää ccc", 7), "äää äää\nccc");
-  EXPECT_EQ(wrapped("", 7), "");
-  EXPECT_EQ(wrapped("averylongword b", 4), "averylongword\nb");
-}
-
 }  // namespace
 }  // namespace touchdown::render
