@@ -4,8 +4,6 @@
 
 #include "core/error.hpp"
 #include "core/progress.hpp"
-#include "experiments/results/captions.hpp"
-#include "experiments/results/drops.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "logs/log/recording_file.hpp"
 
@@ -32,24 +30,6 @@ logs::Recording chosen_recording(const experiments::ExperimentResult& result,
                                  const std::string& simulator, int run, const char* key) {
   const std::string& file = chosen_run(result, simulator, run, key).plan.file;
   return logs::read_recording(result.directory.file("recordings", file));
-}
-
-std::size_t fitted_runs(const experiments::ExperimentResult& result, const std::string& simulator) {
-  std::size_t runs = 0;
-  for (const experiments::FinishedRun& run : result.runs) {
-    runs += run.plan.role == experiments::RunRole::fit && run.plan.simulator == simulator ? 1U : 0U;
-  }
-  return runs;
-}
-
-std::string drop_text(const experiments::Experiment& experiment,
-                      const experiments::DropChoice& choice) {
-  const std::string when = choice.at ? fmt::format("around {:.6g} s", *choice.at)
-                                     : fmt::format("drop {} of {} (from 0)", choice.drop,
-                                                   experiments::to_text(choice.wheels));
-  return fmt::format("Test run {}, {}, experiment seed {}, noise seed {}; {}{}.", choice.run, when,
-                     experiment.seed, choice.seed, experiments::labels_text(experiment),
-                     experiments::setup_caption(experiment));
 }
 
 void draw_if_possible(const std::function<void()>& draw) {

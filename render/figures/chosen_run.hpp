@@ -20,13 +20,6 @@ const experiments::FinishedRun& chosen_run(const experiments::ExperimentResult& 
 logs::Recording chosen_recording(const experiments::ExperimentResult& result,
                                  const std::string& simulator, int run, const char* key);
 
-/// The number of whole runs that an engine's models were fitted to.
-std::size_t fitted_runs(const experiments::ExperimentResult& result, const std::string& simulator);
-
-/// Which drop a figure shows: run, time or number, seeds, labels and robot, for its caption.
-std::string drop_text(const experiments::Experiment& experiment,
-                      const experiments::DropChoice& choice);
-
 /// The files of a figure of this name in the run directory, printed as the experiment asks.
 FigureFile figure_file(const std::filesystem::path& run_directory, const std::string& name,
                        const experiments::PrintConfig& print);

@@ -172,6 +172,14 @@ std::string described(const DensityFigure& figure) {
   return text;
 }
 
+/// The number of whole runs that an engine's models were fitted to.
+std::size_t fitted_runs(const experiments::ExperimentResult& result, const std::string& simulator) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(result.runs, [&](const experiments::FinishedRun& run) {
+        return run.plan.role == experiments::RunRole::fit && run.plan.simulator == simulator;
+      }));
+}
+
 std::optional<DensityFigure> density_figure(const experiments::ExperimentResult& result,
                                             const std::string& simulator) {
   const experiments::Experiment& experiment = result.experiment;

@@ -3,9 +3,11 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "core/error.hpp"
 #include "experiments/plan/request.hpp"
 #include "experiments/plan/rollouts.hpp"
 #include "experiments/results/captions.hpp"
@@ -59,6 +61,73 @@ Axis range_of(const experiments::DropDetail& detail,
   std::vector<const std::vector<double>*> all = {&(detail.torque.*joint)};
   for (const experiments::NoisyDrop& drop : detail.noisy) all.push_back(&(drop.torque.*joint));
   return range_of(all);
+}
+
+/// Columns of a data file, by name.
+class PlotColumns {
+ public:
+  void add(std::string name, std::vector<double> values) {
+    if (!values_.empty() && values.size() != values_.front().size()) {
+      throw Error(fmt::format("column {} has {} values, the others have {}", name, values.size(),
+                              values_.front().size()));
+    }
+    names_.push_back(std::move(name));
+    values_.push_back(std::move(values));
+  }
+
+  /// The column's number in scripts, from 1. Errors: `Error` without such a column.
+  int number_of(const std::string& name) const {
+    const auto found = std::find(names_.begin(), names_.end(), name);
+    if (found == names_.end()) throw Error(fmt::format("there is no column {}", name));
+    return static_cast<int>(found - names_.begin()) + 1;
+  }
+
+  /// A line of names after `#`, then one line per step. All columns have the same length.
+  std::string text() const {
+    std::string text = fmt::format("# {}\n", fmt::join(names_, "\t"));
+    const std::size_t rows = values_.empty() ? 0 : values_.front().size();
+    for (std::size_t row = 0; row < rows; ++row) {
+      for (const std::vector<double>& column : values_) text.append(number(column[row])) += '\t';
+      text.back() = '\n';
+    }
+    return text;
+  }
+
+ private:
+  std::vector<std::string> names_;
+  std::vector<std::vector<double>> values_;
+};
+
+/// Converts seconds into the milliseconds of a time axis.
+std::vector<double> in_ms(std::vector<double> seconds) {
+  // Rounded to the nanosecond: the product alone would be 345.00000000000006.
+  for (double& time : seconds) time = std::round(1e9 * time) / 1e6;
+  return seconds;
+}
+
+/// Commands that tint the time in contact behind the curves, and mark its edges in front of images.
+/// `time` is in ms, with one entry per step.
+std::string contact_bands(const std::vector<double>& time, const std::vector<bool>& contact) {
+  std::string text = "unset object\nunset arrow\n";
+  for (std::size_t begin = 0; begin < time.size();) {
+    std::size_t end = begin + 1;
+    while (end < time.size() && contact[end] == contact[begin]) ++end;
+    const double until = end < time.size() ? time[end] : time.back();
+    if (contact[begin]) {
+      text += fmt::format(
+          "set object rectangle from first {}, graph 0 to first {}, graph 1 behind "
+          "fillcolor rgb '#dceee0' fillstyle solid noborder\n",
+          time[begin], until);
+    }
+    if (end < time.size()) {
+      text += fmt::format(
+          "set arrow from first {0}, graph 0 to first {0}, graph 1 nohead front lw 1 dt 2 "
+          "lc rgb '#5d666f'\n",
+          until);
+    }
+    begin = end;
+  }
+  return text;
 }
 
 /// The data of one noise setting, a line per step.
@@ -212,6 +281,17 @@ struct DetailColumn {
     return text + "unset logscale y2\nunset y2tics\nset ytics autofreq\n";
   }
 };
+
+/// Which drop a figure shows: run, time or number, seeds, labels and robot, for its caption.
+std::string drop_text(const experiments::Experiment& experiment,
+                      const experiments::DropChoice& choice) {
+  const std::string when = choice.at ? fmt::format("around {:.6g} s", *choice.at)
+                                     : fmt::format("drop {} of {} (from 0)", choice.drop,
+                                                   experiments::to_text(choice.wheels));
+  return fmt::format("Test run {}, {}, experiment seed {}, noise seed {}; {}{}.", choice.run, when,
+                     experiment.seed, choice.seed, experiments::labels_text(experiment),
+                     experiments::setup_caption(experiment));
+}
 
 /// "Not shown: NMN, Free fall."; empty where all of the experiment's estimators are shown.
 std::string left_out_text(const experiments::Experiment& experiment,

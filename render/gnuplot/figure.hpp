@@ -97,29 +97,4 @@ std::string row_tics(const std::vector<std::string>& names);
 /// A number for a data file, with all digits; NaN is written as gnuplot reads it.
 std::string number(double value);
 
-/// "a", "a and b", "a, b and c".
-std::string in_words(const std::vector<std::string>& things);
-
-/// Columns of a data file, by name.
-class PlotColumns {
- public:
-  void add(std::string name, std::vector<double> values);
-
-  /// The column's number in scripts, from 1. Errors: `Error` without such a column.
-  int number_of(const std::string& name) const;
-  /// A line of names after `#`, then one line per step. All columns have the same length.
-  std::string text() const;
-
- private:
-  std::vector<std::string> names_;
-  std::vector<std::vector<double>> values_;
-};
-
-/// Converts seconds into the milliseconds of a time axis.
-std::vector<double> in_ms(std::vector<double> seconds);
-
-/// Commands that tint the time in contact behind the curves, and mark its edges in front of images.
-/// `time` is in ms, with one entry per step.
-std::string contact_bands(const std::vector<double>& time, const std::vector<bool>& contact);
-
 }  // namespace touchdown::render

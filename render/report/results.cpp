@@ -20,6 +20,16 @@ namespace {
 
 using Scores = std::vector<TableRow>;
 
+/// "a", "a and b", "a, b and c".
+std::string in_words(const std::vector<std::string>& things) {
+  std::string text;
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    if (i > 0) text += i + 1 == things.size() ? " and " : ", ";
+    text += things[i];
+  }
+  return text;
+}
+
 /// "knee torques, wheel torques and the accelerometer"; "no noisy signal".
 std::string inputs_text(const experiments::Sensors& sensors) {
   std::vector<std::string> inputs;
