@@ -97,23 +97,19 @@ std::vector<experiments::EstimatorEntry> external_estimators_of(const py::list& 
 }
 
 /// An experiment as given by a caller: a file, or the text of one.
-struct ExperimentRequest {
-  fs::path file;
-  std::optional<std::string> text;
-  std::vector<std::string> assignments;
-};
-
-YamlDocument document_of(const ExperimentRequest& request) {
-  const YamlDocument document = request.text ? YamlDocument::parse(*request.text, request.file)
-                                             : YamlDocument::load(find_resource(request.file));
-  return experiments::completed(document, experiments::YamlKind::experiment, request.assignments);
+YamlDocument document_of(const fs::path& file, const std::optional<std::string>& text,
+                         const std::vector<std::string>& assignments) {
+  const YamlDocument document =
+      text ? YamlDocument::parse(*text, file) : YamlDocument::load(find_resource(file));
+  return experiments::completed(document, experiments::YamlKind::experiment, assignments);
 }
 
 /// Names of an experiment's estimators that are written in Python, each with its place in the file.
 std::vector<std::pair<std::string, std::string>> python_estimators(
-    const ExperimentRequest& request) {
+    const fs::path& experiment, const std::optional<std::string>& text,
+    const std::vector<std::string>& assignments) {
   std::vector<std::pair<std::string, std::string>> names;
-  const YamlDocument document = document_of(request);
+  const YamlDocument document = document_of(experiment, text, assignments);
   const YAML::Node given = document.root()["estimators"];
   if (!given || !given.IsSequence()) return names;
   for (const auto& item : given) {
@@ -124,29 +120,20 @@ std::vector<std::pair<std::string, std::string>> python_estimators(
   return names;
 }
 
-struct RunSettings {
-  fs::path out;
-  bool overwrite = false;
-  bool pictures = false;
-  bool video = true;
-  std::string command;
-};
-
-py::dict run(const ExperimentRequest& request, const RunSettings& settings,
+py::dict run(const fs::path& file, const std::optional<std::string>& text,
+             const std::vector<std::string>& assignments, const fs::path& out, bool overwrite,
+             bool pictures, bool video, const std::string& command,
              const py::list& external_estimators) {
   const std::vector<experiments::EstimatorEntry> external =
       external_estimators_of(external_estimators);
   const experiments::ExperimentResult finished = long_call([&](const std::atomic<bool>& stop) {
-    const YamlDocument document = document_of(request);
+    const YamlDocument document = document_of(file, text, assignments);
     const experiments::Experiment experiment =
         experiments::experiment_from_yaml(document, external);
     experiments::require_files(document);
-    experiments::ExperimentResult result =
-        experiments::run_experiment(experiment, {.out = settings.out,
-                                                 .command = settings.command,
-                                                 .stop = &stop,
-                                                 .overwrite = settings.overwrite});
-    if (settings.pictures) render::draw_and_report(result, settings.video, &stop);
+    experiments::ExperimentResult result = experiments::run_experiment(
+        experiment, {.out = out, .command = command, .stop = &stop, .overwrite = overwrite});
+    if (pictures) render::draw_and_report(result, video, &stop);
     return result;
   });
   py::dict about;
@@ -162,24 +149,9 @@ py::dict run(const ExperimentRequest& request, const RunSettings& settings,
 
 void add_experiments(py::module_& module) {
   using namespace py::literals;  // NOLINT(google-build-using-namespace)
-  module.def(
-      "python_estimators",
-      [](const fs::path& experiment, const std::optional<std::string>& text,
-         const std::vector<std::string>& assignments) {
-        return python_estimators({experiment, text, assignments});
-      },
-      "experiment"_a, "text"_a, "assignments"_a);
-  module.def(
-      "run",
-      [](const fs::path& experiment, const std::optional<std::string>& text,
-         const std::vector<std::string>& assignments, const fs::path& out, bool overwrite,
-         bool pictures, bool video, const std::string& command,
-         const py::list& external_estimators) {
-        return run({experiment, text, assignments}, {out, overwrite, pictures, video, command},
-                   external_estimators);
-      },
-      "experiment"_a, "text"_a, "assignments"_a, "out"_a, "overwrite"_a, "pictures"_a, "video"_a,
-      "command"_a, "external_estimators"_a);
+  module.def("python_estimators", &python_estimators, "experiment"_a, "text"_a, "assignments"_a);
+  module.def("run", &run, "experiment"_a, "text"_a, "assignments"_a, "out"_a, "overwrite"_a,
+             "pictures"_a, "video"_a, "command"_a, "external_estimators"_a);
 }
 
 }  // namespace touchdown::python

@@ -25,7 +25,7 @@ using DeclaredRun = std::pair<py::object, std::optional<bool>>;
 
 /// Fits to recordings in memory, or to logs by path.
 Model fit(const std::vector<DeclaredRun>& runs, const std::string& name, double skip,
-          const scoring::LabelConfig& labels) {
+          double label_share, double label_window) {
   std::vector<experiments::FitLog> logs;
   for (const auto& [run, contact] : runs) {
     if (py::hasattr(run, "info")) {
@@ -43,7 +43,8 @@ Model fit(const std::vector<DeclaredRun>& runs, const std::string& name, double 
     Model model;
     model.estimator.entry = entry;
     model.estimator.model = experiments::fit_to_logs(
-        entry, logs, {.labels = labels, .skip = skip, .stop = &stop}, model.report);
+        entry, logs, {.labels = {label_share, label_window}, .skip = skip, .stop = &stop},
+        model.report);
     return model;
   });
 }
@@ -95,13 +96,7 @@ void add_models(py::module_& module) {
       .def("__repr__", [](const Model& model) {
         return fmt::format("<Model of '{}'>", model.estimator.entry.name);
       });
-  module.def(
-      "fit",
-      [](const std::vector<DeclaredRun>& runs, const std::string& estimator, double skip,
-         double label_share, double label_window) {
-        return fit(runs, estimator, skip, {label_share, label_window});
-      },
-      "runs"_a, "estimator"_a, "skip"_a, "label_share"_a, "label_window"_a);
+  module.def("fit", &fit, "runs"_a, "estimator"_a, "skip"_a, "label_share"_a, "label_window"_a);
 }
 
 }  // namespace touchdown::python

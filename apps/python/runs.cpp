@@ -66,8 +66,8 @@ void save(const py::object& arrays, const py::dict& info, const fs::path& path) 
   logs::write_recording(recording, path);
 }
 
-py::array_t<bool> labels_of(const py::object& normal_force, double period, double robot_mass,
-                            const scoring::LabelConfig& config) {
+py::array_t<bool> contact_labels(const py::object& normal_force, double period, double robot_mass,
+                                 double share, double window) {
   py::dict arrays;
   arrays["normal_force"] = normal_force;
   ArrayMap map(arrays, "labels");
@@ -76,13 +76,14 @@ py::array_t<bool> labels_of(const py::object& normal_force, double period, doubl
   for (std::size_t wheel = 0; wheel < models::wheel_count; ++wheel) {
     std::vector<double> of_wheel(force.steps());
     for (std::size_t k = 0; k < of_wheel.size(); ++k) of_wheel[k] = force(k, wheel);
-    labels[wheel] = scoring::contact_labels(of_wheel, period, robot_mass, config);
+    labels[wheel] = scoring::contact_labels(of_wheel, period, robot_mass, {share, window});
   }
   return array_of(labels);
 }
 
-py::dict score(const py::object& given_beliefs, const py::object& truth, double period,
-               const scoring::ScoringConfig& config) {
+py::dict score(const py::object& given_beliefs, const py::object& truth, double period, double skip,
+               double hold_off, double takeoff_opens, double landing_opens, double minimum_flight) {
+  const scoring::ScoringConfig config{skip, hold_off, takeoff_opens, landing_opens, minimum_flight};
   py::dict arrays;
   arrays["contact"] = truth;
   ArrayMap map(arrays, "score");
@@ -143,21 +144,10 @@ void add_runs(py::module_& module) {
   module.def("check", &check, "log"_a, "robot"_a, "mapping"_a);
   module.def("find_resource", &find_resource, "path"_a);
   module.def("simulators", [] { return simulators::simulator_names(); });
-  module.def(
-      "contact_labels",
-      [](const py::object& force, double period, double robot_mass, double share, double window) {
-        return labels_of(force, period, robot_mass, {share, window});
-      },
-      "normal_force"_a, "period"_a, "robot_mass"_a, "share"_a, "window"_a);
-  module.def(
-      "score",
-      [](const py::object& beliefs, const py::object& contact, double period, double skip,
-         double hold_off, double takeoff_opens, double landing_opens, double minimum_flight) {
-        return score(beliefs, contact, period,
-                     {skip, hold_off, takeoff_opens, landing_opens, minimum_flight});
-      },
-      "beliefs"_a, "contact"_a, "period"_a, "skip"_a, "hold_off"_a, "takeoff_opens"_a,
-      "landing_opens"_a, "minimum_flight"_a);
+  module.def("contact_labels", &contact_labels, "normal_force"_a, "period"_a, "robot_mass"_a,
+             "share"_a, "window"_a);
+  module.def("score", &score, "beliefs"_a, "contact"_a, "period"_a, "skip"_a, "hold_off"_a,
+             "takeoff_opens"_a, "landing_opens"_a, "minimum_flight"_a);
 }
 
 }  // namespace touchdown::python

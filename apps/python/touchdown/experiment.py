@@ -5,7 +5,6 @@ import csv
 import difflib
 import importlib
 import inspect
-import json
 import os
 import pathlib
 import shlex
