@@ -15,25 +15,9 @@ namespace {
 
 constexpr std::size_t joint_count = 6;
 
-/// Sets hip, knee and wheel of the left leg, then of the right one, to `joint(index)`.
-template <typename Joint>
-void set_joints(Signals& signals, const Joint& joint) {
-  std::size_t index = 0;
-  for (LegSignals& leg : signals.leg) {
-    leg.hip = joint(index++);
-    leg.knee = joint(index++);
-    leg.wheel = joint(index++);
-  }
-}
-
-/// Sets one member of all targets to `number(index)`.
-template <typename Number>
-void set_targets(Signals& signals, double JointTarget::*member, const Number& number) {
-  std::size_t index = 0;
-  for (LegTargets& leg : signals.target) {
-    for (JointTarget* joint : {&leg.hip, &leg.knee, &leg.wheel}) joint->*member = number(index++);
-  }
-}
+/// The joints of a leg in the order of the arrays, which have the left leg first.
+constexpr std::array leg_joints = {&LegSignals::hip, &LegSignals::knee, &LegSignals::wheel};
+constexpr std::array leg_targets = {&LegTargets::hip, &LegTargets::knee, &LegTargets::wheel};
 
 /// `count` numbers of one step, by name, as an array of one step.
 StepArray numbers_of(const py::object& step, const char* name, std::size_t count) {
@@ -115,9 +99,10 @@ Signals SignalArrays::at(std::size_t step) const {
   const auto number = [&](const std::optional<StepArray>& array, std::size_t item) {
     return array ? (*array)(step, item) : 0.0;
   };
-  set_joints(signals, [&](std::size_t i) {
-    return JointSignals{number(position_, i), number(velocity_, i), number(torque_, i)};
-  });
+  for (std::size_t i = 0; i < joint_count; ++i) {
+    JointSignals& joint = signals.leg[i / 3].*leg_joints[i % 3];
+    joint = {number(position_, i), number(velocity_, i), number(torque_, i)};
+  }
   for (std::size_t i = 0; i < 3; ++i) {
     signals.linear_acceleration[static_cast<int>(i)] = number(linear_acceleration_, i);
     signals.angular_velocity[static_cast<int>(i)] = number(angular_velocity_, i);
@@ -125,9 +110,9 @@ Signals SignalArrays::at(std::size_t step) const {
   signals.vertical_acceleration = number(vertical_acceleration_, 0);
   signals.ground_velocity_command = number(ground_velocity_command_, 0);
   for (std::size_t m = 0; m < target_.size(); ++m) {
-    if (!target_[m]) continue;
-    set_targets(signals, target_arrays[m].member,
-                [&](std::size_t i) { return (*target_[m])(step, i); });
+    for (std::size_t i = 0; i < joint_count && target_[m]; ++i) {
+      signals.target[i / 3].*leg_targets[i % 3].*target_arrays[m].member = (*target_[m])(step, i);
+    }
   }
   const auto q = [&](std::size_t i) { return (*orientation_)(step, i); };
   convert_imu(signals,
