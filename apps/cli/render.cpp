@@ -29,7 +29,6 @@ struct RenderFlags {
 /// The recordings, and the input files of films in run directories.
 std::vector<InputFile> files_of(const std::vector<std::string>& inputs) {
   std::vector<InputFile> files;
-  std::error_code ignored;
   for (const std::string& input : inputs) {
     files.push_back({input, "recording"});
     const std::filesystem::path directory = input;
@@ -47,9 +46,8 @@ std::vector<InputFile> files_of(const std::vector<std::string>& inputs) {
 std::vector<render::FilmedRun> runs_of(const RenderFlags& flags, const CliSession& session) {
   std::vector<render::FilmedRun> runs;
   std::vector<std::string> warnings;
-  std::error_code ignored;
   for (const std::string& input : flags.inputs) {
-    if (!std::filesystem::is_directory(input, ignored)) {
+    if (!is_folder(input)) {
       runs.push_back(render::filmed_recording(input, warnings, session.stop));
       continue;
     }
@@ -88,15 +86,12 @@ void draw(const RenderFlags& flags, const CliSession& session) {
   std::vector<render::VideoSource> sources;
   for (const render::FilmedRun& run : runs) sources.push_back(run.source());
   const double moment = options.from != 0.0 ? options.from : NAN;
-  if (flags.scene || flags.poster) {
-    if (flags.scene) {
-      render::render_scene(runs[0].robot, runs[0].recording, options, moment, flags.output);
-    } else {
-      render::render_poster(sources, options, moment, flags.output);
-    }
-    print("{}\n", flags.output);
-    return;
+  if (flags.scene) {
+    render::render_scene(runs[0].robot, runs[0].recording, options, moment, flags.output);
+  } else if (flags.poster) {
+    render::render_poster(sources, options, moment, flags.output);
   }
+  if (flags.scene || flags.poster) return print("{}\n", flags.output);
   options.progress = render::film_progress("filming", session.stop);
   const render::VideoStatistics statistics = render::render_video(sources, options, flags.output);
   print("{}: {} frames, {:.1f} frames/s\n", flags.output, statistics.frames, statistics.fps());

@@ -113,17 +113,12 @@ models::RobotModel robot_of(const logs::Recording& recording, const std::string&
   return render::recorded_robot(recording);
 }
 
-logs::LogReader open_log(const WatchRequest& request) {
-  if (request.mapping.empty()) return logs::LogReader(request.subject);
-  return {logs::mapped_records(request.subject, request.mapping, {}), request.subject};
-}
-
 /// Runs all estimators over the log. True contact is that of the labels, or the log's own.
 void evaluate(const WatchRequest& request, const logs::ContactIntervals* labels, LoggedRun& run) {
   experiments::LogRobot robot;
   if (!request.robot.empty()) robot = experiments::robot_called(request.robot);
   const std::vector<experiments::LogEstimator> requested = estimators_of(request.estimators, robot);
-  logs::LogReader reader = open_log(request);
+  logs::LogReader reader = logs::open_log(request.subject, request.mapping, nullptr);
   const bool has_labels = labels != nullptr && !labels->intervals.empty();
   experiments::LogSteps log(reader, has_labels ? labels : nullptr, robot);
   std::vector<std::unique_ptr<ContactEstimator>> estimators;
@@ -150,8 +145,7 @@ void evaluate(const WatchRequest& request, const logs::ContactIntervals* labels,
 /// Errors: `InputError` for a file of another kind.
 SubjectKind kind_of(const std::string& subject) {
   if (scenarios::is_drawn(subject)) return SubjectKind::scenario;
-  std::error_code ignored;
-  if (fs::is_directory(subject, ignored)) return SubjectKind::run;
+  if (is_folder(subject)) return SubjectKind::run;
   const std::string extension = fs::path(subject).extension().string();
   if (extension == ".mpack") return SubjectKind::log;
   if (extension == ".xml" || extension == ".urdf") return SubjectKind::robot;
@@ -198,7 +192,7 @@ LoggedRun logged_run(const WatchRequest& request, const logs::ContactIntervals* 
             .contact = contact};
   }
   std::vector<std::string> warnings;
-  logs::LogReader reader = open_log(request);
+  logs::LogReader reader = logs::open_log(request.subject, request.mapping, nullptr);
   logs::Recording recording = logs::read_recording(reader, &warnings);
   print_warnings(warnings);
   models::RobotModel robot = robot_of(recording, request.robot);
