@@ -100,7 +100,8 @@ void add_belief(BeliefTrack& track, const ContactEstimator* estimator, const Bel
 }
 
 FilmedRun filmed(logs::Recording recording, const experiments::Experiment& experiment,
-                 const noise::SensorProfile& profile, const FilmedEstimators& filmed_estimators) {
+                 const noise::SensorProfile& profile, const std::vector<std::string>& estimators,
+                 const experiments::FittedModels& models, const noise::SensorNoise& levels) {
   const std::int64_t run = recording.info.run;
   const noise::NoiseKey key = experiments::noise_key(experiment, 0, run);
   logs::Recording reported = recording;
@@ -110,10 +111,9 @@ FilmedRun filmed(logs::Recording recording, const experiments::Experiment& exper
   const experiments::NoiseRun drawn = experiments::noise_run(signals, key);
   const std::string& simulator = recording.info.simulator;
   std::vector<BeliefTrack> beliefs;
-  for (const std::string& estimator : filmed_estimators.estimators) {
-    beliefs.push_back(beliefs_of(experiment, {simulator, simulator, estimator},
-                                 filmed_estimators.models, signals, drawn,
-                                 filmed_estimators.noise));
+  for (const std::string& estimator : estimators) {
+    beliefs.push_back(
+        beliefs_of(experiment, {simulator, simulator, estimator}, models, signals, drawn, levels));
     beliefs.back().colour = line_colour(line_type_of(experiment.estimators, estimator));
   }
   models::RobotModel robot = scenarios::compile_robot(scenario);
@@ -123,8 +123,7 @@ FilmedRun filmed(logs::Recording recording, const experiments::Experiment& exper
       const double torque = reported.observation[k].servo[servo].torque;
       if (std::isfinite(torque)) recording.observation[k].servo[servo].torque = torque;
     }
-    recording.observation[k] =
-        noise::with_noise(recording.observation[k], key, k, filmed_estimators.noise);
+    recording.observation[k] = noise::with_noise(recording.observation[k], key, k, levels);
   }
   return {std::move(robot), std::move(recording), std::move(beliefs), experiment.labels};
 }
@@ -156,7 +155,7 @@ std::vector<FilmedRun> filmed_runs(const ReportSubject& subject) {
     if (!is_there(log)) continue;
     const experiments::FittedModels models =
         read_models(subject.directory, experiment, simulator, shown);
-    all.push_back(filmed(logs::read_recording(log), experiment, profile, {shown, models, levels}));
+    all.push_back(filmed(logs::read_recording(log), experiment, profile, shown, models, levels));
   }
   return all;
 }

@@ -45,17 +45,11 @@ struct FilmedRun {
   VideoSource source() const { return {robot, recording, beliefs}; }
 };
 
-/// The estimators that process a filmed run, and the noise of its sensors.
-struct FilmedEstimators {
-  std::vector<std::string> estimators;
-  const experiments::FittedModels& models;
-  noise::SensorNoise noise;
-};
-
-/// A run of an experiment as its sensors report it, with the first noise realisation, and the
-/// beliefs of estimators that were fitted in its engine.
+/// A run of an experiment as its sensors report it, with the first noise realisation at these
+/// levels, and the beliefs of estimators that were fitted in its engine.
 FilmedRun filmed(logs::Recording recording, const experiments::Experiment& experiment,
-                 const noise::SensorProfile& profile, const FilmedEstimators& filmed_estimators);
+                 const noise::SensorProfile& profile, const std::vector<std::string>& estimators,
+                 const experiments::FittedModels& models, const noise::SensorNoise& levels);
 
 /// The run that an experiment films, for each of its engines: the recording with the experiment's
 /// noise, and the estimators' beliefs. An engine without that recording is left out. Errors:

@@ -100,8 +100,8 @@ void film_worst_segment(const experiments::ExperimentResult& result, const Table
   std::vector<std::vector<int>> wrong;
   for (const experiments::PlannedRun& plan : plans) {
     runs.push_back(filmed(scenarios::play(plan.scenario, plan.simulator, plan.seed, plan.run),
-                          experiment, profile,
-                          {estimators, models, experiment.highlights.front().levels()}));
+                          experiment, profile, estimators, models,
+                          experiment.highlights.front().levels()));
     wrong.push_back(wrong_decisions(runs.back(), experiment.scoring));
   }
   const double period = runs.front().recording.period();

@@ -43,7 +43,7 @@ TEST(FilmedRun, GivesEstimatorsTheLegsOfItsRobot) {
     const std::string estimator = "load_filter";
     experiments::Experiment experiment;
     experiment.estimators = {estimator};
-    const FilmedRun film = filmed(recording, experiment, {}, {{estimator}, {}, {}});
+    const FilmedRun film = filmed(recording, experiment, {}, {estimator}, {}, {});
     ASSERT_EQ(film.beliefs.size(), 1U);
     const std::vector<float>& drawn = film.beliefs.front().p_contact[0];
     EXPECT_THAT(drawn, ElementsAreArray(left_beliefs(estimator, recording, legs))) << robot;
