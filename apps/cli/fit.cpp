@@ -13,6 +13,7 @@
 #include "core/program.hpp"
 #include "core/progress.hpp"
 #include "experiments/estimators/registry.hpp"
+#include "experiments/results/captions.hpp"
 #include "logs/model_file.hpp"
 
 namespace touchdown::cli {
@@ -237,8 +238,8 @@ void fit(const FitFlags& flags, const CliSession& session) {
         "left out\n",
         report.unusable));
   }
-  print("{}: {}, {:.3f} s of {} {}\n", flags.output, entry.title, report.fitted_to.seconds,
-        logs.size(), logs.size() == 1 ? "log" : "logs");
+  print("{}: {}, {:.3f} s of {}\n", flags.output, entry.title, report.fitted_to.seconds,
+        experiments::plural(logs.size(), "log"));
   show_samples(report);
   if (!flags.skips_accuracy) show_accuracy(entry, logs, config, model);
   print("{:<12} touchdown estimate LOG --model {} --estimator {}\n", "next", flags.output,

@@ -37,11 +37,8 @@ py::dict named(const py::object& given) {
 }
 
 std::string shape_text(const py::array& array) {
-  std::string text;
-  for (py::ssize_t i = 0; i < array.ndim(); ++i) {
-    text += fmt::format("{}{}", i > 0 ? ", " : "", array.shape(i));
-  }
-  return fmt::format("({}{})", text, array.ndim() == 1 ? "," : "");
+  return fmt::format("({}{})", fmt::join(array.shape(), array.shape() + array.ndim(), ", "),
+                     array.ndim() == 1 ? "," : "");
 }
 
 }  // namespace

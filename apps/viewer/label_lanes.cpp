@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "apps/viewer/widgets.hpp"
+#include "render/gnuplot/frame.hpp"
 
 namespace touchdown::viewer {
 
@@ -88,12 +89,7 @@ void draw_ruler(ImDrawList& list, const LabelEditor& editor, const LaneScale& sc
   const logs::TimeRange log = editor.clock().range();
   const double mean_period = (log.end - log.begin) / static_cast<double>(std::max<std::size_t>(
                                                          1, editor.clock().step_at(log.end)));
-  const double wanted = least * scale.steps_per_pixel * mean_period;
-  const double power = std::pow(10.0, std::floor(std::log10(wanted)));
-  double spacing = 10.0 * power;
-  for (const double factor : {5.0, 2.0, 1.0}) {
-    if (factor * power >= wanted) spacing = factor * power;
-  }
+  const double spacing = render::tick_step(least * scale.steps_per_pixel * mean_period, 1.0);
   const int digits = std::clamp(static_cast<int>(std::ceil(-std::log10(spacing) - 1e-9)), 0, 6);
   const auto time_at = [&](double x) {
     const double step = std::max(0.0, std::floor(scale.step(x)));

@@ -121,7 +121,6 @@ ReportSection more_tables_section(const ReportSubject& subject) {
   for (const fs::path& entry : entries_in(subject.directory / "tables")) {
     if (entry.extension() == ".csv" && fs::is_regular_file(entry, ignored)) files.push_back(entry);
   }
-  std::sort(files.begin(), files.end());
   Json tables = Json::array();
   for (const fs::path& file : files) {
     Table table = table_of(from_csv(read_file(file)));
