@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "apps/viewer/live_run.hpp"
 #include "apps/viewer/screen.hpp"
 #include "render/film/plots.hpp"
 
@@ -24,11 +23,5 @@ LaneScale scale_of(const Area& area, double first, double steps);
 /// bands of true contact, with dots at step `present`. `fades`: the future is paler.
 void draw_curves(const std::vector<render::StripRow>& rows, const LaneScale& scale,
                  const Area& area, double present, bool fades);
-
-/// The plots of a live run: P(contact) of both wheels over their true contact, torques and the
-/// vertical acceleration. `period` between samples (s); `weight` of the robot (N).
-std::vector<render::StripRow> live_rows(std::size_t estimators, double period, double weight);
-/// Adds samples to these rows, and fits the range of torques to them.
-void append(std::vector<render::StripRow>& rows, const std::vector<LiveSample>& samples);
 
 }  // namespace touchdown::viewer

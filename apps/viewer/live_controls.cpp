@@ -34,10 +34,7 @@ LiveRange range_of(LiveNumber number) {
 }
 
 LiveControls::LiveControls(LiveRequest request, std::function<void()> started)
-    : request_(std::move(request)),
-      started_(std::move(started)),
-      settings_(request_.settings),
-      loop_(make_run()) {
+    : request_(std::move(request)), started_(std::move(started)), loop_(make_run()) {
   for (const auto& [name, profile] : request_.sensors) sensor_names_.push_back(name);
   take_over();
 }

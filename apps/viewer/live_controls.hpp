@@ -14,7 +14,6 @@ namespace touchdown::viewer {
 struct LiveRequest {
   LiveScene scene;
   std::vector<experiments::LogEstimator> estimators;
-  LiveSettings settings;
   std::vector<std::pair<std::string, noise::SensorProfile>> sensors;  ///< to choose from
   std::filesystem::path record = {};  ///< recording to write at the end; empty: none
   int width = 1280, height = 720;     ///< of the window

@@ -171,6 +171,51 @@ void bind_sensing(Screen& screen, LiveControls& controls) {
               changing(controls, LiveNumber::contact_delay));
 }
 
+/// The plots of a live run: P(contact) of both wheels over their true contact, torques and the
+/// vertical acceleration. `period` between samples (s); `weight` of the robot (N).
+std::vector<render::StripRow> live_rows(std::size_t estimators, double period, double weight) {
+  std::vector<render::StripRow> rows;
+  const auto add = [&](const char* title, float low, float high) -> auto& {
+    rows.push_back({title, low, high, {}, {}, period});
+    return rows.back().curves;
+  };
+  for (const char* const title : {"P(contact), left", "P(contact), right"}) {
+    auto& curves = add(title, 0.0F, 1.0F);
+    for (std::size_t i = estimators; i-- > 0;) {                     // the first one on top
+      curves.push_back({"", render::rgb(estimator_colour(i)), {}});  // named in the panel
+    }
+  }
+  // As far as usual torques reach. Larger ones widen it.
+  const auto torque = static_cast<float>(std::max(1.0, 0.06 * weight));  // N·m
+  auto& torques = add("torque (N·m)", -torque, torque);
+  torques = {{"wheel", render::rgb(0x009e73), {}}, {"knee", render::rgb(0xb0304f), {}}};
+  constexpr float most = 20.0F;  // m/s²
+  add("acceleration (m/s²)", -most, most) = {{"vertical", render::rgb(0x7b3fb0), {}}};
+  return rows;
+}
+
+/// Adds samples to these rows, and fits the range of torques to them.
+void append(std::vector<render::StripRow>& rows, const std::vector<LiveSample>& samples) {
+  for (const LiveSample& sample : samples) {
+    for (std::size_t wheel = 0; wheel < 2; ++wheel) {
+      render::StripRow& beliefs = rows[wheel];
+      beliefs.wheels_in_contact.push_back(sample.contact[wheel] ? render::both_in_contact
+                                                                : std::uint8_t{0});
+      for (std::size_t i = 0; i < sample.p_contact.size(); ++i) {
+        beliefs.curves[beliefs.curves.size() - 1 - i].values.push_back(sample.p_contact[i][wheel]);
+      }
+    }
+    rows[2].curves[0].values.push_back(sample.wheel_torque);
+    rows[2].curves[1].values.push_back(sample.knee_torque);
+    rows[3].curves[0].values.push_back(sample.acceleration);
+    const float torque = std::max(std::abs(sample.wheel_torque), std::abs(sample.knee_torque));
+    if (torque > rows[2].high && std::isfinite(torque)) {
+      rows[2].high = 1.25F * torque;
+      rows[2].low = -rows[2].high;
+    }
+  }
+}
+
 using Clock = std::chrono::steady_clock;
 
 constexpr double standard_gravity = 9.81;  // m/s²
