@@ -253,6 +253,15 @@ std::string with_option(const CLI::App& command, const std::string& message) {
   return named + message;
 }
 
+std::string command_text(std::string_view program, int argc, char** argv) {
+  std::string line(program);
+  for (int i = 1; i < argc; ++i) line += fmt::format(" {}", argv[i]);
+  for (std::size_t at = 0; (at += utf8_size(std::string_view(line).substr(at))) < line.size();) {
+    line[at] = '?';
+  }
+  return line;
+}
+
 int run_command(CLI::App& program, int argc, char** argv, const std::function<int()>& work) {
   try {
     program.parse(argc, argv);

@@ -82,6 +82,10 @@ void require_extension(const std::filesystem::path& output,
 /// Prints what `--help` and `--version` ask for, and returns the exit code.
 int print_answer(const CLI::App& program, const CLI::Success& asked);
 
+/// The command line as text, after the program's name. A byte that is not valid UTF-8 becomes a
+/// question mark, because manifests hold only UTF-8.
+std::string command_text(std::string_view program, int argc, char** argv);
+
 /// Runs a command with a program of its own: reads its words, then does `work`. Returns the exit
 /// code. Reports refused words with the command's name, and errors of `work`.
 int run_command(CLI::App& program, int argc, char** argv, const std::function<int()>& work);

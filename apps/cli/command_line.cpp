@@ -13,23 +13,11 @@
 #include "apps/cli/verb.hpp"
 #include "core/error.hpp"
 #include "core/program.hpp"
-#include "core/terminal_text.hpp"
 #include "core/yaml.hpp"
 
 namespace touchdown::cli {
 
 namespace {
-
-/// The command line as text. A byte that is not valid UTF-8 becomes a question mark, because
-/// manifests hold only UTF-8.
-std::string joined(int argc, char** argv) {
-  std::string line = "touchdown";
-  for (int i = 1; i < argc; ++i) line += fmt::format(" {}", argv[i]);
-  for (std::size_t at = 0; (at += utf8_size(std::string_view(line).substr(at))) < line.size();) {
-    line[at] = '?';
-  }
-  return line;
-}
 
 std::vector<std::string> verbs(const CLI::App& program) {
   std::vector<std::string> names;
@@ -75,7 +63,7 @@ std::string reason_of(const std::filesystem::filesystem_error& error) {
 }
 
 int run_command_line(int argc, char** argv) {
-  const CliSession session{joined(argc, argv), argc > 0 ? argv[0] : "touchdown",
+  const CliSession session{command_text("touchdown", argc, argv), argc > 0 ? argv[0] : "touchdown",
                            &stop_on_interrupt()};
   CLI::App program(
       "touchdown run experiments/stairs.yaml\n\n"

@@ -1,3 +1,4 @@
+#include <array>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -108,6 +109,13 @@ TEST_F(Outputs, AreComparedWithWhatTheStandardStreamsAre) {
   EXPECT_EQ(status_with_streams(other, log_, {{log_, "log"}}, {"-"}), 2);
   EXPECT_EQ(status_with_streams(other, log_, {}, {"-", log_}), 2);
   EXPECT_EQ(status_with_streams("/dev/null", "/dev/null", {{"-", "log"}}, {"-"}), 0);
+}
+
+TEST(CommandText, ReplacesBytesThatAreNoText) {
+  std::string program = "x", file = "caf\xc3\xa9.yaml", broken = "b\xff\xc3.yaml";
+  std::array<char*, 3> words = {program.data(), file.data(), broken.data()};
+  EXPECT_EQ(command_text("touchdown train", 3, words.data()),
+            "touchdown train caf\xc3\xa9.yaml b??.yaml");
 }
 
 }  // namespace

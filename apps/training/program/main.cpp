@@ -1,7 +1,6 @@
 #include <filesystem>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include "apps/training/train.hpp"
 #include "core/error.hpp"
@@ -35,8 +34,7 @@ int run(const std::string& training, const std::vector<std::string>& overrides,
 
 int run_program(int argc, char** argv) {
   TrainingRequest request;
-  request.command = "touchdown train";
-  for (int i = 1; i < argc; ++i) request.command += fmt::format(" {}", argv[i]);
+  request.command = command_text("touchdown train", argc, argv);
 
   CLI::App program(
       "touchdown train experiments/nmn.yaml\n\n"
