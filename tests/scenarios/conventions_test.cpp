@@ -1,6 +1,7 @@
 #include <fstream>
 
 #include "core/resources.hpp"
+#include "scenarios/generation/generate.hpp"
 #include "scenarios/scenario.hpp"
 #include "scenarios/scenario_file.hpp"
 #include "tests/complaint.hpp"
