@@ -338,12 +338,13 @@ void mark_missing(std::vector<double>& values) {
 
 }  // namespace
 
-MessageStamp MessageNumbers::stamp() const {
+std::int64_t MessageNumbers::stamp() const {
   const auto is_named = [&](std::size_t i, const char* end) {
     return i < paths.size() && paths[i].ends_with(end);
   };
-  if (!is_named(0, "stamp.sec") || !is_named(1, "stamp.nanosec")) return {};
-  return {static_cast<std::int32_t>(values[0]), static_cast<std::uint32_t>(values[1])};
+  if (!is_named(0, "stamp.sec") || !is_named(1, "stamp.nanosec")) return 0;
+  return std::int64_t{1'000'000'000} * static_cast<std::int32_t>(values[0]) +
+         static_cast<std::uint32_t>(values[1]);
 }
 
 MessageType::MessageType(const std::string& name, std::string_view definition) : name_(name) {

@@ -84,14 +84,6 @@ void look_at_joints(const MessageNumbers& numbers, SignalTopic& topic) {
   if (effort > 0) topic.has_effort = true;
 }
 
-/// Counts a message that was decoded.
-void count(const MessageStamp& stamp, std::int64_t recorded, SignalTopic& topic) {
-  ++topic.messages;
-  if (stamp.is_zero()) return;
-  topic.has_stamps = true;
-  topic.stamp_delays.push_back(1e-9 * static_cast<double>(recorded - stamp.time()));
-}
-
 /// `numbers`: of the message before.
 void look_at(const BagMessage& message, SignalTopic& topic, MessageNumbers& numbers) {
   const std::vector<std::string> before = numbers.paths;
@@ -101,7 +93,10 @@ void look_at(const BagMessage& message, SignalTopic& topic, MessageNumbers& numb
     topic.fault = error.what();
     return;  // counted when the rows are read
   }
-  count(numbers.stamp(), message.time, topic);
+  ++topic.messages;
+  if (const std::int64_t stamp = numbers.stamp(); stamp != 0) {
+    topic.stamp_delays.push_back(1e-9 * static_cast<double>(message.time - stamp));
+  }
   if (topic.type == joint_state_type) return look_at_joints(numbers, topic);
   const std::set<std::string> known(topic.numbers.begin(), topic.numbers.end());
   for (std::size_t i = 0; i < numbers.paths.size() && numbers.paths != before; ++i) {
@@ -165,7 +160,7 @@ std::vector<SignalTopic> find_signal_topics(const std::filesystem::path& path,
     }
   }
   for (SignalTopic& one : found) {
-    if (one.has_stamps) one.stamp_delay = median(one.stamp_delays);
+    if (!one.stamp_delays.empty()) one.stamp_delay = median(one.stamp_delays);
     if (one.messages > 0) continue;
     if (!one.type.empty()) {
       throw InputError(fmt::format("{}: no message of topic {} can be decoded: {}", path.string(),

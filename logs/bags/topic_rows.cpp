@@ -61,10 +61,10 @@ bool TopicRows::update(const BagMessage& message) {
                         count_ == numbers_.paths.size() &&
                         (!are_joints || std::ranges::equal(names_, numbers_.joints()));
   if (!is_known) find_columns();
-  const MessageStamp stamp = numbers_.stamp();
+  const std::int64_t stamp = numbers_.stamp();
   const double log_time = seconds(message.time);
-  const bool lacks_stamp = stamp.is_zero() && std::abs(topic_.stamp_delay) < longest_delay;
-  const std::int64_t stamp_ns = config_.uses_log_time || lacks_stamp ? message.time : stamp.time();
+  const bool lacks_stamp = stamp == 0 && std::abs(topic_.stamp_delay) < longest_delay;
+  const std::int64_t stamp_ns = config_.uses_log_time || lacks_stamp ? message.time : stamp;
   const double stamp_time = seconds(stamp_ns);
   time_ = has_log_time_ ? log_time : stamp_time;
   for (std::size_t i = 0; i < row_.size(); ++i) {

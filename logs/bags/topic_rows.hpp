@@ -47,15 +47,6 @@ inline constexpr std::array<const char*, 3> joint_fields = {"position", "velocit
 /// A header without a stamp was sent now, unless the clock is a simulation's, which starts at zero.
 inline constexpr double longest_delay = 60.0;  // s
 
-/// When a message was measured.
-struct MessageStamp {
-  std::int32_t sec = 0;
-  std::uint32_t nanosec = 0;
-  bool is_zero() const { return sec == 0 && nanosec == 0; }
-  /// ns
-  std::int64_t time() const { return std::int64_t{1'000'000'000} * sec + nanosec; }
-};
-
 /// The numbers and texts of a message of any type, in the order of their definition.
 struct MessageNumbers {
   std::vector<double> values;
@@ -64,8 +55,8 @@ struct MessageNumbers {
   std::vector<std::uint32_t> lengths;  ///< of the lists without a fixed length; the paths depend on
                                        ///< nothing else
 
-  /// The stamp with which the message begins; zero without one.
-  MessageStamp stamp() const;
+  /// The stamp with which the message begins (ns); zero without one.
+  std::int64_t stamp() const;
   /// The names of a JointState's joints; empty for some drivers.
   std::span<const std::string_view> joints() const { return std::span(texts).subspan(1); }
 };
@@ -115,8 +106,7 @@ struct SignalTopic {
   bool has_orientation = false;     ///< of Imu
   std::shared_ptr<const MessageType> definition;
   std::vector<std::string> numbers;  ///< of another type
-  bool has_stamps = false;           ///< whether a header has a stamp that is not zero
-  std::vector<double> stamp_delays;  ///< times of recording − such stamps (s) …
+  std::vector<double> stamp_delays;  ///< times of recording − stamps that are not zero (s) …
   double stamp_delay = 0.0;          ///< … and their median: a single one may be wrong
   std::uint64_t messages = 0;        ///< decoded so far
   std::string fault;                 ///< of the last message that cannot be decoded

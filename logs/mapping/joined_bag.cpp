@@ -122,8 +122,8 @@ class JoinedBag final : public JoinedSource {
     check_given(log_, mapping, topics_);
     uses_log_time_ = std::any_of(mapping.columns.begin(), mapping.columns.end(),
                                  [](const auto& one) { return one.name == log_time_column; });
-    lacks_stamps_ = std::any_of(topics_.begin(), topics_.end(),
-                                [](const SignalTopic& topic) { return !topic.has_stamps; });
+    lacks_stamps_ = std::ranges::any_of(
+        topics_, [](const SignalTopic& topic) { return topic.stamp_delays.empty(); });
     for (std::size_t i = 0; i < topics_.size(); ++i) {
       std::vector<TopicColumn> wanted;
       for (const std::size_t k : columns()[i]) {
