@@ -353,7 +353,7 @@ MessageType::MessageType(const std::string& name, std::string_view definition) :
   (void)TypeParser(*this, name, definition);
 }
 
-void MessageType::decode(std::string_view payload, MessageNumbers& numbers) const {
+bool MessageType::decode(std::string_view payload, MessageNumbers& numbers) const {
   MessageNumbers read;
   NumberReader(*this, payload, read).read(structs_.back(), nullptr);
   const bool are_joints = name_ == joint_state_type;
@@ -362,15 +362,17 @@ void MessageType::decode(std::string_view payload, MessageNumbers& numbers) cons
   }
   if (are_joints) check_joints(read);
   if (name_ == imu_type) mark_missing(read.values);
-  if (read.lengths == numbers.lengths && numbers.paths.size() == read.values.size()) {
-    read.paths = std::move(numbers.paths);
-  } else {
+  const bool is_other =
+      read.lengths != numbers.lengths || read.values.size() != numbers.paths.size();
+  if (is_other) {
     MessageNumbers named;
     std::string path;
     NumberReader(*this, payload, named).read(structs_.back(), &path);
-    read.paths = std::move(named.paths);
+    numbers.paths = std::move(named.paths);
   }
+  read.paths = std::move(numbers.paths);
   numbers = std::move(read);
+  return is_other;
 }
 
 }  // namespace touchdown::logs

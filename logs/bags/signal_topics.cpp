@@ -86,9 +86,9 @@ void look_at_joints(const MessageNumbers& numbers, SignalTopic& topic) {
 
 /// `numbers`: of the message before.
 void look_at(const BagMessage& message, SignalTopic& topic, MessageNumbers& numbers) {
-  const std::vector<std::string> before = numbers.paths;
+  bool is_other = false;
   try {
-    topic.definition->decode(message.data, numbers);
+    is_other = topic.definition->decode(message.data, numbers);
   } catch (const InputError& error) {
     topic.fault = error.what();
     return;  // counted when the rows are read
@@ -98,16 +98,15 @@ void look_at(const BagMessage& message, SignalTopic& topic, MessageNumbers& numb
     topic.stamp_delays.push_back(1e-9 * static_cast<double>(message.time - stamp));
   }
   if (topic.type == joint_state_type) return look_at_joints(numbers, topic);
-  const std::set<std::string> known(topic.numbers.begin(), topic.numbers.end());
-  for (std::size_t i = 0; i < numbers.paths.size() && numbers.paths != before; ++i) {
-    const bool is_covariance = numbers.paths[i].find("_covariance[") != std::string::npos;
-    const bool is_of_header = numbers.paths[i].starts_with("header.");
-    if (topic.type == imu_type && (is_covariance || is_of_header)) continue;
-    if (!known.contains(numbers.paths[i])) topic.numbers.push_back(numbers.paths[i]);
-  }
+  const bool is_imu = topic.type == imu_type;
   constexpr std::size_t orientation = 2;
-  if (topic.type == imu_type && !std::isnan(numbers.values.at(orientation))) {
-    topic.has_orientation = true;
+  if (is_imu && !std::isnan(numbers.values.at(orientation))) topic.has_orientation = true;
+  if (!is_other) return;
+  const std::set<std::string> known(topic.numbers.begin(), topic.numbers.end());
+  for (const std::string& path : numbers.paths) {
+    const bool is_covariance = path.find("_covariance[") != std::string::npos;
+    if (is_imu && (is_covariance || path.starts_with("header."))) continue;
+    if (!known.contains(path)) topic.numbers.push_back(path);
   }
 }
 

@@ -50,17 +50,16 @@ TopicRows::TopicRows(SignalTopic topic, std::vector<TopicColumn> columns, const 
                     columns_.end()) {}
 
 bool TopicRows::update(const BagMessage& message) {
+  bool is_other = number_at_.size() != columns_.size();  // the first message
   try {
-    topic_.definition->decode(message.data, numbers_);
+    is_other |= topic_.definition->decode(message.data, numbers_);
   } catch (const InputError& error) {
     if (malformed_++ == 0) first_malformed_ = error.what();
     return false;
   }
   const bool are_joints = topic_.type == joint_state_type;
-  const bool is_known = number_at_.size() == columns_.size() && lengths_ == numbers_.lengths &&
-                        count_ == numbers_.paths.size() &&
-                        (!are_joints || std::ranges::equal(names_, numbers_.joints()));
-  if (!is_known) find_columns();
+  is_other = is_other || (are_joints && !std::ranges::equal(names_, numbers_.joints()));
+  if (is_other) find_columns();
   const std::int64_t stamp = numbers_.stamp();
   const double log_time = seconds(message.time);
   const bool lacks_stamp = stamp == 0 && std::abs(topic_.stamp_delay) < longest_delay;
@@ -88,8 +87,6 @@ bool TopicRows::update(const BagMessage& message) {
 /// Finds the columns among the numbers of the message, which has other ones than the last.
 void TopicRows::find_columns() {
   const std::vector<std::string>& paths = numbers_.paths;
-  lengths_ = numbers_.lengths;
-  count_ = paths.size();
   number_at_.clear();
   const auto add = [&](const std::string& column, const std::string& path) {
     number_at_.push_back(column == stamp_column      ? stamp_slot

@@ -73,9 +73,10 @@ class MessageType {
   /// Imu are known.
   MessageType(const std::string& name, std::string_view definition);
 
-  /// Decodes a message's payload in CDR. `numbers` are those of the message before. Errors:
-  /// `InputError` for a malformed payload, and for a JointState with lists of different lengths.
-  void decode(std::string_view payload, MessageNumbers& numbers) const;
+  /// Decodes a message's payload in CDR. `numbers` are those of the message before. Returns whether
+  /// they have other lists or paths now. Errors: `InputError` for a malformed payload, and for a
+  /// JointState with lists of different lengths.
+  bool decode(std::string_view payload, MessageNumbers& numbers) const;
 
  private:
   friend class TypeParser;
@@ -166,9 +167,7 @@ class TopicRows {
   std::vector<TopicColumn> columns_;    ///< the selected ones; of joints, the first makes rows
   std::vector<Held> held_;              ///< by column
   bool has_log_time_;                   ///< whether a column is `log_time_column`
-  std::vector<std::uint32_t> lengths_;  ///< of the message's lists, …
-  std::size_t count_ = 0;               ///< … the number of its numbers …
-  std::vector<std::string> names_;      ///< … and its texts, for which these are found:
+  std::vector<std::string> names_;      ///< the message's texts, for which these are found:
   std::vector<std::size_t> number_at_;  ///< of the columns among the numbers
   bool is_row_ = true;
   /// Of messages with the first joint: the number by their names, and how often they change.
