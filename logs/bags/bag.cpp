@@ -123,11 +123,6 @@ bool is_bag(const fs::path& path) {
 BagReader::BagReader(const fs::path& path, TopicFilter wanted, const std::atomic<bool>* stop)
     : wanted_(std::move(wanted)), stop_(stop), files_(bag_files(path)) {}
 
-void BagReader::close() {
-  mcap_.reset();
-  sqlite_.reset();
-}
-
 void BagReader::open_next() {
   const fs::path& named = files_[next_file_++];
   fs::path file = named;
@@ -158,28 +153,25 @@ void BagReader::open_next() {
   }
 }
 
-/// Adds the topics of the current file. A topic can have another number in each file.
-void BagReader::update_topics(const std::vector<BagTopic>& of_file) {
+/// Reads on in the current file. Returns false at its end, which closes it, and without one.
+bool BagReader::read(BagMessage& message) {
+  if (!mcap_ && !sqlite_) return false;
+  const bool is_there = mcap_ ? mcap_->next(message) : sqlite_->next(message);
+  // A topic can have another number in each file.
+  const std::vector<BagTopic>& of_file = mcap_ ? mcap_->topics() : sqlite_->topics();
   for (std::size_t i = topic_of_.size(); i < of_file.size(); ++i) {
     topic_of_.push_back(topics_.index_of(of_file[i]));
   }
-}
-
-bool BagReader::read(BagMessage& message) {
-  const bool is_there = mcap_ ? mcap_->next(message) : sqlite_->next(message);
-  update_topics(mcap_ ? mcap_->topics() : sqlite_->topics());
   if (is_there) return true;
   const std::string note = mcap_ ? mcap_->note() : sqlite_->note();
   if (!note.empty()) notes_.push_back(note);
+  mcap_.reset();
+  sqlite_.reset();
   return false;
 }
 
 bool BagReader::next(BagMessage& message) {
-  while (true) {
-    if (mcap_ || sqlite_) {
-      if (read(message)) break;
-      close();
-    }
+  while (!read(message)) {
     if (next_file_ == files_.size()) return false;
     open_next();
   }

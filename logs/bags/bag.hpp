@@ -40,9 +40,7 @@ class BagReader {
 
  private:
   void open_next();
-  void close();
   bool read(BagMessage& message);
-  void update_topics(const std::vector<BagTopic>& of_file);
 
   TopicFilter wanted_;
   const std::atomic<bool>* stop_;

@@ -117,7 +117,6 @@ bool McapReader::next(BagMessage& message) {
     }
   }
   message = messages_[next_++];
-  ++topics_[message.topic].messages;
   return true;
 }
 
@@ -183,9 +182,7 @@ void McapReader::use(McapOp op, std::string_view content, bool is_cut) {
     const auto time = static_cast<std::int64_t>(reader.number<std::uint64_t>());
     (void)reader.number<std::uint64_t>();  // publish time
     if (is_cut) ++cut_messages_;
-    if (wanted_ && !wanted_(topics_[topic].name)) {
-      ++topics_[topic].messages;
-    } else {
+    if (!wanted_ || wanted_(topics_.all()[topic].name)) {
       messages_.push_back({topic, time, reader.rest()});
     }
   }

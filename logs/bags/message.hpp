@@ -16,7 +16,7 @@ struct BagTopic {
   std::string name;
   std::string type;            ///< "sensor_msgs/msg/Imu"; empty if the bag does not give it
   std::string encoding;        ///< of its messages, "cdr" in ROS 2
-  std::uint64_t messages = 0;  ///< read so far
+  std::uint64_t messages = 0;  ///< that `BagReader` read so far
   /// Of its type, as `MessageType` reads it; empty if the bag does not give it.
   std::string definition = {};
   bool operator==(const BagTopic&) const = default;

@@ -159,7 +159,7 @@ void SqliteReader::read_topics(const TopicFilter& wanted) {
   const Statement rows = prepare("SELECT id, name, type, serialization_format FROM topics");
   while (step(rows.get())) {
     const std::int64_t id = sqlite3_column_int64(rows.get(), 0);
-    BagTopic topic{text_at(rows.get(), 1), text_at(rows.get(), 2), text_at(rows.get(), 3), 0};
+    BagTopic topic{text_at(rows.get(), 1), text_at(rows.get(), 2), text_at(rows.get(), 3)};
     if (!wanted || wanted(topic.name)) index_of_id_[id] = topics_.size();
     topics_.push_back(std::move(topic));
   }
@@ -230,7 +230,6 @@ void SqliteReader::take(BagMessage& message) {
   message.data = data == nullptr ? std::string_view()
                                  : std::string_view(static_cast<const char*>(data),
                                                     static_cast<std::size_t>(size));
-  ++topics_[message.topic].messages;
   ++messages_;
 }
 
