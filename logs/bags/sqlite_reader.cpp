@@ -9,7 +9,6 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/resources.hpp"
 #include "core/stop.hpp"
 #include "logs/bags/files.hpp"
 
@@ -44,6 +43,30 @@ std::string text_at(sqlite3_stmt* row, int column) {
   return text == nullptr ? "" : reinterpret_cast<const char*>(text);  // NOLINT
 }
 
+/// The size of a file's pages, from its head: big-endian; 1 is 65536.
+std::uint64_t page_bytes(const RandomFile& file) {
+  std::string head;
+  file.read(16, 2, head);
+  const auto byte = [&](std::size_t i) {
+    return i < head.size() ? static_cast<std::uint64_t>(static_cast<unsigned char>(head[i])) : 0U;
+  };
+  const std::uint64_t given = 256 * byte(0) + byte(1);
+  return given == 1 ? 65536 : std::max<std::uint64_t>(given, 512);
+}
+
+/// SQLite would take the missing bytes of the last page for zeros, and those for messages.
+void copy_whole_pages(const std::filesystem::path& path, const RandomFile& file,
+                      const std::filesystem::path& copy) {
+  const std::uint64_t page = page_bytes(file);
+  std::error_code wrong;
+  std::filesystem::copy_file(path, copy, wrong);
+  if (!wrong) std::filesystem::resize_file(copy, file.size() / page * page, wrong);
+  if (wrong) {
+    throw Error(
+        fmt::format("{}: cannot be copied to {}: {}", file.name(), copy.string(), wrong.message()));
+  }
+}
+
 }  // namespace
 
 void SqliteReader::Close::operator()(sqlite3* database) const { sqlite3_close(database); }
@@ -52,7 +75,6 @@ void SqliteReader::Close::operator()(sqlite3_stmt* statement) const { sqlite3_fi
 SqliteReader::SqliteReader(const std::filesystem::path& path, const TopicFilter& wanted,
                            const std::string& name, const std::atomic<bool>* stop)
     : name_(name.empty() ? path.string() : name), stop_(stop) {
-  require_file(path);
   open(path);
   for (const char* table : {"topics", "messages"}) {
     if (!has_table(table)) complain(fmt::format("is no ROS 2 bag: it has no table '{}'", table));
@@ -87,30 +109,6 @@ int SqliteReader::try_open(const std::string& uri, bool salvages) {
       this);
   sqlite3_exec(opened, "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
   return sqlite3_exec(opened, "SELECT name FROM sqlite_master LIMIT 1", nullptr, nullptr, nullptr);
-}
-
-/// The size of a file's pages, from its head: big-endian; 1 is 65536.
-std::uint64_t SqliteReader::page_bytes(const RandomFile& file) {
-  std::string head;
-  file.read(16, 2, head);
-  const auto byte = [&](std::size_t i) {
-    return i < head.size() ? static_cast<std::uint64_t>(static_cast<unsigned char>(head[i])) : 0U;
-  };
-  const std::uint64_t given = 256 * byte(0) + byte(1);
-  return given == 1 ? 65536 : std::max<std::uint64_t>(given, 512);
-}
-
-/// SQLite would take the missing bytes of the last page for zeros, and those for messages.
-void SqliteReader::copy_whole_pages(const std::filesystem::path& path, const RandomFile& file,
-                                    const std::filesystem::path& copy) const {
-  const std::uint64_t page = page_bytes(file);
-  std::error_code wrong;
-  std::filesystem::copy_file(path, copy, wrong);
-  if (!wrong) std::filesystem::resize_file(copy, file.size() / page * page, wrong);
-  if (wrong) {
-    throw Error(
-        fmt::format("{}: cannot be copied to {}: {}", name_, copy.string(), wrong.message()));
-  }
 }
 
 /// Only a journal (`-wal`) beside the database is a reason to write beside it: SQLite then needs a

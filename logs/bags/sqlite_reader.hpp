@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "logs/bags/files.hpp"
 #include "logs/bags/message.hpp"
 
 struct sqlite3;
@@ -45,9 +44,6 @@ class SqliteReader {
 
   int try_open(const std::string& uri, bool salvages);
   void open(const std::filesystem::path& path);
-  static std::uint64_t page_bytes(const RandomFile& file);
-  void copy_whole_pages(const std::filesystem::path& path, const RandomFile& file,
-                        const std::filesystem::path& copy) const;
   bool has_table(std::string_view name);
   void read_topics(const TopicFilter& wanted);
   void read_definitions();
