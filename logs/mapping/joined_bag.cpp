@@ -78,7 +78,7 @@ class JoinedBag final : public JoinedSource {
  private:
   std::vector<std::string> clock_notes() const override {
     std::vector<std::string> notes;
-    for (std::size_t i = 0; i < topics_.size() && !lacks_stamps_ && !uses_log_time_; ++i) {
+    for (std::size_t i = 0; i < topics_.size() && uses_stamps_; ++i) {
       std::ranges::move(logs::clock_notes(topics_[i], topics_[clock()]), back_inserter(notes));
     }
     return notes;
@@ -91,57 +91,52 @@ class JoinedBag final : public JoinedSource {
   }
 
   std::vector<SourceRows> read(const LogMapping& mapping) override {
-    open(mapping);
-    std::vector<SourceRows> all(rows_.size());
-    std::vector<std::uint64_t> messages(rows_.size());
-    std::vector<double> mapped(mapping.columns.size());
-    BagMessage message;
-    while (reader_->next(message)) {
-      const std::string& name = reader_->topics()[message.topic].name;
-      for (std::size_t i = 0; i < rows_.size(); ++i) {
-        if (names_[i].file != name) continue;
-        ++messages[i];
-        if (!rows_[i].update(message)) continue;
-        const std::span<const double> row = rows_[i].row();
-        for (std::size_t k = 0; k < row.size(); ++k) mapped[columns()[i][k]] = row[k];
-        all[i].add(1e-9 * static_cast<double>(message.time), mapping.clocks[i].at(mapped), row,
-                   messages[i]);
-      }
-    }
-    std::ranges::copy(reader_->notes(), back_inserter(notes().warnings));
-    if (lacks_stamps_) {
-      notes().warnings.emplace_back(
-          "stamps are zero or missing: the times of recording are used instead");
-    }
-    std::ranges::move(clock_notes(), back_inserter(notes().warnings));
-    for (const TopicRows& one : rows_) one.add_to(notes());
-    return all;
-  }
-
-  void open(const LogMapping& mapping) {
     check_given(log_, mapping, topics_);
-    uses_log_time_ = std::any_of(mapping.columns.begin(), mapping.columns.end(),
-                                 [](const auto& one) { return one.name == log_time_column; });
-    lacks_stamps_ = std::ranges::any_of(
+    const bool uses_log_time = std::ranges::find(mapping.columns, log_time_column,
+                                                 &SourceColumn::name) != mapping.columns.end();
+    const bool lacks_stamps = std::ranges::any_of(
         topics_, [](const SignalTopic& topic) { return topic.stamp_delays.empty(); });
+    uses_stamps_ = !lacks_stamps && !uses_log_time;
+    std::vector<TopicRows> topics;
     for (std::size_t i = 0; i < topics_.size(); ++i) {
       std::vector<TopicColumn> wanted;
       for (const std::size_t k : columns()[i]) {
         wanted.push_back({mapping.columns[k].name, mapping.columns[k].is_rest});
       }
-      rows_.emplace_back(topics_[i], wanted, TopicRows::Config{lacks_stamps_, stale_after()});
+      topics.emplace_back(topics_[i], wanted, TopicRows::Config{lacks_stamps, stale_after()});
     }
     const auto is_named = [this](std::string_view topic) {
-      return std::ranges::any_of(names_, [&](const SourceNames& one) { return one.file == topic; });
+      return std::ranges::find(names_, topic, &SourceNames::file) != names_.end();
     };
-    reader_.emplace(log_, is_named, notes().stop);
+    BagReader reader(log_, is_named, notes().stop);
+    std::vector<SourceRows> all(topics.size());
+    std::vector<std::uint64_t> messages(topics.size());
+    std::vector<double> mapped(mapping.columns.size());
+    BagMessage message;
+    while (reader.next(message)) {
+      const std::string& name = reader.topics()[message.topic].name;
+      for (std::size_t i = 0; i < topics.size(); ++i) {
+        if (names_[i].file != name) continue;
+        ++messages[i];
+        if (!topics[i].update(message)) continue;
+        const std::span<const double> row = topics[i].row();
+        for (std::size_t k = 0; k < row.size(); ++k) mapped[columns()[i][k]] = row[k];
+        all[i].add(1e-9 * static_cast<double>(message.time), mapping.clocks[i].at(mapped), row,
+                   messages[i]);
+      }
+    }
+    std::ranges::copy(reader.notes(), back_inserter(notes().warnings));
+    if (lacks_stamps) {
+      notes().warnings.emplace_back(
+          "stamps are zero or missing: the times of recording are used instead");
+    }
+    std::ranges::move(clock_notes(), back_inserter(notes().warnings));
+    for (const TopicRows& one : topics) one.add_to(notes());
+    return all;
   }
 
   std::vector<SignalTopic> topics_;
-  bool uses_log_time_ = false;
-  bool lacks_stamps_ = false;
-  std::vector<TopicRows> rows_;
-  std::optional<BagReader> reader_;
+  bool uses_stamps_ = false;  ///< of all topics, as their clock
 };
 
 }  // namespace
