@@ -110,7 +110,6 @@ SourceJoin::SourceJoin(std::vector<SourceRows> sources, Config config)
     std::ranges::stable_sort(rows, {}, &SourceRows::Row::arrival);
     if (is_clock || !config_.has_arrival) source.report.steps = split_recordings(rows);
     if (!rows.empty()) {
-      source.report.rows = rows.size();
       source.report.first = rows.front().time;
       source.report.last = rows.back().time;
     }

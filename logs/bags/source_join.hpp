@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "logs/sample_times.hpp"
+
 namespace touchdown::logs {
 
 /// Ages of held values: how much older they are than the rows that they are added to.
@@ -19,13 +21,7 @@ class Ages {
   double largest() const {
     return ages_.empty() ? 0.0 : static_cast<double>(*std::max_element(ages_.begin(), ages_.end()));
   }
-  double median() const {
-    if (ages_.empty()) return 0.0;
-    std::vector<float> sorted = ages_;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    return static_cast<double>(*middle);
-  }
+  double median() const { return ages_.empty() ? 0.0 : logs::median({ages_.begin(), ages_.end()}); }
 
  private:
   std::vector<float> ages_;
@@ -87,7 +83,6 @@ class SourceJoin {
 
   /// What became of one source's rows.
   struct Report {
-    std::uint64_t rows = 0;
     double first = 0.0;       ///< time of the first row (s)
     double last = 0.0;        ///< time of the last row (s)
     Ages ages;                ///< of values in joined rows

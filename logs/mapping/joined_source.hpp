@@ -89,7 +89,7 @@ class JoinedSource : public RowSource {
     const std::vector<std::uint64_t>& expected = join_->report(clock_).steps.restarts;
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const std::vector<std::uint64_t>& restarts = join_->report(i).steps.restarts;
-      if (restarts.size() == expected.size() || join_->report(i).rows == 0) continue;
+      if (restarts.size() == expected.size() || join_->source(i).rows.empty()) continue;
       const auto text = [](const std::vector<std::uint64_t>& rows) {
         return rows.empty() ? "nowhere" : fmt::format("at row {}", fmt::join(rows, ", "));
       };
@@ -149,10 +149,10 @@ class JoinedSource : public RowSource {
     std::vector<std::string> spans;
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const SourceJoin::Report& report = join_->report(i);
-      spans.push_back(report.rows == 0
-                          ? fmt::format("{} has no rows with a time", names_[i].file)
-                          : fmt::format("{} has {} rows from {:.3f} to {:.3f} s", names_[i].file,
-                                        report.rows, report.first, report.last));
+      const std::size_t rows = join_->source(i).rows.size();
+      spans.push_back(rows == 0 ? fmt::format("{} has no rows with a time", names_[i].file)
+                                : fmt::format("{} has {} rows from {:.3f} to {:.3f} s",
+                                              names_[i].file, rows, report.first, report.last));
     }
     std::vector<std::string> causes = clock_notes();
     if (causes.empty()) {
