@@ -14,14 +14,12 @@ using Rows = std::vector<ContactInterval>;
 
 /// The first interval that ends after `time`.
 Rows::iterator first_until(Rows& rows, double time) {
-  return std::find_if(rows.begin(), rows.end(),
-                      [time](const ContactInterval& one) { return one.end > time; });
+  return std::ranges::upper_bound(rows, time, {}, &ContactInterval::end);
 }
 
 /// Makes one interval of two that touch at `time` and have equal contact.
 void join_at(Rows& rows, double time) {
-  const auto after = std::find_if(rows.begin(), rows.end(),
-                                  [time](const ContactInterval& one) { return one.start == time; });
+  const auto after = std::ranges::find(rows, time, &ContactInterval::start);
   if (after == rows.begin() || after == rows.end()) return;
   ContactInterval& before = *std::prev(after);
   if (before.end != time || before.contact != after->contact) return;
@@ -127,10 +125,8 @@ double move_edge(ContactIntervals& labels, std::size_t wheel, double edge, doubl
                  const TimeRange& log) {
   edge = to_microsecond(edge);
   Rows& rows = labels.intervals;
-  const auto before = std::find_if(rows.begin(), rows.end(),
-                                   [edge](const ContactInterval& one) { return one.end == edge; });
-  const auto after = std::find_if(rows.begin(), rows.end(),
-                                  [edge](const ContactInterval& one) { return one.start == edge; });
+  const auto before = std::ranges::find(rows, edge, &ContactInterval::end);
+  const auto after = std::ranges::find(rows, edge, &ContactInterval::start);
   const bool has_before = before != rows.end();
   const bool has_after = after != rows.end();
   if (!has_before && !has_after) return edge;
@@ -151,11 +147,9 @@ double move_edge(ContactIntervals& labels, std::size_t wheel, double edge, doubl
   } else {
     Wheels wheels{};
     wheels.at(wheel) = true;
-    const auto state_of = [wheel](const ContactInterval& one) {
-      return one.contact.at(wheel) ? LabelState::contact : LabelState::air;
-    };
-    const LabelState state = state_of(to > edge ? *before : *after);
-    set_state(labels, {std::min(edge, to), std::max(edge, to)}, wheels, state);
+    const bool contact = (to > edge ? before : after)->contact.at(wheel);
+    set_state(labels, {std::min(edge, to), std::max(edge, to)}, wheels,
+              contact ? LabelState::contact : LabelState::air);
   }
   return to;
 }
