@@ -141,39 +141,29 @@ class LogReader::Cleaning {
 
   std::vector<std::string> warnings() const {
     std::vector<std::string> warnings;
-    const auto warn = [&](std::uint64_t count, const auto& text) {
-      if (count > 0 && has_rows_) warnings.push_back(fmt::format("{}: {}", name_, text()));
+    const auto warn = [&](std::uint64_t count, const std::string& text) {
+      if (count > 0 && has_rows_) warnings.push_back(fmt::format("{}: {}", name_, text));
     };
-    warn(skipped_, [&] {
-      return fmt::format("{} of {} records lack needed keys and were left out", skipped_, records_);
-    });
-    warn(malformed_, [&] {
-      return malformed_ == 1 ? first_malformed_
-                             : fmt::format("{}; {} more like it", first_malformed_, malformed_ - 1);
-    });
-    warn(timeless_, [&] {
-      return fmt::format("{} is not a finite number: it was left out{}", first_timeless_,
-                         timeless_ == 1 ? ""
-                                        : fmt::format(", and {} more before the first good record",
-                                                      timeless_ - 1));
-    });
-    warn(held_servos_.records(), [&] {
-      return fmt::format(
-          "{} of {} records lack numbers of servos: they are held from the record before, for up "
-          "to "
-          "{:.4g} ms{}",
-          held_servos_.records(), records_, 1e3 * held_servos_.oldest(),
-          held_servos_.lost() == 0
-              ? ""
-              : fmt::format("; {} records lack them for longer", held_servos_.lost()));
-    });
-    warn(repeated_, [&] {
-      return fmt::format(
-          "{} of {} records repeat the one before, with its time and all its numbers, and were "
-          "left "
-          "out",
-          repeated_, records_);
-    });
+    warn(skipped_,
+         fmt::format("{} of {} records lack needed keys and were left out", skipped_, records_));
+    warn(malformed_, malformed_ == 1
+                         ? first_malformed_
+                         : fmt::format("{}; {} more like it", first_malformed_, malformed_ - 1));
+    warn(timeless_,
+         fmt::format("{} is not a finite number: it was left out{}", first_timeless_,
+                     timeless_ == 1 ? ""
+                                    : fmt::format(", and {} more before the first good record",
+                                                  timeless_ - 1)));
+    warn(held_servos_.records(),
+         fmt::format("{} of {} records lack numbers of servos: they are held from the record "
+                     "before, for up to {:.4g} ms{}",
+                     held_servos_.records(), records_, 1e3 * held_servos_.oldest(),
+                     held_servos_.lost() == 0
+                         ? ""
+                         : fmt::format("; {} records lack them for longer", held_servos_.lost())));
+    warn(repeated_, fmt::format("{} of {} records repeat the one before, with its time and all its "
+                                "numbers, and were left out",
+                                repeated_, records_));
     return warnings;
   }
 
