@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,9 +32,8 @@ class ClockCheck {
 
   double period_;
   double start_;
-  std::vector<double> window_;  ///< times
-  double previous_ = 0.0;       ///< NaN before the first time
-  bool is_started_ = false;
+  std::vector<double> window_;                                  ///< times
+  double previous_ = std::numeric_limits<double>::quiet_NaN();  ///< of the record before
   std::int64_t records_ = 0;
   std::int64_t repeated_ = 0;
   std::int64_t back_ = 0;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -24,22 +25,18 @@ void ClockCheck::add(double time) {
   if (!std::isfinite(time)) return;
   ++records_;
   fractions_.add(start_ + time);
-  if (is_started_) {
-    const double step = time - previous_;
-    if (step == 0.0) ++repeated_;
-    if (step > 0.0) tick_ = tick_ == 0.0 ? step : std::min(tick_, step);
-    if (step < 0.0) {
-      ++back_;
-      furthest_back_ = std::max(furthest_back_, -step);
-    }
-    if (step > jump) {
-      ++jumps_;
-      longest_jump_ = std::max(longest_jump_, step);
-    }
-    if (step < 0.0 || step > jump) window_.clear();
+  const double step = time - std::exchange(previous_, time);
+  if (step == 0.0) ++repeated_;
+  if (step > 0.0) tick_ = tick_ == 0.0 ? step : std::min(tick_, step);
+  if (step < 0.0) {
+    ++back_;
+    furthest_back_ = std::max(furthest_back_, -step);
   }
-  previous_ = time;
-  is_started_ = true;
+  if (step > jump) {
+    ++jumps_;
+    longest_jump_ = std::max(longest_jump_, step);
+  }
+  if (step < 0.0 || step > jump) window_.clear();
   window_.push_back(time);
   if (window_.size() >= rate_window) end_window();
 }
