@@ -127,37 +127,22 @@ std::vector<std::string> first_joint_names(const std::filesystem::path& path, Jo
   return joints.names();
 }
 
-/// A file: one source with columns of its own.
+/// A file: one source.
 class FileSource : public RowSource {
  public:
-  FileSource(const std::filesystem::path& path, LogNotes& notes, const std::string& section,
-             std::size_t source)
-      : RowSource(notes), source_(source) {
+  FileSource(const std::filesystem::path& path, LogNotes& notes) : RowSource(notes) {
     names_.file = path.string();
-    names_.section = section;
   }
   std::span<const SourceNames> names() const override { return {&names_, 1}; }
 
  protected:
-  std::vector<SourceColumn> columns_of(const LogMapping& mapping) const {
-    std::vector<SourceColumn> columns;
-    for (const SourceColumn& column : mapping.columns) {
-      if (column.source == source_) columns.push_back(column);
-    }
-    return columns;
-  }
-
   SourceNames names_;
-
- private:
-  std::size_t source_;
 };
 
 class CsvFile final : public FileSource {
  public:
-  CsvFile(const std::filesystem::path& path, LogNotes& notes, const std::string& section,
-          std::size_t source)
-      : FileSource(path, notes, section, source),
+  CsvFile(const std::filesystem::path& path, LogNotes& notes)
+      : FileSource(path, notes),
         csv_(path,
              {.empty_cell = std::numeric_limits<double>::quiet_NaN(), .may_be_cut_off = true}),
         joints_(csv_.names()) {
@@ -172,7 +157,7 @@ class CsvFile final : public FileSource {
   }
 
   void select(const LogMapping& mapping) override {
-    wanted_ = columns_of(mapping);
+    wanted_ = mapping.columns;
     std::vector<bool> needed(csv_.names().size());
     for (const SourceColumn& column : wanted_) {
       positions_.push_back(position_in(csv_.names(), column.name));
@@ -239,9 +224,8 @@ ArrayColumn column_of(const ModelArrays& arrays, const SourceColumn& column,
 
 class ArrayFile final : public FileSource {
  public:
-  ArrayFile(const std::filesystem::path& path, LogNotes& notes, const std::string& section,
-            std::size_t source)
-      : FileSource(path, notes, section, source), path_(path) {
+  ArrayFile(const std::filesystem::path& path, LogNotes& notes)
+      : FileSource(path, notes), path_(path) {
     names_.are_arrays = true;
     names_.names = npz_names(path);
     names_.width = [path](const std::string& name) -> std::size_t {
@@ -252,7 +236,7 @@ class ArrayFile final : public FileSource {
   }
 
   void select(const LogMapping& mapping) override {
-    const std::vector<SourceColumn> wanted = columns_of(mapping);
+    const std::vector<SourceColumn>& wanted = mapping.columns;
     if (wanted.empty()) return;
     arrays_ = read_npz(path_, [&](std::string_view name) {
       return std::ranges::find(wanted, name, &SourceColumn::name) != wanted.end();
@@ -295,13 +279,10 @@ class ArrayFile final : public FileSource {
 
 }  // namespace
 
-std::unique_ptr<RowSource> open_file(const std::filesystem::path& file, LogNotes& notes,
-                                     const std::string& section, std::size_t source) {
+std::unique_ptr<RowSource> open_file(const std::filesystem::path& file, LogNotes& notes) {
   const std::string extension = extension_of(file);
-  if (extension == ".csv" || extension == ".tsv") {
-    return std::make_unique<CsvFile>(file, notes, section, source);
-  }
-  if (extension == ".npz") return std::make_unique<ArrayFile>(file, notes, section, source);
+  if (extension == ".csv" || extension == ".tsv") return std::make_unique<CsvFile>(file, notes);
+  if (extension == ".npz") return std::make_unique<ArrayFile>(file, notes);
   require_no_gzip(file);
   throw InputError(
       fmt::format("{}: expected a log as FILE.csv or FILE.npz, or a ROS 2 bag", file.string()));

@@ -35,7 +35,9 @@ SourceRows rows_of(RowSource& file, const LogMapping& mapping, const SourceClock
   std::vector<double> mapped(mapping.columns.size());
   std::vector<double> row;
   std::uint64_t position = 0;
-  file.select(mapping);
+  LogMapping own;
+  for (const std::size_t column : columns) own.columns.push_back(mapping.columns[column]);
+  file.select(own);
   while (file.next(row)) {
     ++position;
     if (!has_numbers(row, clock, columns)) continue;
@@ -45,35 +47,32 @@ SourceRows rows_of(RowSource& file, const LogMapping& mapping, const SourceClock
   return rows;
 }
 
-/// The files of the sources, in the folder of the log.
-std::vector<std::unique_ptr<RowSource>> files_of(const fs::path& log, const LogSources& sources,
-                                                 LogNotes& notes) {
-  const bool is_whole_folder = is_folder(log);
-  const fs::path folder = is_whole_folder ? log : log.parent_path();
+/// The folder of the sources of a log, which is this folder or one of them.
+fs::path folder_of(const fs::path& log, const LogSources& sources) {
+  if (is_folder(log)) return log;
   const std::vector<std::string> all = sources.all();
   const bool is_one_of_them = std::ranges::any_of(
       all, [&](const std::string& file) { return fs::path(file).filename() == log.filename(); });
-  if (!is_whole_folder && !is_one_of_them) {
-    throw InputError(
-        fmt::format("{}: the mapping's `sources` are {}: give one of them, or their folder",
-                    log.string(), fmt::join(all, ", ")));
-  }
-  std::vector<std::unique_ptr<RowSource>> opened;
-  for (const auto& [section, files] : {std::pair("joints", &sources.joints),
-                                       {"imu", &sources.imu},
-                                       {"contact", &sources.contact}}) {
-    for (const std::string& file : *files) {
-      opened.push_back(open_file(folder / file, notes, section, opened.size()));
-    }
-  }
-  return opened;
+  if (is_one_of_them) return log.parent_path();
+  throw InputError(
+      fmt::format("{}: the mapping's `sources` are {}: give one of them, or their folder",
+                  log.string(), fmt::join(all, ", ")));
 }
 
 class JoinedFiles final : public JoinedSource {
  public:
   JoinedFiles(const fs::path& log, const LogSources& sources, LogNotes& notes)
-      : JoinedSource(log, sources.stale_after, notes), files_(files_of(log, sources, notes)) {
-    for (const auto& file : files_) names_.push_back(file->names().front());
+      : JoinedSource(log, sources.stale_after, notes) {
+    const fs::path folder = folder_of(log, sources);
+    for (const auto& [section, files] : {std::pair("joints", &sources.joints),
+                                         {"imu", &sources.imu},
+                                         {"contact", &sources.contact}}) {
+      for (const std::string& file : *files) {
+        files_.push_back(open_file(folder / file, notes));
+        names_.push_back(files_.back()->names().front());
+        names_.back().section = section;
+      }
+    }
   }
 
   std::string place() const override {

@@ -51,9 +51,7 @@ class RowSource {
 std::unique_ptr<RowSource> open_rows(const std::filesystem::path& log, const LogSources& sources,
                                      LogNotes& notes);
 
-/// Opens one file; its columns have the number `source` in the mapping. `section` is that of
-/// `SourceNames`.
-std::unique_ptr<RowSource> open_file(const std::filesystem::path& file, LogNotes& notes,
-                                     const std::string& section = {}, std::size_t source = 0);
+/// Opens one file, whose columns are all of its mapping's.
+std::unique_ptr<RowSource> open_file(const std::filesystem::path& file, LogNotes& notes);
 
 }  // namespace touchdown::logs
