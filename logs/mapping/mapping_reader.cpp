@@ -120,13 +120,12 @@ void MappingReader::enter(std::string_view section) {
   const bool has_own = std::any_of(sources_.begin(), sources_.end(),
                                    [&](const auto& source) { return source.section == section; });
   section_ = has_own || section.empty() ? section : "joints";
-  first_ = 0;
-  while (!is_entered(first_)) ++first_;
 }
 
-void MappingReader::leave_source() {
-  only_.reset();
-  enter(section_);
+const SourceNames& MappingReader::names() const {
+  std::size_t first = 0;
+  while (!is_entered(first)) ++first;
+  return sources_[first];
 }
 
 KeyNotes MappingReader::require(Fields& fields, std::string_view key, const SignalKind& kind,

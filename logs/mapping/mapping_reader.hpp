@@ -53,12 +53,12 @@ class MappingReader {
   /// The columns that follow are those of this section's sources, or if it has none, the joints'.
   void enter(std::string_view section);
   /// The columns that follow are those of one source.
-  void enter_source(std::size_t source) { first_ = source, only_ = source; }
-  void leave_source();
+  void enter_source(std::size_t source) { only_ = source; }
+  void leave_source() { only_.reset(); }
 
   std::span<const SourceNames> sources() const { return sources_; }
   /// The first source that is entered.
-  const SourceNames& names() const { return sources_[first_]; }
+  const SourceNames& names() const;
 
   /// Reads the signal at a key. Without the key, takes the columns that its kind names.
   KeyNotes require(Fields& fields, std::string_view key, const SignalKind& kind,
@@ -89,7 +89,6 @@ class MappingReader {
 
   std::span<const SourceNames> sources_;
   std::string_view section_;
-  std::size_t first_ = 0;            ///< the first source that is entered
   std::optional<std::size_t> only_;  ///< the source that is entered, if it is a single one
   LogMapping& mapping_;
 };
