@@ -57,8 +57,7 @@ std::vector<fs::path> files_in(const fs::path& folder) {
       files.push_back(entry);
     }
   }
-  std::sort(files.begin(), files.end(),
-            [](const fs::path& a, const fs::path& b) { return by_number(a) < by_number(b); });
+  std::ranges::sort(files, {}, by_number);
   return files;
 }
 

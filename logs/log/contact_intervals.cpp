@@ -108,9 +108,8 @@ double to_microsecond(double time) { return std::round(1e6 * time) / 1e6; }
 
 const ContactInterval* ContactIntervals::at(double time) const {
   const double here = to_microsecond(time);
-  const auto after = std::upper_bound(
-      intervals.begin(), intervals.end(), here,
-      [](double t, const ContactInterval& one) { return t < to_microsecond(one.start); });
+  const auto after = std::ranges::upper_bound(
+      intervals, here, {}, [](const ContactInterval& one) { return to_microsecond(one.start); });
   if (after == intervals.begin()) return nullptr;
   const ContactInterval& before = *std::prev(after);
   const double end = to_microsecond(before.end);
@@ -131,9 +130,8 @@ ContactIntervals read_begun_intervals(const std::filesystem::path& path) {
 
 std::string to_csv(const ContactIntervals& intervals) {
   TextTable table{{"start", "end", "left", "right"}, {}};
-  const bool has_sure =
-      std::any_of(intervals.intervals.begin(), intervals.intervals.end(),
-                  [](const ContactInterval& one) { return one.sure.has_value(); });
+  const bool has_sure = std::ranges::any_of(
+      intervals.intervals, [](const ContactInterval& one) { return one.sure.has_value(); });
   if (has_sure) table.header.emplace_back("sure");
   for (const ContactInterval& one : intervals.intervals) {
     std::vector<std::string>& row = table.rows.emplace_back();

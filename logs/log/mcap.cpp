@@ -109,8 +109,7 @@ void McapWriter::finish_chunk() {
   const std::uint64_t end = position_;
   std::string offsets;
   for (auto& [topic, messages] : index_) {
-    std::stable_sort(messages.begin(), messages.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::ranges::stable_sort(messages, {}, &Index::value_type::first);
     std::string entries;
     for (const auto& [time, offset] : messages) entries += content(time, offset);
     offsets += content(topic, position_);

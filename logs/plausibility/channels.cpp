@@ -87,9 +87,9 @@ void ConstantChannels::report_missing(std::string_view subject, const char* chan
 }
 
 bool ConstantChannels::lacks_hips() const {
-  const auto is_zero = [](const Channel& channel) { return channel.is_zero(); };
   constexpr std::size_t right = 3;
-  return std::ranges::all_of(joints_[0], is_zero) && std::ranges::all_of(joints_[right], is_zero);
+  return std::ranges::all_of(joints_[0], &Channel::is_zero) &&
+         std::ranges::all_of(joints_[right], &Channel::is_zero);
 }
 
 void ConstantChannels::report_joint(std::size_t servo, Findings& findings) const {
@@ -134,8 +134,7 @@ bool ConstantChannels::report(Findings& findings) const {
   report_vector("angular_velocity", angular_velocity_, findings);
   report_missing("orientation", "", orientation_[0], findings,
                  "a quaternion of length 1: is the column empty, or to be divided by its length");
-  if (std::all_of(orientation_.begin(), orientation_.end(),
-                  [](const Channel& part) { return part.is_constant(); })) {
+  if (std::ranges::all_of(orientation_, &Channel::is_constant)) {
     findings.add("orientation", "never changes: is the sensor dead, or the column empty");
   }
   return !report_vector("linear_acceleration", linear_acceleration_, findings) ||

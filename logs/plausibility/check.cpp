@@ -8,8 +8,7 @@
 namespace touchdown::logs {
 
 void Findings::add(std::string_view subject, const std::string& finding) {
-  auto found = std::find_if(findings_.begin(), findings_.end(),
-                            [&](const Finding& one) { return one.text == finding; });
+  auto found = std::ranges::find(findings_, finding, &Finding::text);
   if (found == findings_.end()) found = findings_.insert(findings_.end(), {finding, {}});
   found->subjects.emplace_back(subject);
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <string>
 
 #include <fmt/format.h>
@@ -170,10 +171,8 @@ void HeldChannels::report_rates(Findings& findings) const {
   }
   // A bus reads all joints at once.
   const auto joints = std::ranges::count_if(held, [](std::size_t i) { return i < of_joints; });
-  std::int64_t changing_joints = 0;
-  for (std::size_t i = 0; i < of_joints; ++i) {
-    if (!channels_.at(i).is_constant()) ++changing_joints;
-  }
+  const auto changing_joints = std::ranges::count_if(
+      std::span(channels_).first(of_joints), [](const Channel& one) { return !one.is_constant(); });
   const bool are_all_joints = joints == changing_joints && longest < 1.1 * shortest;
   if (are_all_joints) {
     findings.add("joints", fmt::format("change {}: their readings are repeated", rates(longest)));
