@@ -185,17 +185,10 @@ bool LabelHistory::edit(ContactIntervals edited) {
   return true;
 }
 
-bool LabelHistory::undo() {
-  if (undone_.empty()) return false;
-  redone_.push_back(std::exchange(labels_, std::move(undone_.back())));
-  undone_.pop_back();
-  return true;
-}
-
-bool LabelHistory::redo() {
-  if (redone_.empty()) return false;
-  undone_.push_back(std::exchange(labels_, std::move(redone_.back())));
-  redone_.pop_back();
+bool LabelHistory::bring(std::vector<ContactIntervals>& from, std::vector<ContactIntervals>& to) {
+  if (from.empty()) return false;
+  to.push_back(std::exchange(labels_, std::move(from.back())));
+  from.pop_back();
   return true;
 }
 

@@ -62,12 +62,15 @@ class LabelHistory {
   /// Takes an edited copy. Returns false if it is no other.
   bool edit(ContactIntervals edited);
   /// Returns false if there is none.
-  bool undo();
-  bool redo();
+  bool undo() { return bring(undone_, redone_); }
+  bool redo() { return bring(redone_, undone_); }
   /// Edits that are neither undone nor replaced.
   std::size_t edits() const { return undone_.size(); }
 
  private:
+  /// Brings the last labels of one list, and keeps those so far in the other.
+  bool bring(std::vector<ContactIntervals>& from, std::vector<ContactIntervals>& to);
+
   ContactIntervals labels_;
   std::vector<ContactIntervals> undone_, redone_;  ///< labels that undo and redo bring
 };
