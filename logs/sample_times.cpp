@@ -1,7 +1,6 @@
 #include "logs/sample_times.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -90,14 +89,9 @@ Line line_through(std::span<const double> steps) {
 
 /// The unit in which the step is between these times (s); empty if there is none.
 std::string unit_between(double shortest, double longest, double step) {
-  struct Unit {
-    double size;
-    const char* name;
-  };
-  constexpr std::array<Unit, 3> units = {
-      {{1e3, "milliseconds"}, {1e6, "microseconds"}, {1e9, "nanoseconds"}}};
-  for (const Unit& unit : units) {
-    if (step >= shortest * unit.size && step <= longest * unit.size) return unit.name;
+  for (const auto& [unit, name] :
+       {std::pair(1e3, "milliseconds"), {1e6, "microseconds"}, {1e9, "nanoseconds"}}) {
+    if (step >= shortest * unit && step <= longest * unit) return name;
   }
   return {};
 }
