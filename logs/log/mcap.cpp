@@ -225,9 +225,8 @@ std::uint64_t write_mcap(LogReader& reader, std::ostream& stream, const AddMessa
   std::uint64_t rows = 0;
   std::uint64_t time = 0;  // a row without a time gets that of the previous row
   for (; const std::optional<LogRow> row = reader.next(); ++rows) {
-    const double nanoseconds = 1e9 * (reader.start_time() + row->observation.time);
-    if (nanoseconds >= 0.0 && nanoseconds < 0x1p63) {
-      time = static_cast<std::uint64_t>(std::llround(nanoseconds));
+    if (std::isfinite(row->observation.time) && reader.stamp() >= 0) {
+      time = static_cast<std::uint64_t>(reader.stamp());
     }
     Json observation = observation_in(reader.record(), reader.name());
     const Json beliefs = beliefs_of(observation);

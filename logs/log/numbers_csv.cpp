@@ -1,6 +1,7 @@
 #include "logs/log/numbers_csv.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <ctime>
 #include <sstream>
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/resources.hpp"
 
 namespace touchdown::logs {
@@ -92,8 +94,9 @@ std::optional<Real> number_with_comma(std::string_view text) {
 
 std::ifstream opened(const std::filesystem::path& path) {
   require_file(path);
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(fmt::format("{}: no such file", path.string()));
+  if (!file) complain_unreadable(path.string(), {errno, std::generic_category()}, "opened");
   return file;
 }
 

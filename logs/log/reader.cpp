@@ -30,10 +30,6 @@ bool has_time(const LogPresence& present) {
   return present[log_slot::time] || present[log_slot::wall_time];
 }
 
-double time_of(const LogValues& values, const LogPresence& present) {
-  return values[present[log_slot::time] ? log_slot::time : log_slot::wall_time];
-}
-
 LogPresence needed_values() {
   LogPresence needed;
   for (const LogKey& key : log_keys()) {
@@ -161,6 +157,9 @@ class LogReader::Cleaning {
                      held_servos_.lost() == 0
                          ? ""
                          : fmt::format("; {} records lack them for longer", held_servos_.lost())));
+    warn(held_servos_.records() == 0 ? held_servos_.lost() : 0,
+         fmt::format("{} of {} records lack numbers of servos for longer than {:.4g} ms",
+                     held_servos_.lost(), records_, 1e3 * longest_hold));
     warn(repeated_, fmt::format("{} of {} records repeat the one before, with its time and all its "
                                 "numbers, and were left out",
                                 repeated_, records_));

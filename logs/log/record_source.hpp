@@ -38,7 +38,7 @@ class RecordSource {
 
   virtual const LogValues& values() const = 0;
   /// The log's clock (ns).
-  virtual std::int64_t stamp() const { return nanoseconds(values()[log_slot::time]); }
+  virtual std::int64_t stamp() const { return nanoseconds(time_of(values(), present())); }
   /// A vector is present only if the record has all of its elements.
   virtual const LogPresence& present() const = 0;
   /// The record in Upkie's layout, valid until the next one; may be empty for rows that are in

@@ -269,11 +269,15 @@ LogValues to_values(const models::Observation& observation, const models::Action
   return values;
 }
 
+double time_of(const LogValues& values, const LogPresence& present) {
+  return values[present[log_slot::time] ? log_slot::time : log_slot::wall_time];
+}
+
 LogRow to_row(const LogValues& values, const LogPresence& present) {
   const auto read = [&](std::size_t slot, auto& member) { take(values, slot, member); };
   LogRow row;
   models::Observation& observation = row.observation;
-  observation.time = values[present[log_slot::time] ? log_slot::time : log_slot::wall_time];
+  observation.time = time_of(values, present);
   visit_needed(observation, read);
   // Proper acceleration is the acceleration minus gravity, which points to the ARS frame's +z.
   observation.imu.raw_linear_acceleration =

@@ -106,6 +106,9 @@ using LogPresence = std::bitset<log_slot::count>;
 LogValues to_values(const models::Observation& observation, const models::Action& action,
                     const models::GroundTruth* truth);
 
+/// The time of a record (s): that of its observation, or else its own.
+double time_of(const LogValues& values, const LogPresence& present);
+
 /// The inverse. Absent values get their default or are derived from the IMU.
 LogRow to_row(const LogValues& values, const LogPresence& present);
 

@@ -343,6 +343,36 @@ TEST(UglyLogs, ANumberOfAServoThatIsMissingNowAndThenIsHeld) {
                                 HasSubstr("for up to 20 ms; 5 records lack them for longer"))));
 }
 
+TEST(UglyLogs, NumbersOfServosThatAreMissingForLongerAreToldWhereNoneIsHeld) {
+  std::vector<json> records = upkie_records(60);
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    records[k]["observation"]["time"] = 0.03 * static_cast<double>(k);
+    if (k % 2 == 1) records[k]["observation"]["servo"].erase("left_wheel");
+  }
+  std::istringstream stream(pack(records));
+  LogReader reader(test::stream_source(stream), "log");
+  while (reader.next()) {
+  }
+  EXPECT_THAT(reader.warnings(),
+              ElementsAre("log: 30 of 60 records lack numbers of servos for longer than 20 ms"));
+}
+
+/// As Upkie's own programs log, if the observation has no time.
+TEST(UglyLogs, StampsAreThoseOfTheRecordsWhoseObservationsHaveNoTime) {
+  std::vector<json> records = upkie_records(40);
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    records[k]["observation"].erase("time");
+    records[k]["time"] = 1.7e9 + 0.001 * static_cast<double>(k);
+  }
+  const std::string bytes = pack(records);
+  std::istringstream stream(bytes);
+  LogReader reader(test::stream_source(stream), "log");
+  for (std::int64_t k = 0; reader.next(); ++k) {
+    EXPECT_NEAR(static_cast<double>(reader.stamp() - 1'700'000'000'000'000'000 - 1'000'000 * k),
+                0.0, 200.0);
+  }
+}
+
 TEST(UglyLogs, TimesInAnotherUnitThanSecondsAreRefusedByName) {
   for (const auto& [factor, unit] : std::vector<std::pair<double, std::string>>{
            {1e3, "milliseconds"}, {1e6, "microseconds"}, {1e9, "nanoseconds"}}) {
