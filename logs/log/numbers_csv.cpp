@@ -80,6 +80,21 @@ char separator_of(std::string_view header) {
   return best;
 }
 
+/// Whether a file begins with this row in UTF-16, such as Excel's "Unicode text": half of the bytes
+/// of Latin letters are zero.
+bool is_utf_16(std::string_view first_row) {
+  if (first_row.starts_with("\xff\xfe") || first_row.starts_with("\xfe\xff")) return true;
+  constexpr std::string_view zero = "\u2400";  // in `CsvRows`
+  const bool begins_with_zero = first_row.starts_with(zero);
+  const std::size_t second = std::min(begins_with_zero ? zero.size() : 1, first_row.size());
+  return begins_with_zero != first_row.substr(second).starts_with(zero);
+}
+
+/// Whether carriage returns are within this row, not only at its end.
+bool has_inner_return(std::string_view row) {
+  return row.find('\r') < row.find_last_not_of('\r') + 1;
+}
+
 bool is_comment(std::string_view row) { return row.starts_with('#') || row.starts_with('%'); }
 
 /// A decimal comma, as in files with semicolons between cells.
@@ -107,6 +122,7 @@ NumbersCsv::NumbersCsv(const std::filesystem::path& path, const Config& config)
   std::string comment;
   bool has_line = false;
   while (!has_line && rows_.next()) {
+    require_lines();
     has_line = !is_comment(rows_.row());
     if (!has_line) comment = rows_.row();
   }
@@ -123,6 +139,7 @@ void NumbersCsv::find_names(const std::string& comment) {
   separator_ = separator_of(rows_.row());
   rows_.separate_by(separator_);
   require_closed_quotes();
+  require_known_separator();
   const bool has_numbers_alone = std::ranges::all_of(
       rows_.cells(), [](const CsvCell& cell) { return number_of<double>(cell.text).has_value(); });
   if (comment.empty() || !has_numbers_alone) return take_names(rows_.cells());
@@ -133,6 +150,30 @@ void NumbersCsv::find_names(const std::string& comment) {
   names.separate_by(separator_);
   has_row_ = names.cells().size() == rows_.cells().size();
   take_names(has_row_ ? names.cells() : rows_.cells());
+}
+
+/// Errors: `InputError` for an encoding, or line ends, with which no line has the names.
+void NumbersCsv::require_lines() const {
+  if (rows_.line() == 1 && is_utf_16(rows_.row())) {
+    throw InputError(fmt::format("{}: is UTF-16: save it as UTF-8", file_));
+  }
+  if (has_inner_return(rows_.row())) {
+    throw InputError(fmt::format(
+        "{}: its lines end with CR alone: save it with the line ends LF or CR LF", file_));
+  }
+}
+
+/// Errors: `InputError` for a line that is one cell, but has blanks or bars between its words.
+void NumbersCsv::require_known_separator() const {
+  const std::vector<CsvCell>& cells = rows_.cells();
+  if (cells.size() > 1 || cells.front().is_quoted) return;
+  const std::string_view line = cells.front().text;
+  const char found = line.find('|') != std::string_view::npos ? '|' : ' ';
+  const std::size_t at = line.find(found);
+  if (at == std::string_view::npos) return;
+  complain_at(cells.front().column + at,
+              fmt::format("expected commas, semicolons or tabs between columns, found {}",
+                          found == ' ' ? "blanks" : "'|'"));
 }
 
 void NumbersCsv::take_names(const std::vector<CsvCell>& cells) {
@@ -182,12 +223,23 @@ bool NumbersCsv::is_cut_off() {
 void NumbersCsv::take_values() {
   const std::vector<CsvCell>& cells = rows_.cells();
   if (cells.size() != values_.size()) {
-    complain_at(cells.back().column,
-                fmt::format("expected {} values, found {}", values_.size(), cells.size()));
+    complain_at(cells.back().column, fmt::format("expected {} values, found {}{}", values_.size(),
+                                                 cells.size(), decimal_comma_hint()));
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (needed_[i]) values_[i] = value_of<double>(cells[i]);
   }
+}
+
+/// A question, if this row may have too many cells because its numbers have decimal commas.
+std::string NumbersCsv::decimal_comma_hint() const {
+  const std::vector<CsvCell>& cells = rows_.cells();
+  const bool are_parts = std::ranges::all_of(cells, [](const CsvCell& cell) {
+    return cell.text.find('.') == std::string_view::npos && number_of<double>(cell.text);
+  });
+  if (separator_ != ',' || cells.size() <= values_.size() || !are_parts) return {};
+  return ": do the numbers have a decimal comma? Write points, or separate the columns by "
+         "semicolons or tabs";
 }
 
 double NumbersCsv::rest(std::size_t column) const {
@@ -204,7 +256,14 @@ Real NumbersCsv::value_of(const CsvCell& cell) const {
     value = *config_.empty_cell;
   }
   if (!value && separator_ != ',') value = number_with_comma<Real>(cell.text);
-  if (!value) complain_at(cell.column, fmt::format("expected a number, found '{}'", cell.text));
+  if (!value) {
+    const bool has_comma = number_with_comma<Real>(cell.text).has_value();
+    complain_at(cell.column,
+                fmt::format("expected a number, found '{}'{}", cell.text,
+                            has_comma ? ": a decimal comma is read only where semicolons or tabs "
+                                        "separate the columns"
+                                      : ""));
+  }
   return *value;
 }
 

@@ -18,6 +18,7 @@ namespace touchdown::logs {
 /// is in seconds since 1970. Empty lines, and comments from # or % on, are skipped; a comment
 /// before numbers may hold the names. Quoted cells may contain commas and must end on the same
 /// line. Errors: `InputError` with file:line:column for
+/// - UTF-16, lines that end with CR alone, or columns with blanks or '|' between them;
 /// - a file without names, or a row of another length;
 /// - a cell that is not a number, or a quote without end.
 class NumbersCsv {
@@ -52,8 +53,11 @@ class NumbersCsv {
 
  private:
   void find_names(const std::string& comment);
+  void require_lines() const;
+  void require_known_separator() const;
   void take_names(const std::vector<CsvCell>& cells);
   void require_closed_quotes() const;
+  std::string decimal_comma_hint() const;
   bool is_cut_off();
   void take_values();
   template <typename Real>

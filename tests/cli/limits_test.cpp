@@ -175,12 +175,14 @@ TEST_F(Limits, TextsOfFilesReachTheTerminalWithoutEscapes) {
                                        "2,1\n",
                                        24));
   folder_.write("wide.csv", std::string("s\0,\0", 4));
+  folder_.write("name.csv", std::string("st\0art,end\n", 11));
   folder_.expect_refusals(
       {{"simulate k.yaml -o x.mpack", {"k\\x1b[2J"}},
        {estimate + "--labels l.csv", {"cont\\x1b[31mact"}},
        {estimate + "--labels m.csv", {"\\u009b2J"}},
        {estimate + "--labels nul.csv", {"found '1\u24002'"}},  // not cut at a byte of value 0
-       {estimate + "--labels wide.csv", {"s\u2400", "expected start"}},
+       {estimate + "--labels name.csv", {"st\u2400art", "expected start"}},
+       {estimate + "--labels wide.csv", {"wide.csv: is UTF-16"}},
        {"estimate 'no\x1b]0;t\x07\nne' --estimator free_fall",
         {"no\\x1b]0;t\\x07\\nne: no such file"}}});
   folder_.write("e.yaml", "# A scene.\nname: \"x\\e[31m\\nnext\"\n");
