@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -289,6 +290,12 @@ const RecordingInfo& LogReader::info() {
 
 std::int64_t LogReader::period_us_of(const std::vector<double>& times) const {
   const std::optional<double> step = typical_step(times);
+  const auto first_back = std::ranges::adjacent_find(times, std::greater<>());
+  if (!step && first_back != times.end()) {
+    throw InputError(fmt::format(
+        "{}: observation.time: times decrease from record {} on: sort the records by time", name_,
+        first_back - times.begin() + 2));
+  }
   if (!step) {
     throw InputError(
         fmt::format("{}: observation.time: expected times that increase within 200 rows: do the "

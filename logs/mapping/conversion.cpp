@@ -235,7 +235,8 @@ class MappedRecords final : public RecordSource {
     return false;
   }
 
-  /// Errors: `InputError` for a clock that counts another unit than the mapping states.
+  /// Errors: `InputError` for a clock that counts another unit than the mapping states, or runs
+  /// backwards.
   void check_clock() const {
     const double step = typical_step(first_times_).value_or(0.0);
     const std::string unit = unit_of_step(step);
@@ -244,6 +245,11 @@ class MappedRecords final : public RecordSource {
     for (const double time : first_times_) fractions.add(time);
     if (fractions.count() > 0) {
       throw InputError(fmt::format("{}: time goes back, {}", log_, fractions.text()));
+    }
+    if (3 * converted_.time_reversals > 2 * (converted_.rows - 1)) {
+      throw InputError(
+          fmt::format("{}: times decrease from here on, at {} of {} rows: sort the rows by time",
+                      first_reversal_, converted_.time_reversals, converted_.rows));
     }
     if (!unit.empty() && converted_.rows > few && mapping_.time &&
         mapping_.time->time.unit == 1.0) {
@@ -274,7 +280,9 @@ class MappedRecords final : public RecordSource {
     if (!is_whole) ++converted_.incomplete_rows;
     if (!std::isfinite(time)) return;
     if (has_time_) {
-      if (time < converted_.end) ++converted_.time_reversals;
+      if (time < converted_.end && converted_.time_reversals++ == 0) {
+        first_reversal_ = rows_->place();
+      }
       if (time > converted_.end + longest_period) ++long_steps_;
     } else {
       converted_.start = time;
@@ -326,6 +334,7 @@ class MappedRecords final : public RecordSource {
   bool is_at_end_ = false;
   ConvertedLog converted_;
   std::uint64_t long_steps_ = 0;
+  std::string first_reversal_;  ///< its place
   bool has_time_ = false;
   std::ostringstream stream_;  ///< the bytes of the present record
   std::optional<LogWriter> writer_;

@@ -12,7 +12,9 @@
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "core/table.hpp"
 #include "logs/bags/source_join.hpp"
+#include "logs/log/contact_intervals.hpp"
 #include "logs/mapping/row_source.hpp"
 
 namespace touchdown::logs {
@@ -76,9 +78,9 @@ class JoinedSource : public RowSource {
     const ClockSteps& steps = join_->report(source).steps;
     if (!steps.is_scrambled) return;
     throw InputError(fmt::format(
-        "{}: times of {} go back {} times, first at {} {} (to {:.6g} s): {}", log_.string(),
+        "{}: times of {} go back {} times, first at {} {} (to {} s): {}", log_.string(),
         names_[source].file, steps.steps_back, row_name(), steps.first_back.position,
-        steps.first_back.time,
+        exact(to_microsecond(steps.first_back.time)),
         are_topics() ? "do publishers with clocks of their own share the topic? `time: {from: "
                        "log_time}` takes the times of recording"
                      : "sort its rows by time"));
@@ -115,9 +117,10 @@ class JoinedSource : public RowSource {
     }
     if (steps.left_out > 0) {
       warn(source, fmt::format("{} of {} {}s are left out because times around theirs contradict "
-                               "them, first {} {} ({:.6g} s)",
+                               "them, first {} {} ({} s)",
                                steps.left_out, with_time, row_name(), row_name(),
-                               steps.first_left_out.position, steps.first_left_out.time));
+                               steps.first_left_out.position,
+                               exact(to_microsecond(steps.first_left_out.time))));
     }
   }
 

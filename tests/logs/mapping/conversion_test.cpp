@@ -287,6 +287,26 @@ TEST_F(Conversion, LabelsAreIntervalsOfEqualRows) {
               HasSubstr("log.csv:6: contact labels need increasing times: 1 s comes after 1.5"));
 }
 
+TEST_F(Conversion, ALogBackwardsNamesItsFirstRowThatGoesBack) {
+  const auto log_at = [](const std::vector<double>& times) {
+    std::string text = names + "\n";
+    for (const double time : times) text += row(fmt::format("{}", time)) + "\n";
+    return text;
+  };
+  std::vector<double> times;
+  for (int k = 0; k < 300; ++k) times.push_back(1.7e9 + 0.01 * (300 - k));
+  const auto refused = [&] { return complaint(log_at(times), mapping_head); };
+  EXPECT_THAT(refused(),
+              HasSubstr("log.csv:3: times decrease from here on, at 199 of 200 rows: sort"));
+  std::swap(times[0], times[1]);  // the newest rows are nearly so
+  EXPECT_THAT(refused(), HasSubstr("log.csv:4: times decrease"));
+  times = {2.0, 2.0, 1.0, 0.5, 0.25};
+  EXPECT_THAT(refused(), HasSubstr("log.csv:4: times decrease from here on, at 3 of 5 rows"));
+  times.clear();
+  for (int k = 0; k < 300; ++k) times.push_back(0.01 * (k ^ 1));  // pairs are exchanged
+  EXPECT_EQ(convert(log_at(times)).size(), 300U);
+}
+
 TEST_F(Conversion, LabelsEndWithTheLogWhateverItsClockSkipped) {
   std::string text = names + ",c\n";
   for (const char* time : {"0", "0.01", "0.02", "86400", "86400.01"}) text += row(time) + ",1\n";

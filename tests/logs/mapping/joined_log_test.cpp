@@ -709,6 +709,19 @@ TEST_F(ClocksOfFiles, ScrambledRowsAreRefused) {
   }
 }
 
+TEST_F(ClocksOfFiles, TimesInMessagesHaveTheDigitsOfTheFile) {
+  for (auto* rows : {&joints_, &imu_}) {
+    for (Shown& row : *rows) row.clock = "173254000" + row.clock;
+  }
+  const auto in_order = imu_;
+  std::ranges::reverse(imu_);
+  EXPECT_THAT(complaint_of_files(), HasSubstr("(to 1732540000.89"));
+  imu_ = in_order;
+  imu_[70].clock = "1732540999.25";
+  converted_rows();
+  EXPECT_THAT(converted_.warnings, Contains(HasSubstr("first row 71 (1732540999.25 s)")));
+}
+
 TEST_F(ClocksOfFiles, RowsOfSmallDisorderAreSorted) {
   std::mt19937 random(7);
   for (auto* rows : {&joints_, &imu_}) {
