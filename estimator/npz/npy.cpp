@@ -83,6 +83,8 @@ constexpr std::array number_types = {
 std::string conversion_of(std::string_view type) {
   if (type.starts_with("<M8")) return "array.astype('M8[ns]').astype(float) / 1e9";
   if (type.starts_with("<m8")) return "array.astype('m8[ns]').astype(float) / 1e9";
+  // `astype` takes objects that are numbers, not those that are lists of them.
+  if (type == "|O") return "np.array(array.tolist(), float)";
   return "array.astype(float)";
 }
 

@@ -204,11 +204,19 @@ struct ArrayColumn {
   std::size_t stride = 1;
 };
 
+std::size_t width_of(const ModelArray& array) {
+  return array.shape.size() == 2 ? array.shape[1] : 1;
+}
+
 ArrayColumn column_of(const ModelArrays& arrays, const SourceColumn& column,
                       const std::filesystem::path& path) {
   const ModelArray& array = arrays.at(column.name);
-  const std::size_t width = array.shape.size() == 2 ? array.shape[1] : 1;
+  const std::size_t width = width_of(array);
   if (!column.index && width != 1) {
+    if (array.shape[0] == 1) {
+      throw InputError(fmt::format("{}: {}: is 1 × {}: expected one axis: array.ravel() makes it",
+                                   path.string(), column.name, width));
+    }
     throw InputError(fmt::format("{}: {}: has two axes ({}): expected 'index' to select a column",
                                  path.string(), column.name, fmt::join(array.shape, " × ")));
   }
@@ -228,10 +236,11 @@ class ArrayFile final : public FileSource {
       : FileSource(path, notes), path_(path) {
     names_.are_arrays = true;
     names_.names = npz_names(path);
-    names_.width = [path](const std::string& name) -> std::size_t {
+    names_.shape = [path](const std::string& name) -> std::array<std::size_t, 2> {
       const ModelArrays one = read_npz(path, [&](std::string_view other) { return other == name; });
       const auto found = one.find(name);
-      return found != one.end() && found->second.shape.size() == 2 ? found->second.shape[1] : 1;
+      if (found == one.end()) return {0, 1};
+      return {found->second.shape[0], width_of(found->second)};
     };
   }
 
@@ -250,11 +259,7 @@ class ArrayFile final : public FileSource {
             path_, [&](std::string_view name) { return name == column.name; }, NpyPart::rest);
         columns_.back() = column_of(rest_, column, path_);
       }
-      const std::size_t size = arrays_.at(column.name).shape.front();
-      if (size != rows_) {
-        throw InputError(fmt::format("{}: {} has {} rows, and {} has {}", names_.file, column.name,
-                                     size, first, rows_));
-      }
+      require_rows(column.name, first);
     }
   }
 
@@ -269,6 +274,20 @@ class ArrayFile final : public FileSource {
   std::string place() const override { return fmt::format("{}: row {}", names_.file, next_ - 1); }
 
  private:
+  /// Errors: `InputError` for an array of another number of rows than the first one.
+  void require_rows(const std::string& name, const std::string& first) const {
+    const ModelArray& array = arrays_.at(name);
+    if (array.shape[0] == rows_) return;
+    const ModelArray& other = arrays_.at(first);
+    const std::string lengths = fmt::format("{}: {} has {} rows, and {} has {}", names_.file, name,
+                                            array.shape[0], first, rows_);
+    const bool is_transposed = width_of(array) == rows_;
+    if (!is_transposed && width_of(other) != array.shape[0]) throw InputError(lengths);
+    throw InputError(fmt::format(
+        "{}: {} is {}: expected a row for each time: array.T transposes it", lengths,
+        is_transposed ? name : first, fmt::join((is_transposed ? array : other).shape, " × ")));
+  }
+
   std::filesystem::path path_;
   ModelArrays arrays_;
   ModelArrays rest_;  ///< of the clock

@@ -64,8 +64,8 @@ struct SourceNames {
   /// Whether columns NAME/position, NAME/velocity and NAME/effort follow from the names of joints
   /// in the rows: of a topic, or of a file with such names.
   bool has_joint_names = false;
-  /// The number of columns of an array; 1 for an array with one axis. May be empty: unknown.
-  std::function<std::size_t(const std::string& name)> width = {};
+  /// The numbers of rows and columns of an array; 1 column for one axis. May be empty: unknown.
+  std::function<std::array<std::size_t, 2>(const std::string& name)> shape = {};
 };
 
 /// The numbers of one signal, converted by `in_our_convention`.

@@ -227,7 +227,7 @@ void describe_imu(Fields& fields, MappingReader& reader, LogMapping& mapping) {
 
 /// Whether the name is that of an array with a column for each wheel.
 bool is_wide(const SourceNames& names, const YAML::Node& name) {
-  return names.width && name.IsScalar() && names.width(name.Scalar()) == models::wheel_count;
+  return names.shape && name.IsScalar() && names.shape(name.Scalar())[1] == models::wheel_count;
 }
 
 void describe_contact(Fields& fields, MappingReader& reader, LogMapping& mapping) {

@@ -221,7 +221,15 @@ std::vector<SourceColumn> MappingReader::columns_of(Fields& fields, const Signal
   // The numbers of a signal can be columns of one array.
   const bool are_arrays = names().are_arrays;
   const bool is_of_one = are_arrays && from.size() == 1;
-  if (is_of_one && names().width) require_index(names().width(from.front()));
+  if (is_of_one && names().shape) {
+    const auto [rows, columns] = names().shape(from.front());
+    const bool is_transposed = rows == kind.count && columns > kind.count;
+    fields.check(kind.count == 1 || !is_transposed || fields.present("index", false), "from",
+                 fmt::format("'{}' is {} × {}: expected N × {}, a row for each time: array.T "
+                             "transposes it",
+                             from.front(), rows, columns, kind.count));
+    require_index(columns);
+  }
   fields.check(
       is_of_one || from.size() == kind.count, "from",
       fmt::format(fmt::runtime(are_arrays ? "expected an array with two axes, or {} with one: {}"

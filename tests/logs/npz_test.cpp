@@ -129,7 +129,9 @@ TEST(Npz, NamesTheLineOfNumPyThatMendsAnArray) {
       {"np.array([1.5, 2.5], '>f8')", {1.5, 2.5}},
       {"np.array([1.5, 2.5], 'f2')", {1.5, 2.5}},
       {"np.array(['2024-02-28T21:56:41.5'], 'M8[ms]')", {1709157401.5}},
-      {"np.array([1500], 'm8[ms]')", {1.5}}};
+      {"np.array([1500], 'm8[ms]')", {1.5}},
+      {"np.array([[1.5, 2], [3, True]], object)", {1.5, 2, 3, 1}},
+      {"np.fromiter(([1.5, 2], np.array([3, 4])), object)", {1.5, 2, 3, 4}}};
   for (const auto& [made, numbers] : cases) {
     const ScratchFolder folder;
     ASSERT_TRUE(runs("np.savez('a.npz', a=" + made + ")", folder));
@@ -137,7 +139,9 @@ TEST(Npz, NamesTheLineOfNumPyThatMendsAnArray) {
     const std::size_t end = complaint.find(" makes ");
     const std::string line =
         complaint.substr(0, end).substr(complaint.substr(0, end).rfind(": ") + 2);
-    ASSERT_TRUE(runs("array = np.load('a.npz')['a']\nnp.savez('a.npz', a=" + line + ")", folder))
+    ASSERT_TRUE(
+        runs("array = np.load('a.npz', allow_pickle=True)['a']\nnp.savez('a.npz', a=" + line + ")",
+             folder))
         << complaint;
     EXPECT_EQ(read_npz(folder / "a.npz").at("a").data, numbers) << complaint;
   }

@@ -314,16 +314,17 @@ TEST_F(Conversion, LabelsEndWithTheLogWhateverItsClockSkipped) {
   EXPECT_EQ(to_csv(converted_.contact), "start,end,left,right\n0,86400.02,1,1\n");
 }
 
-/// A log of four rows as arrays.
-ModelArrays sample_arrays() {
-  const auto array = [](std::size_t columns) {
-    ModelArray made{{4, columns}, {}};
-    for (std::size_t i = 0; i < 4 * columns; ++i) made.data.push_back(static_cast<double>(i));
+/// A log of four rows as arrays, or of more.
+ModelArrays sample_arrays(std::size_t rows = 4) {
+  const auto array = [rows](std::size_t columns) {
+    ModelArray made{{rows, columns}, {}};
+    for (std::size_t i = 0; i < rows * columns; ++i) made.data.push_back(static_cast<double>(i));
     return made;
   };
   ModelArrays arrays = {{"q", array(7)}, {"v", array(6)}, {"m", array(6)}, {"o", array(4)}};
   arrays["g"] = arrays["a"] = array(3);
-  arrays["t"] = {{4}, {0.0, 0.1, 0.2, 0.3}};
+  arrays["t"] = {{rows}, {}};
+  for (std::size_t i = 0; i < rows; ++i) arrays["t"].data.push_back(0.1 * static_cast<double>(i));
   arrays["left"] = arrays["right"] = array(1);
   return arrays;
 }
@@ -351,6 +352,31 @@ TEST_F(Conversion, ArraysAreReadByTheirColumns) {
   EXPECT_EQ(o.servo[5].torque, 2 * 6 + 5);
   EXPECT_EQ(o.imu.linear_acceleration, Eigen::Vector3d(6.0, 7.0, 8.0));
   EXPECT_EQ(converted_.contact.intervals.size(), 2U);
+}
+
+TEST_F(Conversion, ATransposedArrayIsNamed) {
+  const auto refused = [&](const std::string& name, const std::string& mapping) {
+    ModelArrays arrays = sample_arrays(9);
+    std::vector<std::size_t>& shape = arrays.at(name).shape;
+    shape.resize(2, 1);
+    std::swap(shape[0], shape[1]);
+    write_npz(arrays, folder_ / "log.npz");
+    return MappedLogs::complaint(folder_ / "log.npz", mapping);
+  };
+  for (const auto& [name, width] :
+       {std::pair{"v", 6}, std::pair{"m", 6}, std::pair{"o", 4}, std::pair{"g", 3}}) {
+    EXPECT_THAT(refused(name, array_mapping),
+                HasSubstr(fmt::format("'{0}' is {1} × 9: expected N × {1}, a row for each time: "
+                                      "array.T transposes it",
+                                      name, width)));
+  }
+  EXPECT_THAT(refused("q", array_mapping),
+              HasSubstr("q has 7 rows, and t has 9: q is 7 × 9: expected a row for each time: "
+                        "array.T transposes it"));
+  EXPECT_THAT(refused("q", replaced(array_mapping, "time: {from: t}", "period: 0.001")),
+              HasSubstr("v has 9 rows, and q has 7: q is 7 × 9"));
+  EXPECT_THAT(refused("t", array_mapping),
+              HasSubstr("t: is 1 × 9: expected one axis: array.ravel() makes it"));
 }
 
 // Habits of other programs ----------------------------------------------------------------------
