@@ -365,7 +365,7 @@ void add_estimate(CLI::App& program, const CliSession& session) {
           "-o,--output", &flags->request.outputs,
           "Beliefs as FILE.csv, as a ROS 2 bag FILE.mcap to play beside the log's, or the log "
           "with\nbeliefs in it as FILE.mpack, or all; - prints the table. With several logs, each "
-          "file's\nname begins with the log's name")
+          "file's\nname begins with the log's name, behind its folder's if logs have equal names")
       .value_name("FILE")
       .one_at_a_time();
   verb.option("--figure", &flags->request.figure, "Figure of signals and beliefs over time")

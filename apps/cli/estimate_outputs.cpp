@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <iostream>
+#include <iterator>
+#include <map>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,10 +19,39 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path named_after(const std::string& log, const fs::path& output) {
+/// What the outputs of each log begin with: the log's name, behind as few names of its folders as
+/// tell logs of equal names apart.
+std::vector<std::string> output_names(const std::vector<std::string>& logs) {
+  std::vector<fs::path> paths;
+  for (const std::string& log : logs) {
+    const fs::path path = absolute_path(log).lexically_normal();
+    paths.push_back(path.has_filename() ? path : path.parent_path());  // "bag/"
+  }
+  std::vector<std::string> names;
+  for (const fs::path& path : paths) {
+    std::vector<fs::path> others;
+    std::ranges::copy_if(paths, std::back_inserter(others), [&](const fs::path& other) {
+      return other != path && other.stem() == path.stem();
+    });
+    const bool is_beside = std::erase_if(others, [&](const fs::path& other) {
+                             return other.parent_path() == path.parent_path();
+                           }) > 0;
+    std::string name = (is_beside ? path.filename() : path.stem()).string();
+    for (fs::path folder = path.parent_path(); !others.empty(); folder = folder.parent_path()) {
+      for (fs::path& other : others) other = other.parent_path();
+      const bool differs = std::erase_if(others, [&](const fs::path& other) {
+                             return other.filename() != folder.filename();
+                           }) > 0;
+      if (differs && folder.has_filename()) name = folder.filename().string() + "_" + name;
+    }
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+fs::path named_after(const std::string& name, const fs::path& output) {
   if (output.empty() || output == "-") return output;
-  const std::string stem = log == "-" ? "stdin" : fs::path(log).stem().string();
-  return output.parent_path() / (stem + "_" + output.filename().string());
+  return output.parent_path() / (name + "_" + output.filename().string());
 }
 
 EstimateOutputs sorted_by_kind(const EstimateRequest& request) {
@@ -56,11 +88,18 @@ EstimateOutputs sorted_by_kind(const EstimateRequest& request) {
   return result;
 }
 
-void check(const fs::path& output, std::set<fs::path>& seen) {
+/// `seen` has the outputs so far, and the log of each.
+void check(const fs::path& output, const std::string& log,
+           std::map<fs::path, const std::string*>& seen) {
   if (output.empty() || output == "-") return;
-  if (!seen.insert(absolute_path(output).lexically_normal()).second) {
-    throw InputError(fmt::format("{}: would be written twice: name another file", output.string()));
-  }
+  const auto [first, is_new] = seen.emplace(absolute_path(output).lexically_normal(), &log);
+  if (is_new) return;
+  const bool is_of_one_log = first->second == &log;
+  throw InputError(fmt::format(
+      "{}: would be written twice{}", output.string(),
+      is_of_one_log
+          ? ": name another file"
+          : fmt::format(", for {} and {}: estimate one log after the other", *first->second, log)));
 }
 
 void write_file(const fs::path& path, const std::function<void(std::ostream*)>& use) {
@@ -103,21 +142,22 @@ std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& lo
   if (live && logs.size() > 1) throw InputError("estimate: '-', a live stream, is read alone");
   if (live && given.csv.empty()) given.csv = "-";
   std::vector<EstimateOutputs> all;
-  std::set<fs::path> seen;
+  std::map<fs::path, const std::string*> seen;
   std::vector<InputFile> inputs = {{options.model, "model"}};
   for (const std::string& file : labels) inputs.push_back({file, "file of labels"});
   for (const std::string& log : logs) add_log(log, options.mapping, inputs);
   std::vector<fs::path> files;
   std::set<fs::path> styles;  // one style file for all figures of a folder
-  for (const std::string& log : logs) {
+  const std::vector<std::string> names = output_names(logs);
+  for (std::size_t i = 0; i < logs.size(); ++i) {
     EstimateOutputs own = given;
     if (logs.size() > 1) {
-      own = {named_after(log, given.csv), named_after(log, given.mpack),
-             named_after(log, given.mcap), named_after(log, given.figure),
-             named_after(log, given.proposal)};
+      own = {named_after(names[i], given.csv), named_after(names[i], given.mpack),
+             named_after(names[i], given.mcap), named_after(names[i], given.figure),
+             named_after(names[i], given.proposal)};
     }
     for (const fs::path& output : {own.csv, own.mpack, own.mcap, own.figure, own.proposal}) {
-      check(output, seen);
+      check(output, logs[i], seen);
       if (!output.empty() && output != own.figure) files.push_back(output);
     }
     for (const fs::path& file : figure_files(own.figure)) files.push_back(file);

@@ -36,9 +36,9 @@ struct EstimateRequest {
 };
 
 /// Assigns outputs by their extensions, `.csv`, `.mpack` and `.mcap`. For several logs, each
-/// output's name begins with the log's name. Errors: `InputError` for another extension, two
-/// outputs of one kind, an output that two logs share, and those of `check_outputs`; `Error` for an
-/// output that cannot be written.
+/// output's name begins with the log's name, behind the folder's where logs have equal names.
+/// Errors: `InputError` for another extension, two outputs of one kind, an output that two logs
+/// share, and those of `check_outputs`; `Error` for an output that cannot be written.
 std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& logs,
                                               const LogOptions& options,
                                               const std::vector<std::string>& labels,

@@ -341,6 +341,37 @@ TEST_F(Estimate, OfSeveralLogsNamesEachResultAfterItsLog) {
   EXPECT_EQ(table("out/b_x.csv").size(), 500U);
 }
 
+TEST_F(Estimate, OfLogsWithEqualNamesAddsTheFoldersThatTellThemApart) {
+  for (const char* folder : {"s1/x", "s1/y", "s2/x", "s3", "s3/run_1.0", "s3/run_1.5"}) {
+    fs::create_directories(folder_ / folder);
+    log(fmt::format("{}/robot.mpack", folder), test::synthetic_log(0.4));
+  }
+  log("s3/other.mpack", test::synthetic_log(0.4));
+  const std::string own = folder_.path().filename().string();
+  log("robot.mpack", test::synthetic_log(0.4));
+  const auto expect_named = [&](const std::string& logs, const std::vector<std::string>& names) {
+    estimate(logs + " --model m.npz -o out/b.csv --propose out/p.csv");
+    for (const std::string& name : names) {
+      EXPECT_TRUE(folder_.has("out/" + name + "_b.csv")) << logs << ": " << name;
+      EXPECT_TRUE(folder_.has("out/" + name + "_p.csv")) << logs << ": " << name;
+    }
+    EXPECT_EQ(entries_in(folder_ / "out").size(), 2 * names.size()) << logs;
+    fs::remove_all(folder_ / "out");
+  };
+  expect_named("s1/x/robot.mpack s1/y/robot.mpack", {"x_robot", "y_robot"});
+  expect_named("s1/x/robot.mpack ./s2/x/robot.mpack s3/other.mpack",
+               {"s1_robot", "s2_robot", "other"});
+  expect_named("s1/x/robot.mpack s1/y/robot.mpack s2/x/robot.mpack",
+               {"s1_x_robot", "y_robot", "s2_x_robot"});
+  expect_named("robot.mpack s3/robot.mpack", {own + "_robot", "s3_robot"});
+  expect_named("s3/run_1.0/robot.mpack s3/run_1.5/robot.mpack", {"run_1.0_robot", "run_1.5_robot"});
+  folder_.expect_refusals(
+      {{"estimate s3/robot.mpack s1/../s3/robot.mpack --model m.npz -o b.csv",
+        {"robot_b.csv: would be written twice, for s3/robot.mpack and s1/../s3/robot.mpack"}},
+       {"estimate s3/robot.mpack s3/other.mpack --model m.npz -o b.csv --propose b.csv",
+        {"robot_b.csv: would be written twice: name another file"}}});
+}
+
 TEST_F(Estimate, RecognizesTheEstimatorOfAModel) {
   log("a.mpack", test::synthetic_log(3.0));
   folder_.output_of("fit a.mpack -o p.npz --estimator paper --grid 60 60 --no-accuracy");
