@@ -276,6 +276,13 @@ void YamlDocument::override_value(std::string_view assignment) {
     }
     keys.push_back(key);
   }
+  const std::string name(assignment.substr(0, equals));
+  for (const Origin& origin : origins_) {
+    if (origin.is_assignment && (origin.key == name || origin.key.starts_with(name + "."))) {
+      throw InputError(
+          fmt::format("--set {}: would replace {}: give one of them", assignment, origin.source));
+    }
+  }
 
   YAML::Node parent = root_;
   for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
@@ -289,8 +296,7 @@ void YamlDocument::override_value(std::string_view assignment) {
   } else {
     parent[keys.back()] = value;
   }
-  origins_.push_back({std::string(assignment.substr(0, equals)),
-                      fmt::format("--set {}", assignment), true, YAML::Mark::null_mark()});
+  origins_.push_back({name, fmt::format("--set {}", assignment), true, YAML::Mark::null_mark()});
 }
 
 std::string YamlDocument::place_of(const YAML::Node& node, std::string_view key) const {

@@ -25,7 +25,8 @@ class YamlDocument {
   static YamlDocument parse(const std::string& text, const std::string& name);
 
   /// Replaces the value at a dotted key (list items by number), for example `noise.seeds=3`.
-  /// Does not check whether the key is valid: the code that reads the document does.
+  /// Does not check whether the key is valid: the code that reads the document does. Errors:
+  /// `InputError` for an assignment that is none, or replaces an earlier one.
   void override_value(std::string_view assignment);
 
   /// Adds what `base` has and this document has not. Mappings are merged key by key; of lists and

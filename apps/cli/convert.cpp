@@ -151,7 +151,7 @@ std::string name_of(const std::filesystem::path& header) {
   return std::isdigit(static_cast<unsigned char>(name.front())) != 0 ? "model_" + name : name;
 }
 
-/// Errors: `InputError` for an assignment that is not key=value.
+/// Errors: `InputError` for an assignment that is not key=value, or for a key that has another one.
 ConfigurationText configuration_of(const std::vector<std::string>& assignments) {
   ConfigurationText configuration;
   for (const std::string& one : assignments) {
@@ -159,7 +159,10 @@ ConfigurationText configuration_of(const std::vector<std::string>& assignments) 
     if (equals == 0 || equals == std::string::npos) {
       throw InputError(fmt::format("--set: {}: expected NAME=VALUE, as in leave_below=0.05", one));
     }
-    configuration[one.substr(0, equals)] = one.substr(equals + 1);
+    const std::string name = one.substr(0, equals);
+    if (!configuration.emplace(name, one.substr(equals + 1)).second) {
+      throw InputError(fmt::format("--set: {}: '{}' is set twice", one, name));
+    }
   }
   return configuration;
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -334,7 +335,18 @@ void estimate(const EstimateFlags& flags, const CliSession& session) {
   }
   if (flags.strict) require_no_findings(findings);
 }
+/// Errors: `InputError` for a part of the figure that is none, or without a figure.
+void check_drawn(const DrawnPart& drawn, const std::string& figure) {
+  if (figure.empty() && (std::isfinite(drawn.from) || std::isfinite(drawn.to))) {
+    throw InputError("--from and --to are the part that --figure shows: expected --figure");
+  }
+  if (drawn.to < drawn.from) {
+    throw InputError(fmt::format("--to: {} s is before --from, {} s", drawn.to, drawn.from));
+  }
+}
 
+
+  check_drawn(flags.drawn, flags.request.figure);
 }  // namespace
 
 void add_estimate(CLI::App& program, const CliSession& session) {

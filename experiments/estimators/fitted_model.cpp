@@ -19,7 +19,8 @@ HyperparameterValues hyperparameters_of(const std::vector<std::string>& assignme
         equals < one.size() ? number_of(one.substr(equals + 1)) : std::nullopt;
     if (equals == 0 || !value)
       throw InputError(fmt::format("{}: expected name=number, as in leave_below=0.05", one));
-    hyperparameters[one.substr(0, equals)] = *value;
+    if (!hyperparameters.emplace(one.substr(0, equals), *value).second)
+      throw InputError(fmt::format("{}: '{}' is set twice", one, one.substr(0, equals)));
   }
   return hyperparameters;
 }

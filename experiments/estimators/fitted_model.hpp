@@ -19,7 +19,8 @@ struct FittedModel : Model {
   HyperparameterValues hyperparameters = {};
 };
 
-/// Parses assignments of the form "name=number". Errors: `InputError` for anything else.
+/// Parses assignments of the form "name=number". Errors: `InputError` for anything else, and for a
+/// name that comes twice.
 HyperparameterValues hyperparameters_of(const std::vector<std::string>& assignments);
 
 /// Copies those values into the configuration of the metadata that it has.

@@ -153,6 +153,20 @@ TEST_F(WrongRequest, NamesWhatAFileIsAndWhatAKeyTakes) {
   });
 }
 
+TEST_F(WrongRequest, SetsAKeyOnce) {
+  const std::string run = "run " + write_tiny_experiment(folder_) + " --dry-run";
+  const std::string simulate = "simulate scenarios/flat.yaml -o x.mpack";
+  folder_.expect_refusals(
+      {{run + " --set seed=1 --set seed=2", {"--set seed=2: would replace --set seed=1"}},
+       {run + " --set seed=1 --set seed=1", {"--set seed=1: would replace --set seed=1"}},
+       {run + " --set noise.seeds=2 --set noise={}",
+        {"--set noise={}: would replace --set noise.seeds=2"}},
+       {simulate + " --set end.duration=1 --set terrain={} --set end.duration=2",
+        {"--set end.duration=2: would replace --set end.duration=1"}},
+       {"fit a.mpack -o m.npz --set leave_below=0.1 --set leave_below=0.2",
+        {"'leave_below' is set twice"}}});
+}
+
 TEST_F(WrongRequest, NamesAnOptionThatIsForAnotherConversion) {
   folder_.write("map.yaml", "joints: {}\n");
   folder_.write("log.csv", "a,b\n1,2\n");

@@ -175,6 +175,20 @@ TEST(YamlOverride, ReplacesValuesByDottedKeysAndItemNumbers) {
   EXPECT_EQ(read_yaml("name: x\n", {"noise.seeds=5"}).noise.seeds, 5) << "a key that was left out";
 }
 
+TEST(YamlOverride, ReplacesNoEarlierOne) {
+  const auto refused = [](const std::vector<std::string>& assignments) {
+    return complaint_of([&] { (void)read_yaml(good, assignments); });
+  };
+  EXPECT_THAT(refused({"duration=1", "name=x", "duration=2"}),
+              HasSubstr("--set duration=2: would replace --set duration=1: give one of them"));
+  EXPECT_THAT(refused({"runs.1.speed=1", "runs.1.speed=1"}), HasSubstr("would replace"));
+  EXPECT_THAT(refused({"runs.1.speed=1", "runs=[]"}),
+              HasSubstr("--set runs=[]: would replace --set runs.1.speed=1"));
+  // What is nested in an earlier one completes it.
+  EXPECT_EQ(refused({"runs=[{name: a}]", "runs.0.speed=1", "duration=1", "noise.seeds=3"}),
+            "no complaint");
+}
+
 TEST(Nearest, FindsTheEntryThatIsFewestEditsAway) {
   EXPECT_EQ(nearest("sede", {"speed", "seed", "noise"}), "seed");
   EXPECT_EQ(nearest("nothing_like_it", {"speed", "seed"}), "");
