@@ -102,14 +102,16 @@ class BeliefWriter {
     if (streams.mcap != nullptr) bag_.emplace(*streams.mcap);
   }
 
-  /// Call it before the first step, once the log's rate and robot are known.
-  void begin(const experiments::LogSteps& log, bool labelled) {
+  /// Call it before the first step, once the log's rate and robot are known. `labels`, which may be
+  /// null, must outlive this object.
+  void begin(const experiments::LogSteps& log, const logs::ContactIntervals* labels) {
     if (csv_ != nullptr) *csv_ << experiments::belief_columns;
-    is_labelled_ = labelled;
+    truth_ = labels;
     threshold_ = scoring::force_threshold(labels_, log.robot_mass());
     summary_.emplace(log.period(), scoring::ScoringConfig{});
-    if (proposes_labels_) proposal_.emplace(log.period());
-    score_.emplace(log.period_us(), labels_, log.robot_mass(), scoring::ScoringConfig{}, labelled);
+    if (proposes_labels_ || truth_ != nullptr) proposal_.emplace(log.period());
+    score_.emplace(log.period_us(), labels_, log.robot_mass(), scoring::ScoringConfig{},
+                   truth_ != nullptr);
   }
 
   /// Adds one step of `reader` and the estimator's belief after it.
@@ -157,20 +159,32 @@ class BeliefWriter {
   std::int64_t valid_steps() const { return summary_->valid_steps(); }
   double duration() const { return summary_->duration(); }
   const render::LogTrace& trace() const { return trace_; }
-  std::optional<experiments::LabelProposal> take_proposal() { return std::move(proposal_); }
+  std::optional<experiments::LabelProposal> take_proposal() {
+    if (!proposes_labels_) return std::nullopt;
+    return std::move(proposal_);
+  }
 
  private:
   /// What the truth of a score is.
   std::string label_line(double labelled_share) const {
     constexpr double all = 0.9995;
-    if (!is_labelled_) {
+    if (truth_ == nullptr) {
       return fmt::format(
           "{:<12} contact is a normal force above {} N, {:g} of the weight, over {:g} ms\n",
           "labels", readable(threshold_, 2), labels_.share, 1e3 * labels_.window);
     }
-    if (labelled_share >= all) return {};
-    return fmt::format("{:<12} cover {:.1f} % of the steps: the others are not scored\n", "labels",
-                       100.0 * labelled_share);
+    std::string text;
+    if (labelled_share < all) {
+      text = fmt::format("{:<12} cover {:.1f} % of the steps: the others are not scored\n",
+                         "labels", 100.0 * labelled_share);
+    }
+    if (proposal_->has_all(*truth_)) {
+      text += fmt::format(
+          "{:<12} are this estimator's own decisions, as --propose wrote them: the score is no "
+          "test before a person has corrected them\n",
+          "labels");
+    }
+    return text;
   }
 
   void require_written() const {
@@ -187,8 +201,8 @@ class BeliefWriter {
   }
 
   scoring::LabelConfig labels_;
-  bool is_labelled_ = false;  ///< by a file
-  double threshold_ = 0.0;    ///< of the log's own truth (N)
+  const logs::ContactIntervals* truth_ = nullptr;  ///< of a file
+  double threshold_ = 0.0;                         ///< of the log's own truth (N)
   bool proposes_labels_;
   std::ostream* csv_;
   std::optional<experiments::BeliefBag> bag_;
@@ -196,7 +210,7 @@ class BeliefWriter {
   std::optional<DrawnPart> drawn_;
   std::optional<experiments::LogSummary> summary_;
   std::optional<experiments::LogScore> score_;
-  std::optional<experiments::LabelProposal> proposal_;
+  std::optional<experiments::LabelProposal> proposal_;  ///< also to compare labels with
   render::LogTrace trace_;
 };
 
@@ -244,7 +258,7 @@ Evaluation evaluate(logs::LogReader& reader, const experiments::LogEstimator& ch
                     const CliSession& session) {
   experiments::LogSteps log(reader, labels, chosen.request.robot);
   const std::unique_ptr<ContactEstimator> estimator = chosen.make(log.sample_rate(), log.info());
-  writer.begin(log, labels != nullptr);
+  writer.begin(log, labels);
   try {
     while (const experiments::LogStep* step = log.next()) {
       writer.add(reader, *step, *estimator, estimator->update(step->signals));
@@ -321,7 +335,18 @@ std::size_t estimate_log(const std::string& path, const logs::ContactIntervals* 
   return findings;
 }
 
+/// Errors: `InputError` for a part of the figure that is none, or without a figure.
+void check_drawn(const DrawnPart& drawn, const std::string& figure) {
+  if (figure.empty() && (std::isfinite(drawn.from) || std::isfinite(drawn.to))) {
+    throw InputError("--from and --to are the part that --figure shows: expected --figure");
+  }
+  if (drawn.to < drawn.from) {
+    throw InputError(fmt::format("--to: {} s is before --from, {} s", drawn.to, drawn.from));
+  }
+}
+
 void estimate(const EstimateFlags& flags, const CliSession& session) {
+  check_drawn(flags.drawn, flags.request.figure);
   const experiments::LogEstimator estimator = estimator_for(flags.log);
   const std::vector<EstimateOutputs> outputs =
       estimate_outputs(flags.logs, flags.log, flags.labels, flags.request);
@@ -335,18 +360,7 @@ void estimate(const EstimateFlags& flags, const CliSession& session) {
   }
   if (flags.strict) require_no_findings(findings);
 }
-/// Errors: `InputError` for a part of the figure that is none, or without a figure.
-void check_drawn(const DrawnPart& drawn, const std::string& figure) {
-  if (figure.empty() && (std::isfinite(drawn.from) || std::isfinite(drawn.to))) {
-    throw InputError("--from and --to are the part that --figure shows: expected --figure");
-  }
-  if (drawn.to < drawn.from) {
-    throw InputError(fmt::format("--to: {} s is before --from, {} s", drawn.to, drawn.from));
-  }
-}
 
-
-  check_drawn(flags.drawn, flags.request.figure);
 }  // namespace
 
 void add_estimate(CLI::App& program, const CliSession& session) {

@@ -1,6 +1,7 @@
 #include "experiments/logs/label_proposal.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -45,6 +46,21 @@ logs::ContactIntervals LabelProposal::finish() {
   }
   end_last(last_ + period_);
   return std::move(all_);
+}
+
+bool LabelProposal::has_all(const logs::ContactIntervals& labels) const {
+  const auto same = [](double one, double other) {
+    return logs::to_microsecond(one) == logs::to_microsecond(other);
+  };
+  auto proposed = all_.intervals.begin();
+  return std::ranges::all_of(labels.intervals, [&](const logs::ContactInterval& label) {
+    // Both are in order of time. Editors take `sure` from what a person has looked at.
+    while (proposed != all_.intervals.end() && !same(proposed->start, label.start)) ++proposed;
+    if (proposed == all_.intervals.end() || !label.sure) return false;
+    const bool is_last = std::next(proposed) == all_.intervals.end();
+    return same(is_last ? last_ + period_ : proposed->end, label.end) &&
+           proposed->contact == label.contact;
+  });
 }
 
 void LabelProposal::keep_least(std::size_t wheel) {

@@ -26,6 +26,10 @@ class LabelProposal {
   /// of one time.
   logs::ContactIntervals finish();
 
+  /// Whether labels are rows of this proposal that no person has looked at. Call it before
+  /// `finish`.
+  bool has_all(const logs::ContactIntervals& labels) const;
+
  private:
   void keep_least(std::size_t wheel);
   void end_last(double end);

@@ -116,6 +116,38 @@ TEST_F(Label, NeverReplacesWhatAPersonMayHaveCorrected) {
   }
 }
 
+TEST_F(Label, AreNoTestBeforeAPersonHasCorrectedThem) {
+  logs::write_recording(test::robot_log(3.0), folder_ / "robot.mpack");
+  const logs::ContactIntervals proposed = labels_of("robot.mpack");
+  ASSERT_GE(proposed.intervals.size(), 3U);
+  const auto is_warned = [&](const logs::ContactIntervals& labels, const std::string& more = "") {
+    folder_.write("mine.csv", logs::to_csv(labels));
+    const std::string text =
+        folder_.output_of("estimate robot.mpack --labels mine.csv --estimator " +
+                          (more.empty() ? std::string("load_filter") : more));
+    EXPECT_THAT(text, HasSubstr("truth "));
+    return text.find("labels       are this estimator's own decisions") != std::string::npos;
+  };
+  EXPECT_TRUE(is_warned(proposed));
+  logs::ContactIntervals changed = proposed;
+  changed.intervals.erase(changed.intervals.begin());  // the rows that stay were not looked at
+  EXPECT_TRUE(is_warned(changed));
+  changed = proposed;
+  changed.intervals[1].contact[0] = !changed.intervals[1].contact[0];
+  EXPECT_FALSE(is_warned(changed));
+  changed = proposed;
+  changed.intervals[1].start = changed.intervals[0].end += 0.001;
+  EXPECT_FALSE(is_warned(changed));
+  changed = proposed;
+  for (logs::ContactInterval& one : changed.intervals) one.sure.reset();  // as the editor accepts
+  EXPECT_FALSE(is_warned(changed));
+  EXPECT_FALSE(is_warned(proposed, "free_fall"));
+  // `--propose` beside labels writes the same decisions.
+  EXPECT_THAT(folder_.output_of("estimate robot.mpack --labels labels.csv --propose again.csv"),
+              HasSubstr("are this estimator's own decisions"));
+  EXPECT_EQ(folder_.text("again.csv"), folder_.text("labels.csv"));
+}
+
 TEST_F(Label, ALogWhoseTimeGoesBackHasNoLabelsButItsBeliefs) {
   logs::Recording log = test::robot_log(2.0);
   for (std::size_t k = 1000; k < 2000; ++k) log.observation[k].time -= 0.9;
