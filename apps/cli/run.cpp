@@ -94,7 +94,8 @@ void require_as_it_is(const RunFlags& flags) {
         std::pair{flags.dry_run, "--dry-run"}}) {
     if (!is_given) continue;
     throw InputError(fmt::format(
-        "{0}: is a run directory, which is finished as it is: for {1} give its experiment, {2}",
+        "{0}: is a run directory, of which the missing parts are computed and nothing is changed: "
+        "for {1} give its experiment, {2}",
         flags.experiment, flag,
         (std::filesystem::path(flags.experiment) / "config.yaml").string()));
   }

@@ -187,9 +187,9 @@ TEST_F(Shards, AreFinishedAsTheyAre) {
   folder_.output_of(run + "a --shard 1/1");
   for (const std::string flag :
        {"--set seed=4", "--shard 1/2", "--out b", "--overwrite", "--dry-run"}) {
-    folder_.expect_refusals(
-        {{"run a " + flag,
-          {"a: is a run directory", "for " + flag.substr(0, flag.find(' ')), "a/config.yaml"}}});
+    folder_.expect_refusals({{"run a " + flag,
+                              {"a: is a run directory, of which the missing parts are computed",
+                               "for " + flag.substr(0, flag.find(' ')), "a/config.yaml"}}});
   }
   folder_.expect_refusals({{"run .", {".: holds no part of an experiment"}}});
 }
