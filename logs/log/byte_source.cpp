@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <fcntl.h>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <poll.h>
@@ -63,6 +64,16 @@ std::optional<OtherLog> other_log(const std::filesystem::path& path) {
   return std::nullopt;
 }
 
+/// The path of an example of a mapping for whoever reads it: in a checkout or an installation.
+std::string example_path(const char* name) {
+  const std::filesystem::path example = std::filesystem::path("examples/mapping") / name;
+  try {
+    return find_program_file(example).string();
+  } catch (const InputError&) {  // a program without its files
+    return example.string();
+  }
+}
+
 }  // namespace
 
 void require_no_gzip(const std::filesystem::path& path) {
@@ -77,8 +88,8 @@ ByteSource file_source(const std::filesystem::path& path, const std::atomic<bool
   if (other && is_there(path)) {
     throw InputError(fmt::format(
         "{}: is {}, expected a log in Upkie's layout; `touchdown estimate`, `check` and `convert` "
-        "read {} with --mapping FILE.yaml: start from a copy of examples/mapping/{}",
-        name, other->kind, other->read, other->example));
+        "read {} with --mapping FILE.yaml: start from a copy of {}",
+        name, other->kind, other->read, example_path(other->example)));
   }
   require_no_gzip(path);
   if (name != "-" && !is_opened_already(name)) require_file(name);

@@ -283,10 +283,11 @@ endforeach()
 endfunction()
 
 # touchdown_install_data(<folder> <argument of install>...)
-# installs the robots, scenarios, sensor profiles, experiments and fitted models below the folder.
+# installs the robots, scenarios, sensor profiles, experiments, fitted models and examples of mappings
+# below the folder.
 function(touchdown_install_data destination)
-  foreach(folder models scenarios noise experiments)
-    set(patterns xml urdf yaml npz json)
+  foreach(folder models scenarios noise experiments examples/mapping)
+    set(patterns xml urdf yaml npz json csv)
     list(TRANSFORM patterns PREPEND ${PROJECT_SOURCE_DIR}/${folder}/*.)
     file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${patterns})
     foreach(file ${files})

@@ -362,9 +362,11 @@ TEST_F(InFolder, LogsWithoutAMappingAndPackedFilesAreAnsweredWithTheNextCommand)
     folder_.write(name, "t\n1\n");
   }
   std::filesystem::create_directories(folder_ / "bag");
-  const std::string table = "--mapping FILE.yaml: start from a copy of examples/mapping/robot.yaml";
-  const std::string bag =
-      "--mapping FILE.yaml: start from a copy of examples/mapping/ros2_bag.yaml";
+  // From any folder the example is where the message says.
+  const std::string copy =
+      "--mapping FILE.yaml: start from a copy of " TOUCHDOWN_SOURCE_DIR "/examples/mapping/";
+  const std::string table = copy + "robot.yaml";
+  const std::string bag = copy + "ros2_bag.yaml";
   folder_.write("csv.yaml", "time: {from: t}\n");
   folder_.write("robot.urdf.xacro",
                 "<robot name='r' xmlns:xacro='http://www.ros.org/wiki/xacro'>"

@@ -31,7 +31,8 @@ class Installed(InFolder):
         find = "import touchdown; print(touchdown._touchdown.find_resource('scenarios/found_beside_the_module.yaml'))"
         self.assertEqual(output_of(python, "-c", find, cwd="/", env=env), str(own))
         for brought in ("models/upkie.xml", "models/nmn.npz", "scenarios/stairs.yaml", "experiments/stairs.yaml",
-                        "noise/profiles/upkie.yaml", "commit"):
+                        "noise/profiles/upkie.yaml", "examples/mapping/robot.yaml", "examples/mapping/robot.csv",
+                        "examples/mapping/ros2_bag.yaml", "commit"):
             self.assertTrue((package / "share/touchdown" / brought).is_file(), brought)
         self.assertTrue((package / "py.typed").is_file())
 
