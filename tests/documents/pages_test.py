@@ -36,6 +36,16 @@ class Pages(unittest.TestCase):
         missing = [str(page.relative_to(DOCS)) for page in self.pages if page.resolve() not in linked]
         self.assertEqual(missing, ['README.md'])
 
+    def test_name_no_former_command(self):
+        source = (ROOT / 'apps/cli/command_line.cpp').read_text(encoding='utf-8')
+        former = re.findall(r'FormerVerb\{"(\w+)"', source)
+        self.assertIn('label', former)
+        named = re.compile(rf'(`|\btouchdown )({"|".join(former)})(`| [A-Z-])')
+        for text in ('intervals of `label`', 'touchdown export FILE'):
+            self.assertTrue(named.search(text), text)
+        for page in [*self.pages, ROOT / 'README.md', ROOT / 'CONTRIBUTING.md']:
+            self.assertEqual(named.findall(page.read_text(encoding='utf-8')), [], page)
+
     def test_have_tables_with_rows_of_equal_length(self):
         for page in [*self.pages, ROOT / 'README.md', ROOT / 'CHANGELOG.md', ROOT / 'CONTRIBUTING.md']:
             self.assertEqual(list(uneven_rows(page.read_text(encoding='utf-8'))), [], page)
