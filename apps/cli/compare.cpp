@@ -53,6 +53,7 @@ void compare(const CompareFlags& flags) {
   const fs::path stem = figure_stem(flags.figure);
   check_outputs_of(flags, stem);
   for (const std::string& run : {flags.before, flags.after}) {
+    print_warnings(experiments::config_warnings(run));
     const std::vector<std::string> edited = experiments::edited_tables(run);
     if (std::ranges::find(edited, "samples.csv") == edited.end()) continue;
     print_warnings({fmt::format(

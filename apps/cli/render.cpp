@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 
 #include <fmt/format.h>
@@ -8,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/program.hpp"
+#include "experiments/results/result_files.hpp"
 #include "experiments/run_directory/lock.hpp"
 #include "render/film/video.hpp"
 #include "render/report/filmed_run.hpp"
@@ -52,6 +55,7 @@ std::vector<render::FilmedRun> runs_of(const RenderFlags& flags, const CliSessio
       continue;
     }
     const auto lock = experiments::DirectoryLock::for_reading(input, session.command);
+    std::ranges::move(experiments::config_warnings(input), std::back_inserter(warnings));
     std::vector<render::FilmedRun> filmed = render::filmed_runs(render::read_subject(input));
     if (filmed.empty()) {
       throw InputError(fmt::format("{}: has no recording of the run that it films", input));

@@ -16,6 +16,7 @@
 #include "core/files.hpp"
 #include "core/program.hpp"
 #include "core/yaml.hpp"
+#include "experiments/results/result_files.hpp"
 #include "experiments/run_directory/lock.hpp"
 #include "experiments/run_directory/own_files.hpp"
 #include "experiments/run_experiment.hpp"
@@ -99,6 +100,7 @@ void write_report(const ReportFlags& flags, const CliSession& session) {
   if (!flags.width.empty() || flags.has_caption) {
     throw InputError("--width and --caption: expected --figure NAME");
   }
+  print_warnings(experiments::config_warnings(flags.directory));
   for (const std::string& name : subject.edited_tables) {
     print_warnings(
         {fmt::format("{}/tables/{}: was edited since the run wrote it: the report shows "

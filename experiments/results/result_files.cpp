@@ -1,5 +1,6 @@
 #include "experiments/results/result_files.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -17,6 +18,7 @@
 #include "core/fingerprint.hpp"
 #include "core/machine.hpp"
 #include "core/resources.hpp"
+#include "experiments/config/experiment_yaml.hpp"
 #include "experiments/estimators/entries.hpp"
 #include "experiments/estimators/registry.hpp"
 #include "experiments/plan/condition.hpp"
@@ -35,6 +37,14 @@ using Json = nlohmann::ordered_json;
 std::string host_name() {
   std::array<char, 256> name{};
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+/// The manifest of a run directory; an empty one if there is none that can be read.
+Json manifest_in(const std::filesystem::path& run_directory) {
+  const std::filesystem::path file = run_directory / "manifest.json";
+  if (!is_there(file)) return Json::object();
+  Json manifest = Json::parse(read_file(file), nullptr, false);
+  return manifest.is_object() ? manifest : Json::object();
 }
 
 Json versions() {
@@ -144,17 +154,33 @@ std::map<std::string, std::string> table_digests(const std::filesystem::path& ru
 
 std::vector<std::string> edited_tables(const std::filesystem::path& run_directory) {
   std::vector<std::string> edited;
-  const std::filesystem::path file = run_directory / "manifest.json";
-  if (!is_there(file)) return edited;
-  const Json manifest = Json::parse(read_file(file), nullptr, false);
-  if (!manifest.is_object()) return edited;
   const std::map<std::string, std::string> digests = table_digests(run_directory);
-  const Json written = manifest.value("tables", Json::object());
+  const Json written = manifest_in(run_directory).value("tables", Json::object());
   for (const auto& [name, digest] : written.items()) {
     const auto now = digests.find(name);
     if (now != digests.end() && digest != now->second) edited.push_back(name);
   }
   return edited;
+}
+
+std::vector<std::string> config_warnings(const std::filesystem::path& run_directory) {
+  const std::filesystem::path config = run_directory / "config.yaml";
+  if (!is_there(config)) return {};
+  const Json inputs = manifest_in(run_directory).value("inputs", Json::array());
+  const auto written = std::ranges::find_if(inputs, [](const Json& input) {
+    return input.is_object() && input.value("file", Json()) == "config.yaml";
+  });
+  const auto is_of = [&](const std::string& text) {
+    return written->value("digest", Json()) == Fingerprint().add(text).text();
+  };
+  if (written == inputs.end() || is_of(read_file(config))) return {};
+  // Comments and the order of keys do not count.
+  const Experiment experiment =
+      experiment_from_yaml(YamlDocument::load(config), written_estimators(run_directory));
+  if (is_of(to_yaml(experiment))) return {};
+  return {fmt::format(
+      "{}: was edited since the run wrote it: its results are those of the configuration before",
+      config.string())};
 }
 
 void write_manifest(const ExperimentResult& result) {

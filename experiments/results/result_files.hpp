@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "experiments/results/result.hpp"
 
@@ -24,6 +25,10 @@ std::map<std::string, std::string> table_digests(const std::filesystem::path& ru
 /// The files in `tables/` that differ from what the run wrote. None for runs of older programs:
 /// their manifests hold no digests.
 std::vector<std::string> edited_tables(const std::filesystem::path& run_directory);
+
+/// A line if `config.yaml` of a finished run states another experiment than the run's; otherwise
+/// none. Errors: `InputError` for a file that was edited and states none.
+std::vector<std::string> config_warnings(const std::filesystem::path& run_directory);
 
 /// Writes `manifest.json`: versions, seeds, host, timings, failed runs, inputs, digests of the
 /// tables. Call it again to add later timings.

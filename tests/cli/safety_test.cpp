@@ -273,6 +273,24 @@ TEST_F(Finish, LetsTheReportNameTablesThatWereEditedSince) {
   EXPECT_EQ(folder_.run(report).errors, "");
 }
 
+TEST_F(Finish, LetsWhatShowsItsResultsNameAConfigurationThatWasEditedSince) {
+  write_finished_run(folder_);
+  const std::vector<std::string> shows = {"report a --no-video --no-replay", "compare a a"};
+  const std::string edited = "a/config.yaml: was edited since the run wrote it";
+  const std::string before = folder_.text("a/config.yaml");
+  for (const auto& [from, to, is_another] :
+       {std::tuple{"seed: 3", "seed: 3  # mine", false}, std::tuple{"seed: 3", "seed: 4", true},
+        std::tuple{"resamples: 100", "resamples: 99", true}}) {
+    replace_in(folder_ / "a/config.yaml", from, to);
+    for (const std::string& show : shows) {
+      const Ended ended = folder_.run(show);
+      EXPECT_EQ(ended.exit_code, 0) << ended.errors;
+      EXPECT_EQ(ended.errors.find(edited) != std::string::npos, is_another) << show << ", " << to;
+    }
+    write_atomically(folder_ / "a/config.yaml", before);
+  }
+}
+
 TEST_F(Finish, ComputesPartsOfOtherTasksAnew) {
   folder_.output_of(run + "a --shard 1/1");
   const fs::path parts = folder_ / "a/state/evaluation";
