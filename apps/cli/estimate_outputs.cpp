@@ -147,7 +147,6 @@ std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& lo
   for (const std::string& file : labels) inputs.push_back({file, "file of labels"});
   for (const std::string& log : logs) add_log(log, options.mapping, inputs);
   std::vector<fs::path> files;
-  std::set<fs::path> styles;  // one style file for all figures of a folder
   const std::vector<std::string> names = output_names(logs);
   for (std::size_t i = 0; i < logs.size(); ++i) {
     EstimateOutputs own = given;
@@ -161,10 +160,8 @@ std::vector<EstimateOutputs> estimate_outputs(const std::vector<std::string>& lo
       if (!output.empty() && output != own.figure) files.push_back(output);
     }
     for (const fs::path& file : figure_files(own.figure)) files.push_back(file);
-    if (!own.figure.empty()) styles.insert(own.figure.parent_path() / "style.gp");
     all.push_back(own);
   }
-  files.insert(files.end(), styles.begin(), styles.end());
   check_outputs(inputs, files);
   return all;
 }

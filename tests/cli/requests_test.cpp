@@ -390,7 +390,7 @@ TEST_F(Overwrite, OfALogByItsFitIsRefused) {
 
 TEST_F(Overwrite, OfAnythingThatACommandReadsIsRefused) {
   // A figure also writes its data and its script.
-  fs::create_hard_link(folder_ / "a.mpack", folder_ / "style.gp");
+  fs::create_hard_link(folder_ / "a.mpack", folder_ / "new.gp");
   fs::create_directories(folder_ / "run" / "recordings");
   fs::copy(folder_ / "a.mpack", folder_ / "run" / "recordings" / "a.mpack");
   folder_.write("run/config.yaml", "name: x\n");
@@ -403,7 +403,7 @@ TEST_F(Overwrite, OfAnythingThatACommandReadsIsRefused) {
                    {estimate + "-o m.csv", {"m.csv: is the model itself"}},
                    {"estimate - --model m.csv -o ./a.mpack <a.mpack", {"is the log itself"}},
                    {"estimate a.dat --model m.csv --figure a.png", {"a.dat: is the log itself"}},
-                   {estimate + "--figure new.png", {"style.gp: is the log itself"}},
+                   {estimate + "--figure new.png", {"new.gp: is the log itself"}},
                    {estimate + "-o both.csv -o link.mpack", {"written twice"}},
                    {"simulate step.yaml -o ./step.yaml", {"is the scenario itself"}},
                    {"simulate own_robot.yaml -o robot.xml", {"is the robot itself"}},
