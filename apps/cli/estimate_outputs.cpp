@@ -42,7 +42,7 @@ std::vector<std::string> output_names(const std::vector<std::string>& logs) {
       const bool differs = std::erase_if(others, [&](const fs::path& other) {
                              return other.filename() != folder.filename();
                            }) > 0;
-      if (differs && folder.has_filename()) name = folder.filename().string() + "_" + name;
+      if (differs && folder.has_filename()) name.insert(0, folder.filename().string() + "_");
     }
     names.push_back(std::move(name));
   }

@@ -99,7 +99,8 @@ std::string reference_text(const FileKind& kind, std::size_t columns) {
     }
     const bool fits = width(key.path) + 2 <= margin;
     if (key.path.find('.') == std::string::npos) text += "\n";
-    text += key.path + (fits ? indent.substr(width(key.path)) : "\n" + indent) + about;
+    text += key.path + (fits ? indent.substr(width(key.path)) : "\n" + indent);
+    text += about;
   }
   return text;
 }
