@@ -258,7 +258,6 @@ void Relations::add(const CheckedWindow& window) {
   other_turning_.windows.add(window.angular_velocity, window.other_turn_rate);
   if (window.up.allFinite()) {
     up_ += window.up;
-    other_up_ += window.other_up;
     ++oriented_;
   }
   if (std::abs(window.angular_velocity.dot(window.up)) < fastest_straight_turn) {
@@ -322,9 +321,11 @@ void Relations::report(Findings& findings, bool measures_acceleration) const {
   const bool has_velocities = report_velocities(findings);
   report_targets(findings);
   if (is_other_order()) {
-    findings.add("orientation",
-                 fmt::format("turns as the gyroscope does if its numbers are {}: set its `order`",
-                             reading_.is_w_last ? "w, x, y, z" : "x, y, z, w"));
+    findings.add(
+        "orientation",
+        fmt::format("turns as the gyroscope does if its numbers are {}: they were read as {}",
+                    reading_.is_w_last ? "w, x, y, z" : "x, y, z, w",
+                    reading_.is_w_last ? "x, y, z, w" : "w, x, y, z"));
     return;  // the vertical, and accelerations without gravity, are wrong by it
   }
   report_turning(findings);

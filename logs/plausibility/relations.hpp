@@ -117,7 +117,6 @@ class Relations {
   std::array<std::array<int, 4>, models::servo_count> apart_ = {};
   std::vector<CheckedWindow> last_;               ///< half a second
   Eigen::Vector3d up_ = Eigen::Vector3d::Zero();  ///< sum
-  Eigen::Vector3d other_up_ = Eigen::Vector3d::Zero();
   QuaternionReading reading_;
   int oriented_ = 0;  ///< windows of it
 };

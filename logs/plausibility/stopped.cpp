@@ -34,6 +34,7 @@ void StoppedChannels::add(const models::Observation& record) {
   if (!(q.coeffs() == last_.coeffs() && step >= 0.0 && step < longest_step)) {
     turned_.setZero();
     squares_.setZero();
+    rate_ = record.imu.angular_velocity;
     since_ = time_;
     last_ = q;
   } else {

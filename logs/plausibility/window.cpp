@@ -51,11 +51,6 @@ Eigen::Vector3d rotation_between(const Eigen::Quaterniond& before,
   return 2.0 * std::atan2(sine, turn.w()) / sine * turn.vec();
 }
 
-/// The upward vertical in the IMU's frame; the reference's z axis points down.
-Eigen::Vector3d up_by(const Eigen::Quaterniond& orientation) {
-  return orientation.conjugate() * Eigen::Vector3d(0.0, 0.0, -1.0);
-}
-
 /// An orientation as it would be if its numbers were read in the other order.
 Eigen::Quaterniond in_other_order(const Eigen::Quaterniond& orientation,
                                   const QuaternionReading& reading) {
@@ -127,11 +122,11 @@ CheckedWindow WindowCollector::finish(const models::Observation& record) const {
   const Eigen::Quaterniond& first = first_.imu.orientation;
   const Eigen::Quaterniond& last = record.imu.orientation;
   window.turn_rate = rotation_between(first, last) / window.duration;
-  window.up = up_by(last);
-  const Eigen::Quaterniond other_last = in_other_order(last, reading_);
   window.other_turn_rate =
-      rotation_between(in_other_order(first, reading_), other_last) / window.duration;
-  window.other_up = up_by(other_last);
+      rotation_between(in_other_order(first, reading_), in_other_order(last, reading_)) /
+      window.duration;
+  // The reference's z axis points down.
+  window.up = last.conjugate() * Eigen::Vector3d(0.0, 0.0, -1.0);
   return window;
 }
 

@@ -37,9 +37,8 @@ struct CheckedWindow {
   Eigen::Vector3d linear_acceleration = Eigen::Vector3d::Zero();  ///< m/s²
   Eigen::Vector3d proper_acceleration = Eigen::Vector3d::Zero();  ///< m/s²
   Eigen::Vector3d up = Eigen::Vector3d::Zero();  ///< by the orientation, in the IMU frame
-  /// The same two if the quaternion's numbers are in the other order (`QuaternionReading`).
+  /// As `turn_rate`, if the quaternion's numbers are in the other order (`QuaternionReading`).
   Eigen::Vector3d other_turn_rate = Eigen::Vector3d::Zero();
-  Eigen::Vector3d other_up = Eigen::Vector3d::Zero();
 };
 
 /// Collects records to windows. A gap in time, or a step back, drops the window that it interrupts.

@@ -502,8 +502,8 @@ TEST(PlausibilityCheck, NamesTheOrderInWhichAQuaternionWasMisread) {
         EXPECT_THAT(right.findings(), IsEmpty());
         EXPECT_THAT(
             misread.findings(),
-            Contains(HasSubstr(is_w_last ? "if its numbers are w, x, y, z: set its `order`"
-                                         : "if its numbers are x, y, z, w: set its `order`")))
+            Contains(HasSubstr(is_w_last ? "if its numbers are w, x, y, z: they were read as x"
+                                         : "if its numbers are x, y, z, w: they were read as w")))
             << axes[0] << axes[1] << axes[2] << is_z_up;
       }
     }
