@@ -169,7 +169,8 @@ TEST(WatchSession, EditsLabelsByKeysAndSavesEachEdit) {
   const std::string script =
       "xdotool key n k equal equal shift+equal Return; "  // 12 steps later, accepted
       "until_written " +
-      labels.string() + " 1.512; cp " + labels.string() + " " + (folder / "half.csv").string() +
+      labels.string() + " 1,1.5,0,0,1.000; cp " + labels.string() + " " +
+      (folder / "half.csv").string() +
       "; "
       "xdotool key shift+a u x u; "           // both undone
       "xdotool key Home b Right a k minus; "  // 0 to 0.1 s, then one step less
